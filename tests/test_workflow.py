@@ -56,7 +56,7 @@ def test_namelists_hold_the_config(smoke, smoke_config):
     folder = smoke.folder / "results" / "namelists"
 
     def values_in(path: str) -> dict:
-        return dict(flat(f90nml.read(folder / f"{path}.nml").todict()["settings"]))
+        return dict(flat(f90nml.read(folder / f"{path}.nml")["settings"]))
 
     def flat(values: dict) -> Iterator[tuple]:
         for key, value in values.items():

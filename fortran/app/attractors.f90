@@ -3,8 +3,7 @@
 program attractors_program
    use attractor_points, only: find_attractors, finding_type, point_type, sweep_attractors
    use attractors, only: attractor_settings_type
-   use attractors_input, only: read_attractors
-   use attractors_output, only: write_attractors
+   use attractors_files, only: read_attractors, write_attractors
    use block_parameters, only: block_history_type
    use dde, only: integration_options
    use dde_errors, only: error_type

@@ -4,8 +4,7 @@ program cycles_program
    use block_cycles, only: cycle_settings_type, cycles_type, find_cycles, left_out_type
    use cycle_curves, only: cycle_curve_type, find_curves
    use cycle_lines, only: hopf_start_type
-   use cycles_input, only: read_cycles
-   use cycles_output, only: write_cycles
+   use cycles_files, only: read_cycles, write_cycles
    use dde_errors, only: error_type
    use progress, only: progress_type
    use program_arguments, only: get_paths, stop_on

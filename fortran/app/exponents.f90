@@ -2,8 +2,7 @@
 program exponents
    use dde, only: integration_options
    use dde_errors, only: error_type
-   use exponents_input, only: exponents_settings_type, read_exponents
-   use exponents_output, only: write_exponents
+   use exponents_files, only: exponents_settings_type, read_exponents, write_exponents
    use lyapunov_spectrum, only: growth_settings_type, growth_type, measure_growth
    use namelist_input, only: elements
    use program_arguments, only: get_paths, stop_on

@@ -2,8 +2,7 @@
 program hopf
    use dde_errors, only: error_type
    use hopf_curves, only: curve_point_type, trace_curves
-   use hopf_input, only: hopf_settings_type, read_plane
-   use hopf_output, only: write_curves
+   use hopf_files, only: hopf_settings_type, read_plane, write_curves
    use hopf_planes, only: curve_plane_type
    use hopf_points, only: find_hopf_points, hopf_point_type, judge_points
    use program_arguments, only: get_paths, stop_on

@@ -4,8 +4,8 @@ program linear_stability
    use block_parameters, only: block_parameters_type
    use dde_errors, only: error_type
    use dde_kinds, only: wp
-   use linear_stability_input, only: linear_stability_settings_type, read_linear_stability
-   use linear_stability_output, only: write_linear_stability
+   use linear_stability_files, only: linear_stability_settings_type, read_linear_stability, &
+                                     write_linear_stability
    use program_arguments, only: get_paths, stop_on
    use root_counts, only: roots_right_of
    use stability_changes, only: changes_with_epsilon, changes_with_tau, stability_change_type

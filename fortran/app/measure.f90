@@ -2,8 +2,8 @@
 !> what it cost. A run that fails is a row with its reason.
 program measure
    use dde_errors, only: error_type
-   use measure_input, only: measure_settings_type, read_measure
-   use measure_output, only: measured_runs_type, write_measured_runs
+   use measure_files, only: measure_settings_type, measured_runs_type, read_measure, &
+                            write_measured_runs
    use dde_kinds, only: wp
    use measured_case, only: case_type
    use measured_run, only: measure_run, time_runs

@@ -7,8 +7,7 @@ program reference
    use measured_run, only: measure_run, run_type
    use program_arguments, only: get_paths, stop_on
    use progress, only: progress_type
-   use reference_input, only: read_reference, reference_settings_type
-   use reference_output, only: reference_file_type
+   use reference_files, only: read_reference, reference_file_type, reference_settings_type
    implicit none (type, external)
    character(len=:), allocatable :: namelist_path, output_path
    type(case_type), allocatable :: cases(:)

@@ -7,9 +7,8 @@ program spectrum_program
    use program_arguments, only: check_input, get_paths, stop_on
    use spectral_peaks, only: find_peaks, peak_type
    use spectrum, only: power_spectrum
-   use spectrum_input, only: read_spectrum_settings, spectrum_settings_type
-   use spectrum_output, only: write_spectrum
-   use trajectory_input, only: read_trajectory, trajectory_type
+   use spectrum_files, only: read_spectrum_settings, read_trajectory, spectrum_settings_type, &
+                             trajectory_type, write_spectrum
    implicit none (type, external)
    character(len=:), allocatable :: namelist_path, output_path, trajectory_path
    type(bases_type) :: bases
@@ -43,15 +42,6 @@ program spectrum_program
    peaks = find_peaks(frequency, power, settings%peak_floor, settings%peak_prominence)
    call label_peaks(peaks, frequency(2), bases)
    call write_spectrum(output_path, trim(trajectory%scene), settings, frequency, power, &
-                       variance(v), peaks, bases, error)
+                       sum((v - sum(v)/size(v))**2)/size(v), peaks, bases, error)
    call stop_on(error)
-
-contains
-
-   !> Mean square distance from the mean.
-   pure real(wp) function variance(x) result(value)
-      real(wp), intent(in) :: x(:)
-
-      value = sum((x - sum(x)/size(x))**2)/size(x)
-   end function variance
 end program spectrum_program

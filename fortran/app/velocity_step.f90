@@ -3,8 +3,7 @@ program velocity_step_program
    use dde_errors, only: error_type
    use program_arguments, only: get_paths, stop_on
    use velocity_step, only: friction_response_type, respond, step_protocol_type
-   use velocity_step_input, only: read_protocol
-   use velocity_step_output, only: write_response
+   use velocity_step_files, only: read_protocol, write_response
    implicit none (type, external)
    character(len=:), allocatable :: namelist_path, output_path
    type(error_type), allocatable :: error

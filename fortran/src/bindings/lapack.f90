@@ -7,7 +7,8 @@ module lapack
    private
    public :: eigenvalues, eigenvectors, null_vectors, solve
 
-   !> Solution of a system for several right-hand sides.
+   !> Solutions, shape (n, m), of a system with a matrix, shape (n, n), and right-hand sides, shape
+   !> (n, m); an error if the matrix is singular.
    interface solve
       module procedure :: solve_complex, solve_real
    end interface solve
@@ -138,13 +139,9 @@ contains
 
    !> Solution of a real system.
    subroutine solve_real(matrix, right, solution, error)
-      !> The matrix, shape (n, n)
       real(wp), intent(in) :: matrix(:, :)
-      !> Right-hand sides, shape (n, m)
       real(wp), intent(in) :: right(:, :)
-      !> Solutions, shape (n, m)
       real(wp), intent(out) :: solution(:, :)
-      !> The matrix is singular
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: a(size(matrix, 1), size(matrix, 2))
       integer :: info, pivot(size(matrix, 1))
@@ -158,13 +155,9 @@ contains
 
    !> Solution of a complex system.
    subroutine solve_complex(matrix, right, solution, error)
-      !> The matrix, shape (n, n)
       complex(wp), intent(in) :: matrix(:, :)
-      !> Right-hand sides, shape (n, m)
       complex(wp), intent(in) :: right(:, :)
-      !> Solutions, shape (n, m)
       complex(wp), intent(out) :: solution(:, :)
-      !> The matrix is singular
       type(error_type), allocatable, intent(out) :: error
       complex(wp) :: a(size(matrix, 1), size(matrix, 2))
       integer :: info, pivot(size(matrix, 1))

@@ -1,12 +1,12 @@
-!> Parameters and history of the block in files.
+!> Parameters of the block and scenes in files.
 module block_attributes
-   use block_parameters, only: block_history_type, block_parameters_type, history_names, &
-                               parameter_names, vector_of
+   use block_parameters, only: block_parameters_type, history_names, parameter_names, vector_of
    use dde_kinds, only: wp
    use netcdf_output, only: output_file_type
+   use scene_input, only: scene_type
    implicit none (type, external)
    private
-   public :: put_history, put_parameters
+   public :: put_parameters, put_scene
 
 contains
 
@@ -30,18 +30,20 @@ contains
       end do
    end subroutine put_parameters
 
-   !> Write the history as attributes.
-   subroutine put_history(file, history)
+   !> Write name, parameters and history of a scene as attributes.
+   subroutine put_scene(file, scene)
       !> The file
       type(output_file_type), intent(inout) :: file
-      !> Values for t <= 0
-      type(block_history_type), intent(in) :: history
+      !> The scene
+      type(scene_type), intent(in) :: scene
       real(wp) :: values(size(history_names))
       integer :: i
 
-      values = [history%theta, history%u, history%v]
+      call file%attribute("scene", trim(scene%name))
+      call put_parameters(file, scene%parameters)
+      values = [scene%history%theta, scene%history%u, scene%history%v]
       do i = 1, size(values)
          call file%attribute("history_"//trim(history_names(i)), values(i))
       end do
-   end subroutine put_history
+   end subroutine put_scene
 end module block_attributes

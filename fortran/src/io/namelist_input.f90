@@ -32,8 +32,7 @@ module namelist_input
       !> All keys with the values read
       character(len=line_length), allocatable :: copy(:)
    contains
-      procedure :: open => open_file
-      procedure :: close => close_file
+      procedure :: open => open_file, close => close_file
    end type namelist_file_type
 
 contains
@@ -41,9 +40,7 @@ contains
    !> Open a namelist file for reading the group.
    subroutine open_file(self, path, error)
       class(namelist_file_type), intent(out) :: self
-      !> Path of the file
       character(len=*), intent(in) :: path
-      !> Error if the file cannot be opened
       type(error_type), allocatable, intent(out) :: error
 
       self%path = path

@@ -55,7 +55,6 @@ contains
    !> Begin a file with the attributes that all files have.
    subroutine create(self, path, title)
       class(output_file_type), intent(inout) :: self
-      !> Path of the complete file
       character(len=*), intent(in) :: path
       !> What it holds
       character(len=*), intent(in) :: title
@@ -297,7 +296,6 @@ contains
    !> Close the file and give it its name; on an error nothing is left behind.
    subroutine finish(self, error)
       class(output_file_type), intent(inout) :: self
-      !> First error met
       type(error_type), allocatable, intent(out) :: error
 
       if (.not. allocated(self%error)) call self%note(nf90_close(self%id))

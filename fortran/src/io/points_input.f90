@@ -46,9 +46,7 @@ contains
       class(points_settings_type), intent(in) :: self
       !> File and section, for messages
       character(len=*), intent(in) :: place
-      !> Values for t <= 0
       type(block_history_type), intent(in) :: histories(:)
-      !> First error met
       type(error_type), allocatable, intent(inout) :: error
       type(block_parameters_type) :: corner
       integer :: i
@@ -74,7 +72,6 @@ contains
    !> in its order.
    pure function list_points(self, histories) result(points)
       class(points_settings_type), intent(in) :: self
-      !> Values for t <= 0
       type(block_history_type), intent(in) :: histories(:)
       type(point_type), allocatable :: points(:)
       real(wp), allocatable :: epsilon(:), gamma(:), tau(:), xi(:)

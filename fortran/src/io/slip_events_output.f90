@@ -1,6 +1,6 @@
 !> Files of slip events.
 module slip_events_output
-   use block_attributes, only: put_history, put_parameters
+   use block_attributes, only: put_scene
    use dde_errors, only: error_type
    use netcdf_output, only: output_file_type
    use scene_input, only: scene_type
@@ -26,9 +26,7 @@ contains
 
       call file%create(path, "Slip events of the spring block: times in which v > 1")
       rows = file%dimension("event", size(events%onset), coordinates="onset")
-      call file%attribute("scene", trim(scene%name))
-      call put_parameters(file, scene%parameters)
-      call put_history(file, scene%history)
+      call put_scene(file, scene)
       call file%attribute("t_transient", scene%t_transient)
       call file%attribute("t_end", scene%t_end)
       call file%attribute("tolerance", scene%tolerance)

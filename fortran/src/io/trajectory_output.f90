@@ -2,7 +2,7 @@
 !> that the scene lists. For gamma > 1 they also follow the steps of the solver, so that slip events
 !> shorter than the sample interval are resolved.
 module trajectory_output
-   use block_attributes, only: put_history, put_parameters
+   use block_attributes, only: put_scene
    use dde, only: integration_result, sampler_type
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
@@ -54,9 +54,7 @@ contains
 
    !> Begin the file of a scene.
    function new_writer(path, scene) result(writer)
-      !> Path of the file
       character(len=*), intent(in) :: path
-      !> The scene
       type(scene_type), intent(in) :: scene
       type(trajectory_writer_type) :: writer
       integer :: dimension, i, variables
@@ -131,16 +129,12 @@ contains
    !> Write what is left, the scene and what the integration did, and complete the file.
    subroutine finish(self, outcome, error)
       class(trajectory_writer_type), intent(inout) :: self
-      !> What the integration did
       type(integration_result), intent(in) :: outcome
-      !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
 
       call self%flush()
       associate (file => self%file, scene => self%scene)
-         call file%attribute("scene", trim(scene%name))
-         call put_parameters(file, scene%parameters)
-         call put_history(file, scene%history)
+         call put_scene(file, scene)
          call file%attribute("t_end", scene%t_end)
          call file%attribute("t_transient", scene%t_transient)
          call file%attribute("sample_interval", scene%sample_interval)

@@ -68,9 +68,7 @@ contains
    !> at once and only once: a file that has disappeared was removed by a later run.
    subroutine begin(self, path, error)
       class(unfinished_type), intent(inout) :: self
-      !> Path of the complete file
       character(len=*), intent(in) :: path
-      !> Error if the file cannot be written there
       type(error_type), allocatable, intent(out) :: error
       integer(int64) :: now
 
@@ -107,7 +105,6 @@ contains
    !> says when the file is to become longer; otherwise the words of the library.
    function why_not_written(self, words) result(reason)
       class(unfinished_type), intent(in) :: self
-      !> The library's own words
       character(len=*), intent(in) :: words
       character(len=:), allocatable :: reason
       integer :: answer

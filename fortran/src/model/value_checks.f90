@@ -6,7 +6,7 @@ module value_checks
    use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: absent, check_choice, check_count, check_number, missing, missing_count
+   public :: absent, check_count, check_number, missing, missing_count
 
    !> Default of a number that must be given: not a number.
    real(wp), parameter :: missing = transfer([-1_int64, -1_int64], 1.0_wp)
@@ -18,15 +18,15 @@ module value_checks
 contains
 
    !> Refuse a number that is not finite or out of range; keep an earlier error.
-   pure subroutine check_number(error, place, key, value, above, at_least, below, at_most)
+   pure subroutine check_number(error, place, key, value, above, at_least)
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
       !> File and what it describes, key
       character(len=*), intent(in) :: place, key
       !> Value of the key
       real(wp), intent(in) :: value
-      !> Exclusive lower bound, inclusive lower bound; exclusive upper bound; inclusive upper bound
-      real(wp), intent(in), optional :: above, at_least, below, at_most
+      !> Exclusive lower bound, inclusive lower bound
+      real(wp), intent(in), optional :: above, at_least
       character(len=:), allocatable :: range
       logical :: fine
 
@@ -42,14 +42,6 @@ contains
          range = range//" >= "//text(at_least)
          if (fine) fine = value >= at_least
       end if
-      if (present(below)) then
-         range = range//" < "//text(below)
-         if (fine) fine = value < below
-      end if
-      if (present(at_most)) then
-         range = range//" <= "//text(at_most)
-         if (fine) fine = value <= at_most
-      end if
       if (fine) return
       if (ieee_is_nan(value)) range = range//" (NaN: missing, or not a number)"
       if (value == absent) then
@@ -59,41 +51,17 @@ contains
       end if
    end subroutine check_number
 
-   !> Refuse a count out of range; keep an earlier error.
-   pure subroutine check_count(error, place, key, value, at_least, at_most)
+   !> Refuse a count that is too small; keep an earlier error.
+   pure subroutine check_count(error, place, key, value, at_least)
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
       !> File and what it describes, key
       character(len=*), intent(in) :: place, key
       !> Value of the key, least value allowed
       integer, intent(in) :: value, at_least
-      !> Largest value allowed
-      integer, intent(in), optional :: at_most
 
-      if (allocated(error)) return
-      if (value < at_least) then
-         call raise(error, place//": "//key//" = "//text(value)//"; expected a whole number >= " &
-                    //text(at_least))
-      else if (present(at_most)) then
-         if (value > at_most) call raise(error, place//": "//key//" = "//text(value) &
-                                         //"; expected a whole number <= "//text(at_most))
-      end if
+      if (allocated(error) .or. value >= at_least) return
+      call raise(error, place//": "//key//" = "//text(value)//"; expected a whole number >= " &
+                 //text(at_least))
    end subroutine check_count
-
-   !> Refuse a word that is not among the choices; keep an earlier error.
-   pure subroutine check_choice(error, place, key, value, choices)
-      !> First error met
-      type(error_type), allocatable, intent(inout) :: error
-      !> File and what it describes, key; value of the key; words allowed
-      character(len=*), intent(in) :: place, key, value, choices(:)
-      character(len=:), allocatable :: list
-      integer :: i
-
-      if (allocated(error) .or. any(choices == value)) return
-      list = ""
-      do i = 1, size(choices)
-         list = list//" '"//trim(choices(i))//"'"
-      end do
-      call raise(error, place//": "//key//" = '"//trim(value)//"'; expected one of"//list)
-   end subroutine check_choice
 end module value_checks

@@ -39,8 +39,9 @@ module attractor_points
 
 contains
 
-   !> Find the attractor of each point, or on a grid only where neighbours differ. Points do not
-   !> influence each other: the number of threads changes no result.
+   !> Find the attractor of each point, or on a grid only where neighbours differ: other points take
+   !> over the kind of their neighbours. Points do not influence each other: the number of threads
+   !> changes no result.
    subroutine find_attractors(points, settings, options, findings, progress, columns, refinements)
       !> Points; of a grid line by line
       type(point_type), intent(in) :: points(:)
@@ -56,7 +57,7 @@ contains
       integer, intent(in), optional :: columns
       !> Every 2**refinements-th line of the grid is computed in full
       integer, intent(in), optional :: refinements
-      integer, allocatable :: wanted(:)
+      integer, allocatable :: kinds(:), wanted(:)
       type(refined_grid_type) :: grid
       integer :: done, k
 
@@ -84,7 +85,12 @@ contains
          !$omp end parallel do
          call grid%put(wanted, [(kind_of(findings(wanted(k))), k=1, size(wanted))])
       end do
-      call take_over(grid, findings)
+      kinds = reshape(grid%kinds, [size(findings)])
+      findings%computed = reshape(grid%computed, [size(findings)])
+      where (.not. findings%computed)
+         findings%attractor%class = modulo(kinds, size(class_names))
+         findings%attractor%period = kinds/size(class_names)
+      end where
       if (present(progress)) call progress%advance(size(points), size(points))
    end subroutine find_attractors
 
@@ -98,20 +104,6 @@ contains
          if (allocated(finding%problem) .or. found%class == undecided) number = uncertain
       end associate
    end function kind_of
-
-   !> Give points that were not computed the class and the period of their kind.
-   pure subroutine take_over(grid, findings)
-      type(refined_grid_type), intent(in) :: grid
-      type(finding_type), intent(inout) :: findings(:)
-      integer :: kinds(size(findings))
-
-      kinds = reshape(grid%kinds, [size(findings)])
-      findings%computed = reshape(grid%computed, [size(findings)])
-      where (.not. findings%computed)
-         findings%attractor%class = modulo(kinds, size(class_names))
-         findings%attractor%period = kinds/size(class_names)
-      end where
-   end subroutine take_over
 
    !> Find the attractors of points in turn. The first point starts from its history. After a point
    !> whose run fails, the next starts from where that one did.

@@ -40,10 +40,7 @@ module attractors
       !> Method and tolerances
       type(integration_options) :: options
    contains
-      !> Longest time of an observation
-      procedure :: longest_time
-      !> Number of exponents that exist, at most a given one
-      procedure :: most_exponents
+      procedure :: longest_time, most_exponents
    end type search_type
 
 contains
@@ -146,7 +143,6 @@ contains
    !> Number of exponents: without delay there are no more than equations.
    pure integer function most_exponents(self, wanted) result(exponents)
       class(search_type), intent(in) :: self
-      !> Number of exponents wanted
       integer, intent(in) :: wanted
 
       exponents = wanted

@@ -29,7 +29,6 @@ contains
 
    !> The block at these parameters.
    pure function new_block_equation(parameters) result(equation)
-      !> Parameters
       type(block_parameters_type), intent(in) :: parameters
       type(block_equation_type) :: equation
       type(block_parameters_type) :: delayed

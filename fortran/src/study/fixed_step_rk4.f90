@@ -22,10 +22,7 @@ module fixed_step_rk4
       !> Cubic Hermite interpolation, or linear
       logical :: cubic = .true.
    contains
-      !> A component between two grid points
-      procedure :: between
-      !> Delayed values
-      procedure :: delayed
+      procedure :: between, delayed
    end type grid_type
 
 contains
@@ -121,7 +118,6 @@ contains
    !> Delayed values at `part` of the step from grid point `step`.
    pure function delayed(self, problem, step, part) result(z)
       class(grid_type), intent(in) :: self
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Number of the newest grid point
       integer, intent(in) :: step
@@ -147,13 +143,11 @@ contains
    !> A component between grid points `point` and `point` + 1.
    pure real(wp) function between(self, component, point, place, cubic) result(value)
       class(grid_type), intent(in) :: self
-      !> Index into the state
       integer, intent(in) :: component
       !> Number of the grid point on the left
       integer, intent(in) :: point
       !> Time in steps
       real(wp), intent(in) :: place
-      !> Cubic Hermite interpolation, or linear
       logical, intent(in) :: cubic
       real(wp) :: change, s
       integer :: left, right

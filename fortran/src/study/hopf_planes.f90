@@ -31,9 +31,7 @@ contains
    !> k.
    pure type(block_parameters_type) function at(self, omega, k) result(p)
       class(curve_plane_type), intent(in) :: self
-      !> Frequency of the pair
       real(wp), intent(in) :: omega
-      !> Branch
       integer, intent(in) :: k
 
       p = self%fixed
@@ -65,7 +63,6 @@ contains
    !> The ordinate among the parameters.
    pure real(wp) function ordinate(self, p) result(value)
       class(curve_plane_type), intent(in) :: self
-      !> Parameters
       type(block_parameters_type), intent(in) :: p
 
       value = merge(p%tau, p%xi, self%along == along_tau)
@@ -74,9 +71,7 @@ contains
    !> Derivatives of a root by epsilon and by the ordinate.
    pure function root_slopes(self, p, s) result(slopes)
       class(curve_plane_type), intent(in) :: self
-      !> Parameters
       type(block_parameters_type), intent(in) :: p
-      !> The root
       complex(wp), intent(in) :: s
       complex(wp) :: slopes(2)
 

@@ -1,13 +1,16 @@
 !> A case to measure: one parameter set of the delayed block, its history and its sample times. All
-!> quantities are nondimensional.
+!> quantities are nondimensional. A program compiled in quadruple precision rounds them to double
+!> precision, so that it solves the very problem that the program in double precision solves.
 module measured_case
    use block_parameters, only: block_history_type, block_parameters_type
-   use double_numbers, only: as_double, evenly_spaced
    use dde_kinds, only: wp
    use spring_block, only: spring_block_type
    implicit none (type, external)
    private
-   public :: case_type
+   public :: as_double, case_type
+
+   !> Double precision, also where `wp` is another.
+   integer, parameter :: double = selected_real_kind(15, 307)
 
    !> One case.
    type :: case_type
@@ -48,7 +51,20 @@ contains
    pure function sample_times(self) result(time)
       class(case_type), intent(in) :: self
       real(wp), allocatable :: time(:)
+      integer :: i
 
-      time = evenly_spaced(as_double(self%sample_interval), as_double(self%t_end))
+      associate (interval => as_double(self%sample_interval), last => as_double(self%t_end))
+         ! the quotient may be one rounding below a whole number
+         time = [(as_double(i*interval), i=0, floor(last/interval*(1.0_wp + 1.0e-12_wp)))]
+         time(size(time)) = min(time(size(time)), last)
+      end associate
    end function sample_times
+
+   !> The nearest number of double precision; a number of double precision stays what it is.
+   elemental real(wp) function as_double(number) result(rounded)
+      !> A number within the range of double precision
+      real(wp), intent(in) :: number
+
+      rounded = real(real(number, double), wp)
+   end function as_double
 end module measured_case

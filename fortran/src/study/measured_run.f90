@@ -4,11 +4,10 @@ module measured_run
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde, only: integrate, integration_options, integration_result, out_of_memory, reached_end, &
                   sampler_type
-   use double_numbers, only: as_double
    use dde_errors, only: error_type
    use fixed_step_rk4, only: integrate_rk4
    use dde_kinds, only: int64, wp
-   use measured_case, only: case_type
+   use measured_case, only: as_double, case_type
    use progress_receiver, only: progress_receiver_type
    use spring_block, only: index_of_ln_v, spring_block_type
    implicit none (type, external)
@@ -68,10 +67,6 @@ module measured_run
       procedure :: take
    end type extremes_sampler_type
 
-   interface extremes_sampler_type
-      module procedure :: new_sampler
-   end interface extremes_sampler_type
-
 contains
 
    !> Run a case once, with samples.
@@ -90,10 +85,14 @@ contains
       type(spring_block_type) :: block_model
       type(extremes_sampler_type) :: sampler
       real(wp) :: no_number, now, start
+      integer :: i
 
       no_number = ieee_value(1.0_wp, ieee_quiet_nan)
       block_model = case%problem(disturbance)
-      sampler = extremes_sampler_type(block_model%n, case%sample_times(), no_number)
+      sampler%wanted = [(i, i=1, block_model%n)]
+      sampler%time = case%sample_times()
+      sampler%next = sampler%time(1)
+      allocate (sampler%values(block_model%n, size(sampler%time)), source=no_number)
       if (present(progress)) sampler%progress => progress
       call cpu_time(start)
       call solve(block_model, as_double(case%t_end), most_steps, run, error, sampler)
@@ -199,27 +198,9 @@ contains
       value = 0.5_wp*(sorted(middle) + sorted(size(sorted) + 1 - middle))
    end function median
 
-   !> A sampler without samples.
-   pure function new_sampler(n, time, filling) result(sampler)
-      !> Number of equations
-      integer, intent(in) :: n
-      !> Times of samples, ascending from the initial time
-      real(wp), intent(in) :: time(:)
-      !> What a sample not reached holds
-      real(wp), intent(in) :: filling
-      type(extremes_sampler_type) :: sampler
-      integer :: i
-
-      sampler%wanted = [(i, i=1, n)]
-      sampler%time = time
-      allocate (sampler%values(n, size(time)), source=filling)
-      sampler%next = time(1)
-   end function new_sampler
-
    !> Look at the state; keep it where a sample is due.
    subroutine take(self, y)
       class(extremes_sampler_type), intent(inout) :: self
-      !> The state
       real(wp), intent(in) :: y(:)
 
       self%least = min(self%least, y(index_of_ln_v))

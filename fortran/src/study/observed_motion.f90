@@ -33,7 +33,6 @@ module observed_motion
       integer :: received = 0, kept = 0
    contains
       procedure :: take
-      procedure :: go_on
    end type even_sampler_type
 
    !> A motion as far as it was observed.
@@ -56,20 +55,8 @@ module observed_motion
       !> Where the motion is; empty at its beginning
       type(continuation_type) :: continuation
    contains
-      !> Forget the observations
-      procedure :: clear
-      !> Forget the samples and where the motion is
-      procedure :: forget_path
-      !> Observe on
-      procedure :: observe
-      !> Observe a run with further components
-      procedure :: observe_interval, keep_interval
-      !> Take over the maxima and the section of what was kept
-      procedure :: arrive
-      !> theta, u or ln v at even times
-      procedure :: samples
-      !> Standard deviations of theta and u
-      procedure :: scale
+      procedure :: clear, forget_path, observe, observe_interval, keep_interval, arrive, samples, &
+         scale
    end type observed_motion_type
 
 contains
@@ -104,13 +91,9 @@ contains
    !> Observe on for a time.
    subroutine observe(self, block_model, time, options, error)
       class(observed_motion_type), intent(inout) :: self
-      !> The block
       type(spring_block_type), intent(in) :: block_model
-      !> How long
       real(wp), intent(in) :: time
-      !> Method and tolerances
       type(integration_options), intent(in) :: options
-      !> The run ended before its time
       type(error_type), allocatable, intent(out) :: error
       type(continuation_type) :: now
       type(integration_result) :: outcome
@@ -127,19 +110,18 @@ contains
       class(observed_motion_type), intent(inout) :: self
       !> The block, maybe with tangent vectors
       class(dde_problem_type), intent(in) :: problem
-      !> Time at which the interval ends
       real(wp), intent(in) :: time
-      !> Method and tolerances
       type(integration_options), intent(in) :: options
-      !> The result
       type(integration_result), intent(out) :: outcome
-      !> The run ended before its time
       type(error_type), allocatable, intent(out) :: error
-      !> Where the run stands
       type(continuation_type), intent(inout) :: continuation
 
       self%events%received = self%events_kept
-      call self%sampler%go_on(continuation%time(1))
+      associate (sampler => self%sampler)
+         if (sampler%kept == 0) sampler%begun = continuation%time(1)
+         sampler%received = sampler%kept
+         sampler%next = sampler%begun + (sampler%kept + 1)*sampler%interval
+      end associate
       call integrate(problem, continuation%time(1), time, options, outcome, error, &
                      sampler=self%sampler, watcher=self%events, continuation=continuation)
    end subroutine observe_interval
@@ -155,7 +137,6 @@ contains
    !> The motion is here: take over the maxima and the section of what was kept.
    subroutine arrive(self, continuation)
       class(observed_motion_type), intent(inout) :: self
-      !> Where it is
       type(continuation_type), intent(in) :: continuation
 
       self%continuation = continuation
@@ -183,17 +164,6 @@ contains
 
       values = self%sampler%rows(component, :self%sampler%kept)
    end function samples
-
-   !> Begin to sample now, or go on after the last sample that is kept.
-   pure subroutine go_on(self, now)
-      class(even_sampler_type), intent(inout) :: self
-      !> Present time
-      real(wp), intent(in) :: now
-
-      if (self%kept == 0) self%begun = now
-      self%received = self%kept
-      self%next = self%begun + (self%kept + 1)*self%interval
-   end subroutine go_on
 
    !> Keep a sample, and wait for the next one.
    subroutine take(self, y)

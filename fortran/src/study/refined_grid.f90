@@ -28,14 +28,7 @@ module refined_grid
       !> Distance of the lines that are being computed
       integer, private :: spacing = 1
    contains
-      !> Numbers of the points to compute next
-      procedure :: next
-      !> Set the kinds of computed points
-      procedure :: put
-      !> Whether a point has a kind
-      procedure :: knows
-      !> Number of points that have a kind
-      procedure :: settled
+      procedure :: next, put, knows, settled
       procedure, private :: fill, due
    end type refined_grid_type
 
@@ -62,7 +55,6 @@ contains
    !> Numbers of the points to compute next, the first axis runs fastest; none when all have a kind.
    pure subroutine next(self, numbers)
       class(refined_grid_type), intent(inout) :: self
-      !> Numbers of the points
       integer, allocatable, intent(out) :: numbers(:)
 
       do
@@ -120,7 +112,6 @@ contains
    !> Set the kinds of computed points.
    pure subroutine put(self, numbers, kinds)
       class(refined_grid_type), intent(inout) :: self
-      !> Numbers of the points
       integer, intent(in) :: numbers(:)
       !> Kinds of the points, positive or `uncertain`
       integer, intent(in) :: kinds(:)
@@ -137,7 +128,6 @@ contains
    !> Whether a point has a kind.
    pure logical function knows(self, number) result(value)
       class(refined_grid_type), intent(in) :: self
-      !> Number of the point
       integer, intent(in) :: number
 
       associate (m => size(self%kinds, 1))

@@ -50,23 +50,14 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(event_table) :: passages
       type(integration_result) :: outcome
+      integer, allocatable :: begin(:)
+      integer :: i, n
 
       passages = event_table([index_of_ln_v, index_of_ln_v, index_of_ln_v, index_of_ln_v], &
                              level=[0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], direction=[1, -1, -1, 1], &
                              of_slope=[.false., .false., .true., .true.])
       call integrate(problem, 0.0_wp, t_end, options, outcome, error, watcher=passages)
       if (allocated(error)) return
-      call collect(passages, t_transient, events)
-   end subroutine find_slip_events
-
-   !> Put the passages together to events.
-   pure subroutine collect(passages, t_transient, events)
-      type(event_table), intent(in) :: passages
-      real(wp), intent(in) :: t_transient
-      type(slip_events_type), intent(out) :: events
-      integer, allocatable :: begin(:)
-      integer :: i, n
-
       allocate (begin(0))
       if (passages%received > 0) then
          begin = pack([(i, i=1, passages%received)], &
@@ -89,5 +80,5 @@ contains
             events%least_velocity(i) = exp(minval(y(index_of_ln_v, :), mask=rows == minimum))
          end associate
       end do
-   end subroutine collect
+   end subroutine find_slip_events
 end module slip_events

@@ -1,7 +1,7 @@
 !> The solver compiled in quadruple precision, on problems with exact solutions far below what
 !> double precision holds.
 module test_quadruple
-   use double_numbers, only: as_double
+   use measured_case, only: as_double
    use expectations, only: expect, expect_close
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
@@ -25,7 +25,6 @@ contains
       testsuite = [new_unittest("precision", test_precision), &
                    new_unittest("numbers of double precision", test_double_numbers), &
                    new_unittest("linear", test_linear), &
-                   new_unittest("linear with a jump", test_jump), &
                    new_unittest("oscillator", test_oscillator)]
    end subroutine collect_quadruple
 
@@ -45,33 +44,23 @@ contains
       call expect_close(error, as_double(0.375_wp), 0.375_wp, 0.0_wp, "a number held")
    end subroutine test_double_numbers
 
-   !> y' = -y(t-1), y = 1 up to t = 0.
+   !> y' = -y(t-1), y = 1 at t = 0; y = 1 before, or 0.
    subroutine test_linear(error)
       type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: exact(2, 0:1) = reshape([5.0_wp/24, 19223.0_wp/362880, &
+                                                      19.0_wp/120, 10493.0_wp/518400], [2, 2])
       type(linear) :: problem
       real(wp), allocatable :: y(:, :)
-      integer :: i
+      integer :: i, past
 
-      problem = linear(n=1, lag=[1.0_wp], component=[1], past=[1.0_wp], first=[1.0_wp])
-      do i = 1, size(methods)
-         call solve(problem, [5.0_wp, 10.0_wp], at_tolerance(tolerance, methods(i)), y, error)
-         call expect_close(error, y(1, :), [19.0_wp/120, 10493.0_wp/518400], within, methods(i))
+      do past = 0, 1
+         problem = linear(n=1, lag=[1.0_wp], component=[1], past=[real(past, wp)], first=[1.0_wp])
+         do i = 1, size(methods)
+            call solve(problem, [5.0_wp, 10.0_wp], at_tolerance(tolerance, methods(i)), y, error)
+            call expect_close(error, y(1, :), exact(:, past), within, methods(i))
+         end do
       end do
    end subroutine test_linear
-
-   !> The same with y = 0 before t = 0.
-   subroutine test_jump(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(linear) :: problem
-      real(wp), allocatable :: y(:, :)
-      integer :: i
-
-      problem = linear(n=1, lag=[1.0_wp], component=[1], past=[0.0_wp], first=[1.0_wp])
-      do i = 1, size(methods)
-         call solve(problem, [5.0_wp, 10.0_wp], at_tolerance(tolerance, methods(i)), y, error)
-         call expect_close(error, y(1, :), [5.0_wp/24, 19223.0_wp/362880], within, methods(i))
-      end do
-   end subroutine test_jump
 
    !> y = cos t.
    subroutine test_oscillator(error)

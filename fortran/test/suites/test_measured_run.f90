@@ -2,7 +2,6 @@
 module test_measured_run
    use block_parameters, only: block_history_type, block_parameters_type
    use dde, only: dde_problem_type, integration_result, table_sampler, value_not_finite
-   use double_numbers, only: evenly_spaced
    use dde_errors, only: failure_type => error_type
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use fixed_step_rk4, only: integrate_rk4
@@ -116,12 +115,17 @@ contains
    !> The last one is t_end, also where the quotient rounds down.
    subroutine test_sample_times(error)
       type(error_type), allocatable, intent(out) :: error
+      type(case_type) :: case
       real(wp), allocatable :: time(:)
 
-      time = evenly_spaced(0.1_wp, 0.3_wp)
+      case%sample_interval = 0.1_wp
+      case%t_end = 0.3_wp
+      time = case%sample_times()
       call expect(error, size(time) == 4, "four times")
       call expect_close(error, time(4), 0.3_wp, 0.0_wp, "last time")
-      time = evenly_spaced(2.0_wp, 5.0_wp)
+      case%sample_interval = 2.0_wp
+      case%t_end = 5.0_wp
+      time = case%sample_times()
       call expect(error, size(time) == 3, "multiples up to the end")
       call expect_close(error, time(3), 4.0_wp, 0.0_wp, "last multiple")
    end subroutine test_sample_times

@@ -128,7 +128,7 @@ contains
                       + sum(weight*deviation*sin(phase))**2
          end associate
       end do
-      error = sqrt(squares/lowest)*student_quantile(beyond_bars, 2*lowest)/error_bars
+      error = sqrt(squares/lowest)*student_quantile(beyond_bars, 2.0_wp*lowest)/error_bars
    end function error_of_mean
 
    !> Plain averages of the growth from the beginning on, at evenly spaced times.

@@ -1,24 +1,67 @@
-!> Files of exponents.
-module exponents_output
+!> What the program `exponents` reads and writes: a scene and how its exponents are measured; these.
+module exponents_files
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use block_attributes, only: put_history, put_parameters
+   use block_attributes, only: put_scene
    use dde, only: integration_options
    use dde_errors, only: error_type
+   use dde_kinds, only: int64, wp
    use exponent_averages, only: average_growth, dimension_of, exponent_type, running_averages, &
                                 sign_bound, without_sign
-   use exponents_input, only: exponents_settings_type
-   use dde_kinds, only: int64, wp
    use lyapunov_spectrum, only: growth_type
+   use namelist_input, only: namelist_file_type
    use netcdf_output, only: output_file_type
-   use scene_input, only: scene_type
+   use scene_input, only: check_scene, scene_type
+   use value_checks, only: absent, check_count, missing, missing_count
    implicit none (type, external)
    private
-   public :: write_exponents
+   public :: exponents_settings_type, read_exponents, write_exponents
+
+   !> What is measured.
+   type :: exponents_settings_type
+      !> Number of exponents, that of the flow among them
+      integer :: count = missing_count
+      !> Time at which measuring ends
+      real(wp) :: t_end = missing
+      !> Time before measuring in which the vectors turn
+      real(wp) :: t_turning = missing
+      !> Longest time between two orthonormalisations
+      real(wp) :: interval = missing
+      !> Number of blocks
+      integer :: blocks = missing_count
+      !> An exponent this close to zero has no sign
+      real(wp) :: zero_level = missing
+      !> Tolerances at which all is measured once more
+      real(wp) :: check_tolerances(8) = absent
+      !> Longest steps with which all is measured once more
+      real(wp) :: check_steps(8) = absent
+   end type exponents_settings_type
 
    !> Most times of running averages.
    integer, parameter :: most_times = 400
 
 contains
+
+   !> Read and check a scene and the settings of its exponents.
+   subroutine read_exponents(path, scene, exponents, error)
+      !> Path of the namelist file
+      character(len=*), intent(in) :: path
+      !> The scene
+      type(scene_type), intent(out) :: scene
+      !> The settings
+      type(exponents_settings_type), intent(out) :: exponents
+      !> They cannot be read, or a value is out of range
+      type(error_type), allocatable, intent(out) :: error
+      type(namelist_file_type) :: file
+      namelist /settings/ scene, exponents
+
+      call file%open(path, error)
+      if (allocated(error)) return
+      read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
+      write (file%copy, nml=settings, delim="quote")
+      call file%close(error)
+      call check_scene(path, scene, error)
+      call check_count(error, path, "exponents%blocks", exponents%blocks, at_least=2)
+   end subroutine read_exponents
 
    !> Write the exponents of a scene: the first run has its own settings, the others are checks.
    subroutine write_exponents(path, scene, settings, options, measured, error)
@@ -78,9 +121,7 @@ contains
                          "absolute value up to which an exponent has no sign")
          call file%table(ids([1, 4]), "block_value", blocks, "exponent in each block")
          call file%table(ids([1, 3]), "running_average", averages, "plain average up to a time")
-         call file%attribute("scene", trim(scene%name))
-         call put_parameters(file, scene%parameters)
-         call put_history(file, scene%history)
+         call put_scene(file, scene)
          call file%attribute("method", trim(scene%method))
          call file%attribute("t_begin", first%t_begin)
          call file%attribute("t_end", settings%t_end)
@@ -114,4 +155,4 @@ contains
       whole(growing + 1, :) = 0.0_wp
       whole(growing + 2:, :) = growth(growing + 1:, :)
    end function with_flow
-end module exponents_output
+end module exponents_files

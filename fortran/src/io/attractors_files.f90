@@ -1,21 +1,69 @@
-!> Files of attractors.
-module attractors_output
+!> What the program `attractors` reads and writes: how attractors are found and judged, and at which
+!> points; what was found there.
+module attractors_files
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use attractor_points, only: finding_type, point_type
    use attractors, only: attractor_settings_type, most_with_zeros
-   use block_parameters, only: parameter_meanings
+   use block_parameters, only: absent_history, block_history_type, parameter_meanings
    use dde, only: integration_options
-   use dde_errors, only: error_type
-   use exponent_averages, only: sign_bound
+   use dde_errors, only: error_type, text
    use dde_kinds, only: int64, wp
+   use exponent_averages, only: sign_bound
    use motion_classes, only: class_names, cycle_motion, reason_names
+   use namelist_input, only: namelist_file_type, word_length
    use netcdf_output, only: output_file_type
    use points_input, only: points_settings_type
+   use value_checks, only: absent, check_number, missing, missing_count
    implicit none (type, external)
    private
-   public :: write_attractors
+   public :: read_attractors, write_attractors
+
+   !> Most histories.
+   integer, parameter :: most_histories = 1000
+
+   !> How the solver takes steps.
+   type :: solver_settings_type
+      !> One of the solver's methods
+      character(len=word_length) :: method = ""
+      !> Relative and absolute tolerance of one step
+      real(wp) :: tolerance = missing
+      !> Most steps of one integration
+      integer(int64) :: most_steps = missing_count
+   end type solver_settings_type
 
 contains
+
+   !> Read and check all sections.
+   subroutine read_attractors(path, observation, options, points, histories, error)
+      !> Path of the namelist file
+      character(len=*), intent(in) :: path
+      !> How attractors are judged
+      type(attractor_settings_type), intent(out) :: observation
+      !> Method, tolerances and limits
+      type(integration_options), intent(out) :: options
+      !> Where they are looked for
+      type(points_settings_type), intent(out) :: points
+      !> Histories from which they are reached
+      type(block_history_type), allocatable, intent(out) :: histories(:)
+      !> They cannot be read, or a value is out of range
+      type(error_type), allocatable, intent(out) :: error
+      type(namelist_file_type) :: file
+      type(solver_settings_type) :: solver
+      namelist /settings/ observation, solver, points, histories
+
+      allocate (histories(most_histories), source=absent_history)
+      call file%open(path, error)
+      if (allocated(error)) return
+      read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
+      histories = pack(histories, min(histories%theta, histories%u, histories%v) < absent)
+      write (file%copy, nml=settings, delim="quote")
+      call file%close(error)
+      options = integration_options(method=trim(solver%method), relative=solver%tolerance, &
+                                    absolute=solver%tolerance, most_steps=solver%most_steps)
+      call check_number(error, path//": observation", "interval", observation%interval, &
+                        above=0.0_wp)
+      call points%check(path//": points", histories, error)
+   end subroutine read_attractors
 
    !> Write what was found at each point.
    subroutine write_attractors(path, points, list, settings, options, findings, error)
@@ -34,6 +82,7 @@ contains
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
+      character(len=*), parameter :: ordinals(3) = ["first ", "second", "third "]
       real(wp), dimension(size(findings)) :: least, most
       integer :: i, rows
 
@@ -41,7 +90,16 @@ contains
       call file%attribute("name", trim(points%name))
       call file%attribute("sweep", trim(points%sweep))
       call file%attribute("refinements", int(points%refinements, int64))
-      call put_settings(file, settings, options)
+      call file%attribute("method", trim(options%method))
+      call file%attribute("tolerance", options%relative)
+      call file%attribute("t_transient", settings%t_transient)
+      call file%attribute("t_observed", settings%t_observed)
+      call file%attribute("t_lasting", settings%t_lasting)
+      call file%attribute("t_turning", settings%t_turning)
+      call file%attribute("interval", settings%interval)
+      call file%attribute("zero_level", settings%zero_level)
+      call file%attribute("longest_bar", settings%longest_bar)
+      call file%attribute("sample_interval", settings%sample_interval)
       rows = file%dimension("point", size(findings), coordinates="epsilon tau xi gamma")
       associate (place => list%parameters, past => list%history, found => findings%attractor)
          call file%column(rows, "epsilon", place%epsilon, trim(parameter_meanings(2)))
@@ -68,12 +126,10 @@ contains
          call put_found("roughness", found%roughness, &
                         "of the section as a function of two phases, of three on a 3-torus, "// &
                         "0: smooth, 1: random")
-         call file%column(rows, "base_1", found%bases(1), &
-                          "first fundamental frequency of v, 0: none")
-         call file%column(rows, "base_2", found%bases(2), &
-                          "second fundamental frequency of v, 0: none")
-         call file%column(rows, "base_3", found%bases(3), &
-                          "third fundamental frequency of v, 0: none")
+         do i = 1, 3
+            call file%column(rows, "base_"//text(i), found%bases(i), &
+                             trim(ordinals(i))//" fundamental frequency of v, 0: none")
+         end do
          call put_found("line_share", found%line_share, &
                         "share of the power of v in the lines of the first two")
          do i = 1, size(findings)
@@ -123,24 +179,6 @@ contains
                          "absolute value up to which an exponent has no sign")
       end subroutine put_exponents
    end subroutine write_attractors
-
-   !> How attractors were found.
-   subroutine put_settings(file, settings, options)
-      type(output_file_type), intent(inout) :: file
-      type(attractor_settings_type), intent(in) :: settings
-      type(integration_options), intent(in) :: options
-
-      call file%attribute("method", trim(options%method))
-      call file%attribute("tolerance", options%relative)
-      call file%attribute("t_transient", settings%t_transient)
-      call file%attribute("t_observed", settings%t_observed)
-      call file%attribute("t_lasting", settings%t_lasting)
-      call file%attribute("t_turning", settings%t_turning)
-      call file%attribute("interval", settings%interval)
-      call file%attribute("zero_level", settings%zero_level)
-      call file%attribute("longest_bar", settings%longest_bar)
-      call file%attribute("sample_interval", settings%sample_interval)
-   end subroutine put_settings
 
    !> Smallest and largest maximum of v, of a cycle the last quarter: the others may belong to the
    !> approach; NaN where there is none.
@@ -246,4 +284,4 @@ contains
       end do
       call file%words(rows, "problem", words, "why no attractor was found")
    end subroutine put_problems
-end module attractors_output
+end module attractors_files

@@ -1,14 +1,31 @@
-!> Reference files: tables of text with 20 digits, more than a number in double precision holds.
-!> A file appears only when it is complete.
-module reference_output
+!> What the program `reference` reads and writes: cases and how their references are computed;
+!> tables of text with 20 digits, more than a number in double precision holds.
+module reference_files
+   use cases_input, only: check_cases, missing_case, most_cases
    use dde_errors, only: error_type
-   use dde_kinds, only: wp
+   use dde_kinds, only: int64, wp
    use measured_case, only: case_type
    use measured_run, only: run_type
+   use namelist_input, only: namelist_file_type, word_length
    use unfinished_file, only: unfinished_type
+   use value_checks, only: check_number, missing, missing_count
    implicit none (type, external)
    private
-   public :: reference_file_type
+   public :: read_reference, reference_file_type, reference_settings_type
+
+   !> How each case is computed.
+   type :: reference_settings_type
+      !> Method and tolerance of the reference
+      character(len=word_length) :: method = ""
+      real(wp) :: tolerance = missing
+      !> Method and larger tolerance of the run that it is checked by
+      character(len=word_length) :: check_method = ""
+      real(wp) :: check_tolerance = missing
+      !> Change of theta and u, and relative change of v, for t <= 0, that measures the conditioning
+      real(wp) :: disturbance = missing
+      !> Most steps of a run
+      integer(int64) :: most_steps = missing_count
+   end type reference_settings_type
 
    !> Between columns, and between rows.
    character(len=*), parameter :: tab = achar(9), line_end = new_line("a")
@@ -28,13 +45,35 @@ module reference_output
 
 contains
 
+   !> Read and check cases and settings.
+   subroutine read_reference(path, cases, reference, error)
+      !> Path of the namelist file
+      character(len=*), intent(in) :: path
+      !> The cases
+      type(case_type), allocatable, intent(out) :: cases(:)
+      !> The settings
+      type(reference_settings_type), intent(out) :: reference
+      !> They cannot be read, or a value is out of range
+      type(error_type), allocatable, intent(out) :: error
+      type(namelist_file_type) :: file
+      namelist /settings/ cases, reference
+
+      allocate (cases(most_cases), source=missing_case)
+      call file%open(path, error)
+      if (allocated(error)) return
+      read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
+      cases = pack(cases, cases%name /= "")
+      write (file%copy, nml=settings, delim="quote")
+      call file%close(error)
+      call check_cases(path, cases, error)
+      call check_number(error, path, "most_steps", real(reference%most_steps, wp), at_least=1.0_wp)
+   end subroutine read_reference
+
    !> Begin a file with the names of the columns: a path that cannot be written is an error before
    !> the work begins.
    subroutine create(self, path, error)
       class(reference_file_type), intent(inout) :: self
-      !> Path of the complete file
       character(len=*), intent(in) :: path
-      !> Error if the file cannot be written
       type(error_type), allocatable, intent(out) :: error
 
       call self%place%begin(path, error)
@@ -48,7 +87,6 @@ contains
    !> how far that of a disturbed history, in units of the disturbance.
    subroutine put(self, case, disturbance, best, checking, disturbed)
       class(reference_file_type), intent(inout) :: self
-      !> The case
       type(case_type), intent(in) :: case
       !> Change of theta and u and relative change of v for t <= 0 in the disturbed run
       real(wp), intent(in) :: disturbance
@@ -89,10 +127,9 @@ contains
    !> Write the file and give it its name; on an error nothing is left behind.
    subroutine finish(self, error)
       class(reference_file_type), intent(inout) :: self
-      !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
 
       call self%place%write(self%content, error)
       if (.not. allocated(error)) call self%place%publish(error)
    end subroutine finish
-end module reference_output
+end module reference_files

@@ -1,19 +1,69 @@
-!> Files of Hopf curves.
-module hopf_output
-   use block_parameters, only: parameter_meanings
-   use dde_errors, only: error_type
-   use double_hopf, only: word_length
-   use hopf_curves, only: curve_point_type
-   use hopf_input, only: hopf_settings_type
-   use hopf_points, only: hopf_point_type
+!> What the program `hopf` reads and writes: the plane and window of Hopf curves; these curves.
+module hopf_files
+   use block_family, only: along_tau, along_xi
+   use block_parameters, only: check_quantity, parameter_meanings
+   use dde_errors, only: error_type, text
    use dde_kinds, only: wp
+   use double_hopf, only: letters => word_length
+   use hopf_curves, only: curve_point_type
+   use hopf_planes, only: curve_plane_type
+   use hopf_points, only: hopf_point_type
+   use namelist_input, only: namelist_file_type, word_length
    use netcdf_output, only: output_file_type
    use stability_map, only: middles
+   use value_checks, only: missing, missing_count
    implicit none (type, external)
    private
-   public :: write_curves
+   public :: hopf_settings_type, read_plane, write_curves
+
+   !> A plane as the namelist gives it; all nondimensional.
+   type :: hopf_settings_type
+      !> 'tau' or 'xi'
+      character(len=word_length) :: ordinate = ""
+      !> Value of the other of the two
+      real(wp) :: fixed = missing
+      !> Frequency of the block
+      real(wp) :: gamma = missing
+      !> Window on epsilon
+      real(wp) :: epsilon_window(2) = missing
+      !> Window on the ordinate
+      real(wp) :: ordinate_window(2) = missing
+      !> Cells of the map of unstable pairs along each side of the window
+      integer :: cells = missing_count
+   end type hopf_settings_type
 
 contains
+
+   !> Read and check a plane.
+   subroutine read_plane(path, hopf_curves, plane, error)
+      !> Path of the namelist file
+      character(len=*), intent(in) :: path
+      !> The settings
+      type(hopf_settings_type), intent(out) :: hopf_curves
+      !> The plane they describe
+      type(curve_plane_type), intent(out) :: plane
+      !> They cannot be read, or a value is out of range
+      type(error_type), allocatable, intent(out) :: error
+      type(namelist_file_type) :: file
+      namelist /settings/ hopf_curves
+
+      call file%open(path, error)
+      if (allocated(error)) return
+      read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
+      write (file%copy, nml=settings, delim="quote")
+      call file%close(error)
+      call check_quantity(error, path, "gamma", hopf_curves%gamma)
+      plane%epsilon_window = hopf_curves%epsilon_window
+      plane%ordinate_window = hopf_curves%ordinate_window
+      plane%fixed%gamma = hopf_curves%gamma
+      if (hopf_curves%ordinate == "tau") then
+         plane%along = along_tau
+         plane%fixed%xi = hopf_curves%fixed
+      else
+         plane%along = along_xi
+         plane%fixed%tau = hopf_curves%fixed
+      end if
+   end subroutine read_plane
 
    !> Write all points of all curves, piece by piece, the special points and the map.
    subroutine write_curves(path, settings, points, special, pairs, error)
@@ -30,7 +80,7 @@ contains
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
-      integer :: rows
+      integer :: cells(2), rows
 
       call file%create(path, "Hopf curves: where a pair of characteristic roots is imaginary")
       rows = file%dimension("point", size(points), coordinates="epsilon tau xi")
@@ -52,12 +102,19 @@ contains
                        "unstable pairs beside this one")
       call file%attribute("ordinate", trim(settings%ordinate))
       call file%attribute("gamma", settings%gamma)
-      call file%attribute(settings%other(), settings%fixed)
+      call file%attribute(trim(merge("xi ", "tau", settings%ordinate == "tau")), settings%fixed)
       rows = file%dimension("special", size(special), &
                             coordinates="special_epsilon special_tau special_xi")
       call put_special(file, rows, special)
       call put_unfoldings(file, settings, rows, special)
-      call put_map(file, settings, pairs)
+      cells = [file%dimension("map_epsilon", size(pairs, 1)), &
+               file%dimension("map_ordinate", size(pairs, 2))]
+      call file%column(cells(1), "map_epsilon", middles(settings%epsilon_window, size(pairs, 1)), &
+                       "epsilon in the middle of a cell")
+      call file%column(cells(2), "map_ordinate", &
+                       middles(settings%ordinate_window, size(pairs, 2)), &
+                       "ordinate in the middle of a cell")
+      call file%table(cells, "map_unstable_pairs", real(pairs, wp), "number of unstable pairs")
       call file%finish(error)
    end subroutine write_curves
 
@@ -66,7 +123,6 @@ contains
       type(output_file_type), intent(inout) :: file
       integer, intent(in) :: rows
       type(hopf_point_type), intent(in) :: special(:)
-      character(len=1), parameter :: number(2) = ["1", "2"]
       integer :: i
 
       call file%words(rows, "special_kind", special%kind, "kind of the special point")
@@ -78,11 +134,11 @@ contains
       call file%column(rows, "special_unstable_pairs", special%unstable_pairs, &
                        "unstable pairs beside those on the axis")
       do i = 1, 2
-         call file%column(rows, "special_omega_"//number(i), special%omega(i), &
-                          "frequency of pair "//number(i)//", 0 where there is none")
-         call file%column(rows, "special_branch_"//number(i), special%branch(i), &
+         call file%column(rows, "special_omega_"//text(i), special%omega(i), &
+                          "frequency of pair "//text(i)//", 0 where there is none")
+         call file%column(rows, "special_branch_"//text(i), special%branch(i), &
                           "its branch, or -1")
-         call file%column(rows, "special_l1_"//number(i), special%l1(i), &
+         call file%column(rows, "special_l1_"//text(i), special%l1(i), &
                           "its first Lyapunov coefficient")
       end do
    end subroutine put_special
@@ -94,10 +150,9 @@ contains
       type(hopf_settings_type), intent(in) :: settings
       integer, intent(in) :: rows
       type(hopf_point_type), intent(in) :: special(:)
-      character(len=*), parameter :: number(2) = ["1", "2"]
       character(len=*), parameter :: name(2, 2) = reshape(["g2100", "g1110", "g1011", "g0021"], &
                                                           [2, 2])
-      character(len=word_length), dimension(size(special), 2) :: criticality, torus
+      character(len=letters), dimension(size(special), 2) :: criticality, torus
       character(len=4) :: unfolding(size(special))
       real(wp), dimension(size(special), 2) :: angle, ratios
       integer :: i, j, k
@@ -133,16 +188,16 @@ contains
       call file%words(rows, "special_unfolding", unfolding, &
                       "case of Guckenheimer and Holmes, table 7.5.1")
       do j = 1, 2
-         call put("start_epsilon_"//number(j), special%unfolding%start(1, j), &
-                  "direction of curve "//number(j)//" of folds or tori, epsilon")
-         call put("start_"//trim(settings%ordinate)//"_"//number(j), &
+         call put("start_epsilon_"//text(j), special%unfolding%start(1, j), &
+                  "direction of curve "//text(j)//" of folds or tori, epsilon")
+         call put("start_"//trim(settings%ordinate)//"_"//text(j), &
                   special%unfolding%start(2, j), &
-                  "direction of curve "//number(j)//" of folds or tori, "//trim(settings%ordinate))
-         call put("angle_"//number(j), angle(:, j), &
-                  "angle of the multipliers where tori of cycle "//number(j)//" start")
-         call file%words(rows, "special_criticality_"//number(j), criticality(:, j), &
+                  "direction of curve "//text(j)//" of folds or tori, "//trim(settings%ordinate))
+         call put("angle_"//text(j), angle(:, j), &
+                  "angle of the multipliers where tori of cycle "//text(j)//" start")
+         call file%words(rows, "special_criticality_"//text(j), criticality(:, j), &
                          "kind of this torus bifurcation")
-         call file%words(rows, "special_torus_"//number(j), torus(:, j), &
+         call file%words(rows, "special_torus_"//text(j), torus(:, j), &
                          "stability of its torus on the centre manifold")
       end do
 
@@ -158,22 +213,4 @@ contains
          call file%column(rows, "special_"//key, values, long_name)
       end subroutine put
    end subroutine put_unfoldings
-
-   !> The number of unstable pairs over the window.
-   subroutine put_map(file, settings, pairs)
-      type(output_file_type), intent(inout) :: file
-      type(hopf_settings_type), intent(in) :: settings
-      !> Number of unstable pairs, epsilon first
-      integer, intent(in) :: pairs(:, :)
-      integer :: cells(2)
-
-      cells(1) = file%dimension("map_epsilon", size(pairs, 1))
-      cells(2) = file%dimension("map_ordinate", size(pairs, 2))
-      call file%column(cells(1), "map_epsilon", middles(settings%epsilon_window, size(pairs, 1)), &
-                       "epsilon in the middle of a cell")
-      call file%column(cells(2), "map_ordinate", &
-                       middles(settings%ordinate_window, size(pairs, 2)), &
-                       "ordinate in the middle of a cell")
-      call file%table(cells, "map_unstable_pairs", real(pairs, wp), "number of unstable pairs")
-   end subroutine put_map
-end module hopf_output
+end module hopf_files

@@ -1,14 +1,36 @@
-!> Files of the response to velocity steps.
-module velocity_step_output
+!> What the program `velocity_step` reads and writes: a velocity step and the friction law; the
+!> response.
+module velocity_step_files
    use dde_errors, only: error_type
-   use velocity_step_friction, only: friction_coefficient, steady_state
+   use namelist_input, only: namelist_file_type
    use netcdf_output, only: output_file_type
+   use value_checks, only: check_count
    use velocity_step, only: friction_response_type, step_protocol_type
+   use velocity_step_friction, only: friction_coefficient, steady_state
    implicit none (type, external)
    private
-   public :: write_response
+   public :: read_protocol, write_response
 
 contains
+
+   !> Read and check a protocol.
+   subroutine read_protocol(path, velocity_step, error)
+      !> Path of the namelist file
+      character(len=*), intent(in) :: path
+      !> The protocol
+      type(step_protocol_type), intent(out) :: velocity_step
+      !> Error if the file cannot be read, or a value is out of range
+      type(error_type), allocatable, intent(out) :: error
+      type(namelist_file_type) :: file
+      namelist /settings/ velocity_step
+
+      call file%open(path, error)
+      if (allocated(error)) return
+      read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
+      write (file%copy, nml=settings, delim="quote")
+      call file%close(error)
+      call check_count(error, path, "samples", velocity_step%samples, at_least=2)
+   end subroutine read_protocol
 
    !> Write the response, and the sizes of the two effects in the up-step.
    subroutine write_response(path, protocol, response, error)
@@ -48,4 +70,4 @@ contains
       call file%column(rows, "mu", response%mu, "friction coefficient")
       call file%finish(error)
    end subroutine write_response
-end module velocity_step_output
+end module velocity_step_files

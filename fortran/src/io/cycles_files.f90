@@ -1,26 +1,91 @@
-!> Files of cycles along a line of parameters.
-module cycles_output
+!> What the program `cycles` reads and writes: the line on which cycles are followed; branches,
+!> special points and their curves.
+module cycles_files
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use block_attributes, only: put_parameters
    use block_cycles, only: cycle_settings_type, cycles_type, left_out_type
-   use block_parameters, only: parameter_names, vector_of
+   use block_parameters, only: block_parameters_type, missing_parameters, parameter_names, &
+                               parameters_of, vector_of
    use cycle_curves, only: cycle_curve_type
-   use cycle_lines, only: hopf_start_type
+   use cycle_lines, only: cycle_line_type, hopf_start_type
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
+   use namelist_input, only: elements, namelist_file_type, word_length
    use netcdf_output, only: output_file_type
    use special_points, only: kind_length, nearest_resonance, special_point_type
    use spring_block, only: index_of_ln_v
+   use value_checks, only: absent, check_count, missing, missing_count
    implicit none (type, external)
    private
-   public :: write_cycles
+   public :: read_cycles, write_cycles
+
+   !> The section `cycles`; all nondimensional.
+   type :: cycles_section_type
+      !> Parameter along the line
+      character(len=word_length) :: along = ""
+      !> Its first and last value
+      real(wp) :: window(2) = missing
+      !> The other parameters; that along the line may be left out
+      type(block_parameters_type) :: parameters = missing_parameters
+      !> Parameter values from which trajectories are followed to a cycle
+      real(wp) :: starts(100) = absent
+      !> Velocity before these trajectories, and their time
+      real(wp) :: v = missing, t_transient = missing
+      !> Degree and intervals of the first mesh
+      integer :: degree = missing_count, intervals = missing_count
+      !> Longest period of a branch
+      real(wp) :: longest_period = missing
+      !> Most orbits of a branch
+      integer :: most_orbits = missing_count
+      !> Window in which curves of special points are followed; none are if it is left out
+      real(wp) :: epsilon_window(2) = absent, tau_window(2) = absent
+   end type cycles_section_type
 
    !> Multipliers written for each orbit
    integer, parameter :: multipliers = 4
    !> Letters of the origin and of the ending of a branch
-   integer, parameter :: word_length = 16
+   integer, parameter :: letters = 16
 
 contains
+
+   !> Read and check what is computed.
+   subroutine read_cycles(path, line_settings, error)
+      !> Path of the namelist file
+      character(len=*), intent(in) :: path
+      !> What is computed
+      type(cycle_settings_type), intent(out) :: line_settings
+      !> Error if the file cannot be read, or a value is out of range
+      type(error_type), allocatable, intent(out) :: error
+      type(cycles_section_type) :: cycles
+      type(namelist_file_type) :: file
+      integer :: along
+      real(wp) :: vector(size(parameter_names))
+      namelist /settings/ cycles
+
+      call file%open(path, error)
+      if (allocated(error)) return
+      read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
+      ! the value of the parameter along the line is not used
+      vector = vector_of(cycles%parameters)
+      where (parameter_names == cycles%along) vector = cycles%window(1)
+      cycles%parameters = parameters_of(vector)
+      write (file%copy, nml=settings, delim="quote")
+      call file%close(error)
+      call cycles%parameters%check(path, error)
+      call check_count(error, path, "degree", cycles%degree, at_least=3)
+      along = findloc(parameter_names == cycles%along, .true., dim=1)
+      line_settings = cycle_settings_type(line=cycle_line_type(along, cycles%parameters, &
+                                                               cycles%window), &
+                                     starts=elements(cycles%starts), &
+                                     t_transient=cycles%t_transient, degree=cycles%degree, &
+                                     intervals=cycles%intervals, &
+                                     longest_period=cycles%longest_period, &
+                                     most_orbits=cycles%most_orbits)
+      allocate (line_settings%start_v(size(line_settings%starts)), source=cycles%v)
+      if (any([cycles%epsilon_window, cycles%tau_window] < absent)) then
+         line_settings%curve_window = reshape([cycles%epsilon_window, cycles%tau_window], [2, 2])
+      end if
+   end subroutine read_cycles
 
    !> Write the orbits of all branches one after another, the branches, the starts left out, the
    !> special points, the Hopf points, the points of all curves one after another, and their cusps.
@@ -40,6 +105,7 @@ contains
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
+      integer :: rows
 
       call file%create(path, "Cycles along a line of parameters: stable and unstable branches")
       associate (line => settings%line)
@@ -48,7 +114,11 @@ contains
       end associate
       call file%attribute("degree", int(settings%degree, int64))
       call put_orbits(file, settings%line%along, found)
-      call put_left_out(file, settings%line%along, left_out)
+      rows = file%dimension("left_out", size(left_out))
+      call file%words(rows, "left_out_origin", left_out%origin, "where it starts")
+      call file%column(rows, "left_out_"//trim(parameter_names(settings%line%along)), left_out%at, &
+                       "parameter along the line")
+      call file%words(rows, "left_out_reason", left_out%reason, "why no branch was followed")
       call put_points(file, found)
       call put_hopf(file, hopf)
       call put_curves(file, curves)
@@ -63,7 +133,7 @@ contains
       type(cycles_type), intent(in) :: found(:)
       real(wp), allocatable :: columns(:, :), imaginary(:, :), real_part(:, :)
       integer, allocatable :: branch(:), intervals(:), unstable(:)
-      character(len=word_length) :: words(size(found), 2)
+      character(len=letters) :: words(size(found), 2)
       integer :: all, i, j, k, row, rows, several
 
       all = 0
@@ -110,20 +180,6 @@ contains
       call file%words(rows, "branch_origin", words(:, 1), "where the branch starts")
       call file%words(rows, "branch_ending", words(:, 2), "why it ends")
    end subroutine put_orbits
-
-   !> Starts from which no branch was followed.
-   subroutine put_left_out(file, along, left_out)
-      type(output_file_type), intent(inout) :: file
-      integer, intent(in) :: along
-      type(left_out_type), intent(in) :: left_out(:)
-      integer :: rows
-
-      rows = file%dimension("left_out", size(left_out))
-      call file%words(rows, "left_out_origin", left_out%origin, "where it starts")
-      call file%column(rows, "left_out_"//trim(parameter_names(along)), left_out%at, &
-                       "parameter along the line")
-      call file%words(rows, "left_out_reason", left_out%reason, "why no branch was followed")
-   end subroutine put_left_out
 
    !> Special points.
    subroutine put_points(file, found)
@@ -298,4 +354,4 @@ contains
       end do
       call file%column(rows, "hopf_omega", hopf%omega, "angular frequency of its pair")
    end subroutine put_hopf
-end module cycles_output
+end module cycles_files
