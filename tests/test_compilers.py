@@ -32,6 +32,7 @@ def made_build(folder: Path, name: str, last: float = 0.25, failed: int = 0) -> 
 
 
 def test_same_bits_and_no_failures_are_well(tmp_path, capsys):
+    """Status 0, each build with its compiler and counts."""
     assert compare_builds.main([made_build(tmp_path, name) for name in ("one", "two")]) == 0
     said = capsys.readouterr()
     cells = [cell.strip() for cell in said.out.splitlines()[2].split("  ") if cell.strip()]
@@ -51,6 +52,7 @@ def test_same_bits_and_no_failures_are_well(tmp_path, capsys):
     ],
 )
 def test_build_that_differs_or_fails_is_shown(tmp_path, capsys, first, second, failed, shown):
+    """With status 1 and the place of its log."""
     builds = [made_build(tmp_path, "one", first), made_build(tmp_path, "two", second, failed)]
     assert compare_builds.main(builds) == 1
     said = capsys.readouterr()
@@ -58,11 +60,22 @@ def test_build_that_differs_or_fails_is_shown(tmp_path, capsys, first, second, f
     assert said.err == f"compilers: two is not as it should be; see {tmp_path}/two/log\n"
 
 
-@pytest.mark.parametrize(
-    ("lost", "shown"), [("log", "0 of 0"), ("trajectories.txt", "no trajectories")]
-)
-def test_build_without_its_files_is_shown(tmp_path, capsys, lost, shown):
+@pytest.mark.parametrize("lost", ["log", "trajectories.txt"])
+@pytest.mark.parametrize("which", ["one", "two"])
+def test_build_without_its_files_is_shown(tmp_path, capsys, lost, which):
+    """No log of tests or no trajectories, of the first or of another."""
     builds = [made_build(tmp_path, name) for name in ("one", "two")]
-    (builds[1] / lost).unlink()
+    (tmp_path / which / lost).unlink()
     assert compare_builds.main(builds) == 1
-    assert shown in capsys.readouterr().out
+    said = capsys.readouterr()
+    assert f"{which} is not as it should be" in said.err
+    assert ("0 of 0" if lost == "log" else "no trajectories") in said.out
+
+
+def test_lost_case_is_shown(tmp_path, capsys):
+    """A trajectory that ended early."""
+    builds = [made_build(tmp_path, name) for name in ("one", "two")]
+    path = builds[1] / "trajectories.txt"
+    path.write_text("".join(path.read_text().splitlines(keepends=True)[:-1]))
+    assert compare_builds.main(builds) == 1
+    assert "not the same cases" in capsys.readouterr().out

@@ -1,5 +1,5 @@
-"""What is made for the documents: the picture of the data flow, the pages about the code, and the
-programs of the solver's manual, built and run as they are printed."""
+"""What is made for the documents: the pages about the code, and the programs of the solver's
+manual, built and run as they are printed."""
 
 import math
 import os
@@ -9,7 +9,6 @@ import sys
 from itertools import pairwise
 from pathlib import Path
 
-import data_flow
 import offline_pages
 import pytest
 from conftest import ROOT, write_script
@@ -26,19 +25,6 @@ SOURCES = sorted(
 """What the pages about the code are made from."""
 PUBLIC = r"^ *public :: ((?:.*&\n)*.*)$"
 """The names that a module exports."""
-
-
-def drawn() -> tuple[set[str], set[tuple[str, str]]]:
-    svg = (ROOT / "docs" / "data-flow.svg").read_text()
-    names = set(re.findall(r'id="(\w+)" class="node"><path', svg)) - {"config"}
-    return names, set(re.findall(r'id="(\w+)\.(\w+)" class="edge"', svg))
-
-
-def test_picture_of_the_data_flow_is_up_to_date(project):
-    """Its boxes are the rules that everything needs, its arrows theirs; else run docs/draw."""
-    rules, pairs = data_flow.read_filegraph(project.snakemake("--filegraph", "all").stdout)
-    assert len(rules) > 30
-    assert drawn() == ({rule.name for rule in rules}, pairs)
 
 
 def test_pages_about_the_code_are_made(project):

@@ -1,7 +1,6 @@
 """What all programs share: bad input is refused in words, and no output is left behind.
 
-The refusals of keys are tests of the readers, fortran/test/io/test_namelists.f90. Here each program
-passes one refusal on.
+Ranges of keys are tests of the configuration. Programs refuse what would break the equations.
 """
 
 import os
@@ -157,26 +156,6 @@ def test_hint_about_nan_is_given_for_nan_only(programs, good_groups):
     assert "NaN" not in refusal(programs, programs.run_groups("trajectory", groups))
     del groups["scene"]["tau"]
     assert "missing" in refusal(programs, programs.run_groups("trajectory", groups))
-
-
-@pytest.mark.parametrize(
-    ("key", "value", "words"),
-    [
-        ("method", "rk4_cubic", "method = 'rk4_cubic'; expected one of"),
-        ("tolerance", 0.0, "tolerance = 0.0; expected"),
-        ("tolerance", None, "reference%tolerance = NaN; expected"),
-        ("check_method", "rk4_cubic", "check_method = 'rk4_cubic'; expected one of"),
-        ("check_tolerance", 1e-18, "check_tolerance = 1.0E-018; expected"),
-        ("disturbance", 0.0, "disturbance = 0.0; expected"),
-    ],
-)
-def test_setting_of_references_is_refused(programs, good_groups, key, value, words):
-    """Their reader is compiled in quadruple precision alone."""
-    groups = good_groups["reference"]
-    groups["reference"][key] = value
-    if value is None:
-        del groups["reference"][key]
-    assert words in refusal(programs, programs.run_groups("reference", groups))
 
 
 @each_kind
