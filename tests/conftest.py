@@ -138,15 +138,11 @@ class Programs:
             timeout=60,
         )
 
-    def start(self, program: str, **options) -> subprocess.Popen:
-        """A run in the background; the options are those of Popen."""
-        command = [self.binaries / program, "input.nml", self.output.name]
-        return subprocess.Popen(command, cwd=self.folder, **options)
-
     def begin(self, program: str, **options) -> subprocess.Popen:
-        """A run in the background that has begun to write."""
+        """A run in the background that has begun to write; the options are those of Popen."""
         before = unfinished(self.output)
-        run = self.start(program, **options)
+        command = [self.binaries / program, "input.nml", self.output.name]
+        run = subprocess.Popen(command, cwd=self.folder, **options)
         wait_for(lambda: bool(unfinished(self.output) - before))
         return run
 

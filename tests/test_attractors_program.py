@@ -145,29 +145,8 @@ def test_same_bytes_in_one_thread_and_in_two(programs, groups, monkeypatch, refi
     assert len(contents) == 1
 
 
-@pytest.mark.parametrize(
-    ("given", "place"),
-    [
-        ({"sweep": "up", "tau_part": [1, 1]}, "in a sweep"),
-        ({"theta": [0.0, 0.1], "u": [0.0, 0.0], "v": [1.1, 1.1]}, "from 2 histories"),
-        ({"epsilon_count": 1, "epsilon_part": [1, 1]}, "along one line"),
-        ({"gamma_count": 2, "gamma_part": [1, 2]}, "along xi or gamma"),
-    ],
-)
-def test_refinements_of_no_plane_are_refused(programs, groups, given, place):
-    groups["points"] |= {**ONE_HISTORY, "refinements": 1, **given}
-    done = programs.run_groups("attractors", groups)
-    assert f"refinements = 1 {place}; expected 0, or a plane of epsilon and tau" in done.stderr
-    assert programs.left_behind() == []
-
-
-def test_points_that_are_none_or_too_many_are_refused(programs, groups):
+def test_points_without_a_history_are_refused(programs, groups):
     points = {key: value for key, value in groups["points"].items() if key not in HISTORY}
     done = programs.run_groups("attractors", {**groups, "points": points})
     assert "number of histories = 0; expected" in done.stderr
-    groups["points"] |= {"epsilon_count": 1001, "epsilon_part": [1, 1001]}
-    groups["points"] |= {"tau_count": 1000, "tau_part": [1, 1000]}
-    groups["points"] |= ONE_HISTORY
-    done = programs.run_groups("attractors", groups)
-    assert "number of points = " in done.stderr
     assert programs.left_behind() == []

@@ -135,3 +135,8 @@ def test_same_state_law():
     steady = made.friction["velocity_step"]
     made.friction["velocity_step"] = steady.assign(velocity=1e-5 / steady.theta)
     assert same_state_law(made, limit=1e-6).verdict == YES
+
+
+def test_scene_without_spectrum_is_an_error():
+    with pytest.raises(ValueError, match=r"results/spectra: no file of scene 'other'.*: mine"):
+        single_peak(Results(spectra={"mine": spectrum()}), scene="other")

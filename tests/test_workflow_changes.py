@@ -54,8 +54,7 @@ def test_results_of_changed_scripts_are_stale(scratch):
 def test_changed_files_of_the_project_make_their_results_anew(scratch):
     """Templates, tables and what the page is made of; a changed style redraws all figures and
     computes nothing."""
-    change(scratch, "scripts/figures/figure_6.rst", "benchmarks/measured.tsv")
-    change(scratch, "page/style.css")
+    change(scratch, "scripts/figures/figure_6.rst", "benchmarks/measured.tsv", "page/style.css")
     run = scratch.snakemake("--dry-run", *SMOKE)
     rules = {"all", "page", "captions", "work_precision"}
     assert rules_in(run.stdout) == rules
