@@ -294,7 +294,7 @@ def programs(binaries, tmp_path) -> Programs:
     return Programs(binaries, folder)
 
 
-def of_trajectory(config: dict, scene: str) -> dict:
+def trajectory_settings(config: dict, scene: str) -> dict:
     """What the namelist of a scene's trajectory holds of the configuration."""
     studies = ("exponents", "attractors")
     return {key: value for key, value in config["scenes"][scene].items() if key not in studies}
@@ -302,7 +302,7 @@ def of_trajectory(config: dict, scene: str) -> dict:
 
 def torus(config: dict, **changes) -> dict:
     """Values of the torus, some of them changed."""
-    return {"name": "torus", **of_trajectory(config, "torus"), **changes}
+    return {"name": "torus", **trajectory_settings(config, "torus"), **changes}
 
 
 @pytest.fixture(scope="session")

@@ -19,7 +19,7 @@ from scripts.claims.claims_of_attractors import attractor_class, positive_expone
 from scripts.claims.claims_of_cycles import second_hopf, torus_of_scene
 
 
-def of_classes(*classes: str) -> Results:
+def results_with_classes(*classes: str) -> Results:
     """Results of a scene whose histories end on these classes, its own first."""
     rows = [attractor_row(met, history=i + 1) for i, met in enumerate(classes)]
     return Results(attractors=rows[::-1], linear_stability=[stability_row()])
@@ -37,7 +37,7 @@ def of_classes(*classes: str) -> Results:
 )
 def test_attractor_class(classes, verdict):
     """From the scene's own history, only from another, or from none."""
-    found = attractor_class(of_classes(*classes), scene="mine", expected="cycle")
+    found = attractor_class(results_with_classes(*classes), scene="mine", expected="cycle")
     assert found.verdict == verdict
     assert f"own history: {classes[0]} (exponents -0.01 +- 0.001, " in found.evidence
     assert f"Classes from {len(classes) - 1} other histories: " in found.evidence
@@ -58,7 +58,7 @@ def test_positive_exponent(exponents, verdict):
 def test_exponents_are_those_of_the_long_run():
     """In both claims, at the scene's own tolerance; that along the flow has no error."""
     long = [(0.019, 0.0007), (0.0, 0.0), (-0.0145, 0.001)]
-    made = of_classes("chaos")
+    made = results_with_classes("chaos")
     made.exponents = [
         {"scene": scene, "exponent": value + off, "error": error, "mean_step": 0.1 + off}
         for scene, off in (("other", 0.2), ("mine", 0.0), ("mine", 0.3))

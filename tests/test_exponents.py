@@ -5,7 +5,7 @@ The suites lyapunov_spectrum and tangent_runs show long intervals and other meth
 
 import numpy as np
 import pytest
-from conftest import of_trajectory
+from conftest import trajectory_settings
 
 from scripts.tables import exponents_table
 
@@ -15,7 +15,7 @@ SCENES = ["oscillation", "torus", "chaos", "true_torus"]
 @pytest.fixture
 def groups(filled_config) -> dict[str, dict]:
     """Namelist groups that the program accepts, to change: the fixed point without delay."""
-    scene = {"name": "fixed_point", **of_trajectory(filled_config, "fixed_point")}
+    scene = {"name": "fixed_point", **trajectory_settings(filled_config, "fixed_point")}
     settings = {**filled_config["exponents"], "t_turning": 100.0, "interval": 0.5}
     return {
         "scene": scene | {"t_transient": 200.0, "t_end": 300.0},

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 import xarray as xr
-from conftest import ROOT, of_trajectory
+from conftest import ROOT, trajectory_settings
 from scipy.integrate import solve_ivp
 
 VARIABLES = ["theta", "u", "v"]
@@ -58,7 +58,7 @@ def check_against_scipy(trajectory: xr.Dataset, scene: dict, error: float) -> No
 @pytest.mark.parametrize("name", ["fixed_point", "oscillation", "torus", "chaos"])
 def test_scene_agrees_with_scipy(programs, scene, filled_config, name, tolerance):
     """The paper's scenes over five delays, or 100 without delay, to 100 x tolerance."""
-    scene |= {**of_trajectory(filled_config, name), "variables": VARIABLES}
+    scene |= {**trajectory_settings(filled_config, name), "variables": VARIABLES}
     scene |= {"t_end": 5 * scene["tau"] or 100.0, "t_transient": 0.0, "tolerance": tolerance}
     check_against_scipy(programs.made_by("trajectory", scene), scene, 100 * tolerance)
 

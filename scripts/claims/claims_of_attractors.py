@@ -3,7 +3,7 @@
 import math
 from collections import Counter
 
-from scripts.claims.claims_results import Finding, Results, decided, equations, listed, short
+from scripts.claims.claims_results import Finding, Results, decided, equations, join, short
 from scripts.claims.declare import Class, Scene, claim, reads, says, tested_with
 from scripts.namelists.study_cases import PARAMETERS
 
@@ -38,7 +38,7 @@ def attractor_class(results: Results, *, scene: Scene, expected: Class) -> Findi
         f"Scene {scene} ({where}). Class from its own history: {in_words(own)}{exponents}."
         f" Class by the section: {own['by_section']}. Class by the spectrum: {own['by_spectrum']}."
         f" Classes from {len(others)} other histories:"
-        f" {listed([f'{count} {name}' for name, count in sorted(met.items())])}."
+        f" {join([f'{count} {name}' for name, count in sorted(met.items())])}."
     )
     elsewhere = any(row["class"] == expected for row in others)
     motion = MOTIONS.get(own["class"], own["class"])

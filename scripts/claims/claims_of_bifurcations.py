@@ -13,7 +13,7 @@ from scripts.claims.claims_results import (
     changes,
     decided,
     equations,
-    listed,
+    join,
     short,
 )
 from scripts.claims.declare import (
@@ -60,8 +60,8 @@ def hopf_by_delay(results: Results, *, scenes: Scenes) -> Finding:
     return decided(
         bool(parts),
         "Steady sliding is stable without delay, and a pair of roots crosses the imaginary axis"
-        f" when only the delay grows, in {listed(parts)}. It is already unstable without delay in"
-        f" {listed(already)}.{f' No pair crosses the axis in {listed(never)}.' if never else ''}",
+        f" when only the delay grows, in {join(parts)}. It is already unstable without delay in"
+        f" {join(already)}.{f' No pair crosses the axis in {join(never)}.' if never else ''}",
         "In none of the scenes does a delay make stable steady sliding unstable.",
     )
 
@@ -210,7 +210,7 @@ def delay_destabilises(results: Results, *, scenes: Scenes) -> Finding:
     return decided(
         not never,
         f"A longer delay makes steady sliding unstable: {'; '.join(parts)}.",
-        f"No longer delay makes steady sliding unstable in {listed(never)}.",
+        f"No longer delay makes steady sliding unstable in {join(never)}.",
     )
 
 

@@ -10,7 +10,7 @@ from scripts.claims.claims_results import (
     Results,
     decided,
     equations,
-    listed,
+    join,
     short,
 )
 from scripts.claims.declare import Scene, claim, reads, says, tested_with
@@ -105,7 +105,7 @@ def cycles_in_words(found: list[CycleThere]) -> str:
     ]
     return (
         "Cycles followed to these parameters, and the modulus of their largest Floquet multiplier"
-        f" but 1: {listed(parts)}."
+        f" but 1: {join(parts)}."
     )
 
 

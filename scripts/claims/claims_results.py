@@ -148,6 +148,6 @@ def equations(values: Mapping[str, float], names: Iterable[str]) -> str:
     return ", ".join(f"${name} = {short(values[name])}$" for name in names)
 
 
-def listed(words: list[str]) -> str:
+def join(words: list[str]) -> str:
     """Words joined by commas, or that there are none."""
     return ", ".join(words) if words else "none"

@@ -9,7 +9,7 @@ RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 """Signs of an exponent where there is no markup."""
 
 
-def of_latex(formula: str, *, block: bool = False) -> Markup:
+def render(formula: str, *, block: bool = False) -> Markup:
     """A formula as MathML, on a line of its own or within a line."""
     return Markup(latex2mathml.tex2mathml(" ".join(formula.split()), as_block=block))
 

@@ -103,7 +103,7 @@ def set_equations(path: str | Path, claims: list[dict]) -> dict[str, list[dict]]
         found[f"{group}_claims"] = [claim for claim in claims if claim["id"] in about]
         found[group] = [
             {
-                key: mathematics.of_latex(equation[key], block=True) if key in equation else ""
+                key: mathematics.render(equation[key], block=True) if key in equation else ""
                 for key in ("correct", "printed")
             }
             | {"number": equation["number"]}

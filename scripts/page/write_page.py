@@ -29,7 +29,7 @@ def render(template: str, **values) -> str:
         lstrip_blocks=True,
     )
     environment.filters["mathematics"] = marked_words.to_html
-    environment.filters["formula"] = mathematics.of_latex
+    environment.filters["formula"] = mathematics.render
     return environment.get_template(template).render(**values)
 
 

@@ -84,7 +84,7 @@ def values_read(chrome: Chrome, view) -> str:
     return view.find_element(By.CSS_SELECTOR, ".values").text
 
 
-def of_trajectories(chrome: Chrome) -> dict | None:
+def visit_trajectories(chrome: Chrome) -> dict | None:
     """What each scene says of itself and of a place, and the times before, in and after a zoom."""
     views = chrome.find_elements(By.ID, "trajectory-view")
     if not views:
@@ -110,7 +110,7 @@ def axis_labels(plot) -> list[str]:
     return [label.get_attribute("textContent") for label in labels]
 
 
-def of_play(chrome: Chrome) -> dict[str, dict]:
+def visit_play(chrome: Chrome) -> dict[str, dict]:
     """What is read and drawn at first, by keys along a slider, by the map and after a button."""
     view = chrome.find_element(By.ID, "play-view")
     seen = {"first": shown_motion(view)}
@@ -143,7 +143,7 @@ def shown_motion(view) -> dict:
     }
 
 
-def of_claims(chrome: Chrome) -> dict:
+def visit_claims(chrome: Chrome) -> dict:
     """What the filter shows for each verdict by keyboard and for words, and where a link leads."""
     shown = (
         "return [...document.querySelectorAll('.claim')].filter((c) => c.checkVisibility()).length"
@@ -190,11 +190,11 @@ def visit(chrome: Chrome, page: Path) -> dict:
     chrome.get(page.resolve().as_uri())
     seen = {**chrome.execute_script(FACTS), "too_wide": {}, "axe": {}}
     seen |= {"keyboard": by_keyboard(chrome)}
-    seen |= {"claims": of_claims(chrome)}
+    seen |= {"claims": visit_claims(chrome)}
     chrome.get(page.resolve().as_uri())
     for details in chrome.find_elements(By.CSS_SELECTOR, "details.appendix:not([open]) > summary"):
         details.click()
-    seen |= {"trajectories": of_trajectories(chrome), "play": of_play(chrome)}
+    seen |= {"trajectories": visit_trajectories(chrome), "play": visit_play(chrome)}
     for details in chrome.find_elements(By.CSS_SELECTOR, "details:not([open]) > summary"):
         chrome.execute_script("arguments[0].parentElement.open = true", details)
     for scheme in SCHEMES:

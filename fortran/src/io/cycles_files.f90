@@ -23,7 +23,7 @@ module cycles_files
    type :: cycles_section_type
       !> Parameter along the line
       character(len=word_length) :: along = ""
-      !> Its first and last value
+      !> First and last value of this parameter
       real(wp) :: window(2) = missing
       !> The other parameters; that along the line may be left out
       type(block_parameters_type) :: parameters = missing_parameters

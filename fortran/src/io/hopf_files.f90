@@ -143,7 +143,7 @@ contains
       end do
    end subroutine put_special
 
-   !> Their normal forms, and the curves of folds and tori that start there; 0 or an empty word
+   !> Normal forms of special points, and the curves of folds and tori that start there; 0 or an empty word
    !> where a point has none.
    subroutine put_unfoldings(file, settings, rows, special)
       type(output_file_type), intent(inout) :: file

@@ -56,7 +56,7 @@ contains
    subroutine create(self, path, title)
       class(output_file_type), intent(inout) :: self
       character(len=*), intent(in) :: path
-      !> What it holds
+      !> Title of the file: what it holds
       character(len=*), intent(in) :: title
 
       call self%place%begin(path, self%error)

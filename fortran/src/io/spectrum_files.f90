@@ -36,7 +36,7 @@ module spectrum_files
    !> Kinds of peaks
    integer, parameter :: kinds(5) = [base_peak, harmonic_peak, second_base_peak, &
                                      combination_peak, other_peak]
-   !> Their names
+   !> Names of the kinds
    character(len=*), parameter :: kind_names(5) = [character(len=12) :: "base", "harmonic", &
                                                    "second_base", "combination", "other"]
 
@@ -164,7 +164,7 @@ contains
       real(wp), intent(in) :: variance
       !> Labelled peaks
       type(peak_type), intent(in) :: peaks(:)
-      !> Their fundamental frequencies
+      !> Fundamental frequencies of the spectrum
       type(bases_type), intent(in) :: bases
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error

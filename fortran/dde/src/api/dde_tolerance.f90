@@ -70,7 +70,7 @@ contains
       integer, intent(in) :: n
       !> Elements
       real(wp), intent(in) :: x(n)
-      !> Their scales, > 0
+      !> Scales of the elements, > 0
       real(wp), intent(in) :: scale(n)
       real(wp) :: norm
       integer :: i

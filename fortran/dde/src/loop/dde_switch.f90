@@ -31,9 +31,9 @@ module dde_switch
 
    !> Steps in a row.
    type :: stretch_type
-      !> Their number
+      !> Number of steps
       integer :: steps = 0
-      !> Their time, and their work in evaluations of the explicit pair
+      !> Time and work of these steps, work in evaluations of the explicit pair
       real(wp) :: time = 0.0_wp, work = 0.0_wp
    contains
       procedure :: add, pace
