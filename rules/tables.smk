@@ -51,7 +51,7 @@ TABLES = {
     "fault_limit_table": table(
         "fault-limit.tsv",
         "fault_limit_table",
-        {"xi": config["hopf_curves"]["tau_of_epsilon"]["fixed"]},
+        {"xi": lambda wildcards: config["hopf_curves"]["tau_of_epsilon"]["fixed"]},
     ),
     "cycle_points": table(
         "cycle-points.tsv",
