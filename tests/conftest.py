@@ -252,7 +252,8 @@ def shared(tmp_path_factory) -> Path:
 def binaries() -> Path:
     """The folder of the project's own programs; they are built where they are not up to date."""
     with locked(ROOT / "build" / "lock"):
-        for command in (["--preset", "release", "-S", "fortran"], ["--build", "build/release"]):
+        build = ["--build", "build/release", "--parallel", "2"]
+        for command in (["--preset", "release", "-S", "fortran"], build):
             run = subprocess.run(["cmake", *command], cwd=ROOT, capture_output=True, text=True)
             assert run.returncode == 0, run.stdout + run.stderr
     return ROOT / "build" / "release" / "bin"
