@@ -143,8 +143,8 @@ contains
       end do
    end subroutine put_special
 
-   !> Normal forms of special points, and the curves of folds and tori that start there; 0 or an empty word
-   !> where a point has none.
+   !> Normal forms of special points, and the curves of folds and tori that start there; 0 or an
+   !> empty word where a point has none.
    subroutine put_unfoldings(file, settings, rows, special)
       type(output_file_type), intent(inout) :: file
       type(hopf_settings_type), intent(in) :: settings
