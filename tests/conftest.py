@@ -42,8 +42,8 @@ GROUPS = {
     "slip_events": "scene",
 }
 """Namelist group of each program that reads one alone, as tests name it."""
-MADE = set(".git .venv .snakemake build results __pycache__ .pytest_cache .ruff_cache".split())
-"""Folders that hold none of the project's own files."""
+MADE = set(".git .venv .snakemake build __pycache__ .pytest_cache .ruff_cache".split())
+"""Folders that hold none of the project's own files, beside the one of the results."""
 
 
 @contextlib.contextmanager
@@ -186,8 +186,8 @@ def project_files() -> list[str]:
         names = set(listed.stdout.split("\0")) - {""}
     except (OSError, subprocess.CalledProcessError):
         paths = (path.relative_to(ROOT) for path in ROOT.rglob("*"))
-        names = {str(path) for path in paths if not MADE & set(path.parts)}
-        names.add("results/README.md")
+        own = (path for path in paths if path.parts[0] != "results" and not MADE & set(path.parts))
+        names = {"results/README.md", *map(str, own)}
     return sorted(name for name in names if (ROOT / name).is_file())
 
 
