@@ -63,7 +63,10 @@ contains
       type(following_sampler) :: samples
       type(integration_result) :: outcome
 
-      samples = following_sampler(wanted=[1], share_of_step=0.25_wp, time=[0.0_wp], y=[1.0_wp])
+      samples%wanted = [1]
+      samples%share_of_step = 0.25_wp
+      samples%time = [0.0_wp]
+      samples%y = [1.0_wp]
       call run(error, blow_up(), 0.0_wp, 0.999_wp, at_tolerance(1.0e-9_wp), outcome, samples)
       if (allocated(error)) return
       associate (t => samples%time, y => samples%y, n => size(samples%time))

@@ -1,0 +1,127 @@
+!> Cycles of the block as trigonometric polynomials, by collocation: for a given amplitude of the
+!> first harmonic of ln v, the epsilon and the frequency that it needs.
+module harmonic_balance
+   use block_parameters, only: block_history_type, block_parameters_type
+   use dde_errors, only: failure_type => error_type
+   use dde_kinds, only: wp
+   use expectations, only: expect, expect_success
+   use lapack, only: solve
+   use mctc_env_testing, only: error_type
+   use spring_block, only: index_of_ln_v, spring_block_type
+   implicit none (type, external)
+   private
+   public :: find_cycle
+
+   !> Harmonics, and points in a period.
+   integer, parameter :: harmonics = 6, points = 2*harmonics + 1
+   !> Unknowns: the coefficients of 1, cos and sin of each component, where those of cos t and sin t
+   !> of ln v are given and make place for epsilon and the frequency.
+   integer, parameter :: unknowns = 3*points
+   !> Place of cos t and sin t among the functions.
+   integer, parameter :: cosine = 2, sine = 3
+   !> One turn.
+   real(wp), parameter :: two_pi = 2.0_wp*acos(-1.0_wp)
+
+contains
+
+   !> Newton's method from the linear oscillation.
+   subroutine find_cycle(parameters, omega, q, amplitude, epsilon, frequency, error)
+      !> Parameters; epsilon is the first guess
+      type(block_parameters_type), intent(in) :: parameters
+      !> First guess of the frequency
+      real(wp), intent(in) :: omega
+      !> Eigenvector
+      complex(wp), intent(in) :: q(3)
+      !> Coefficient of cos t in ln v
+      real(wp), intent(in) :: amplitude
+      !> Epsilon at which there is this cycle
+      real(wp), intent(out) :: epsilon
+      !> Its frequency
+      real(wp), intent(out) :: frequency
+      !> The first failure of the test
+      type(error_type), allocatable, intent(inout) :: error
+      type(failure_type), allocatable :: failure
+      complex(wp) :: answer(unknowns, 1), matrix(unknowns, unknowns)
+      complex(wp) :: scaled(3)
+      real(wp) :: x(unknowns, 0:1), base(unknowns), change
+      real(wp), parameter :: step = 1.0e-6_wp
+      integer :: iteration, j
+
+      scaled = q/q(index_of_ln_v)*amplitude
+      x(:, 0) = 0.0_wp
+      associate (coefficients => x(:, 0))
+         do j = 1, 3
+            coefficients(place(j, cosine)) = real(scaled(j))
+            coefficients(place(j, sine)) = -aimag(scaled(j))
+         end do
+         coefficients(place(index_of_ln_v, cosine)) = parameters%epsilon
+         coefficients(place(index_of_ln_v, sine)) = omega
+      end associate
+      do iteration = 1, 12
+         base = residual(parameters, amplitude, x(:, 0))
+         do j = 1, unknowns
+            x(:, 1) = x(:, 0)
+            x(j, 1) = x(j, 1) + step
+            matrix(:, j) = (residual(parameters, amplitude, x(:, 1)) - base)/step
+         end do
+         call solve(matrix, reshape(cmplx(base, kind=wp), [unknowns, 1]), answer, failure)
+         call expect_success(error, failure)
+         if (allocated(error)) return
+         x(:, 0) = x(:, 0) - real(answer(:, 1))
+         change = maxval(abs(answer))
+      end do
+      call expect(error, change < 1.0e-11_wp, "Newton's method has converged")
+      epsilon = x(place(index_of_ln_v, cosine), 0)
+      frequency = x(place(index_of_ln_v, sine), 0)
+   end subroutine find_cycle
+
+   !> frequency x'(t) less the right-hand side at all points of a period.
+   pure function residual(parameters, amplitude, x) result(value)
+      type(block_parameters_type), intent(in) :: parameters
+      real(wp), intent(in) :: amplitude, x(unknowns)
+      real(wp) :: value(unknowns)
+      type(block_parameters_type) :: there
+      type(spring_block_type) :: block
+      real(wp) :: coefficients(points, 3), frequency, slope(3), t
+      integer :: i
+
+      coefficients = reshape(x, [points, 3])
+      there = parameters
+      there%epsilon = coefficients(cosine, index_of_ln_v)
+      frequency = x(place(index_of_ln_v, sine))
+      coefficients(cosine:sine, index_of_ln_v) = [amplitude, 0.0_wp]
+      block = spring_block_type(there, block_history_type())
+      do i = 1, points
+         t = two_pi*i/points
+         call block%rhs(0.0_wp, matmul(functions(t), coefficients), &
+                        matmul(functions(t - frequency*there%tau), &
+                               coefficients(:, index_of_ln_v:index_of_ln_v)), slope)
+         value(3*i - 2:3*i) = frequency*matmul(slopes(t), coefficients) - slope
+      end do
+   end function residual
+
+   !> 1, cos t, sin t, cos 2t, ...
+   pure function functions(t) result(values)
+      real(wp), intent(in) :: t
+      real(wp) :: values(points)
+      integer :: k
+
+      values = [1.0_wp, ([cos(k*t), sin(k*t)], k=1, harmonics)]
+   end function functions
+
+   !> Their derivatives.
+   pure function slopes(t) result(values)
+      real(wp), intent(in) :: t
+      real(wp) :: values(points)
+      integer :: k
+
+      values = [0.0_wp, ([-k*sin(k*t), k*cos(k*t)], k=1, harmonics)]
+   end function slopes
+
+   !> Place of a coefficient among the unknowns.
+   pure integer function place(component, number) result(value)
+      integer, intent(in) :: component, number
+
+      value = (component - 1)*points + number
+   end function place
+end module harmonic_balance
