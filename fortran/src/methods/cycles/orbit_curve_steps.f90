@@ -192,12 +192,11 @@ contains
       type(orbit_change_type), intent(out) :: plane(2)
       !> There are none
       type(error_type), allocatable, intent(out) :: error
-      type(orbit_change_type) :: rough(2)
 
       ! at a fold the amplitude determines the orbit, not the parameter
-      rough = [amplitude_direction(orbit, 2), parameter_direction(orbit, 2)]
-      call turn_frame(family, orbit, rough, error)
-      plane = rough
+      plane(1) = amplitude_direction(orbit, 2)
+      plane(2) = parameter_direction(orbit, 2)
+      call turn_frame(family, orbit, plane, error)
    end subroutine first_plane
 
    !> Turn two directions into orthonormal ones of the tangent plane; the first keeps its direction
