@@ -101,6 +101,21 @@ def test_bad_input_is_refused(programs, good_groups, program):
     assert "absent" in line
 
 
+@pytest.mark.parametrize(
+    ("program", "group", "changes", "words"),
+    [
+        ("spectrum", "spectrum", {"window": "w"}, "spectrum: window = 'w'; expected one of 'hann'"),
+        ("hopf", "hopf_curves", {"ordinate": "w"}, "ordinate = 'w'; expected one of 'tau' 'xi'"),
+        ("cycles", "cycles", {"along": "w", "epsilon": 0.5}, "along = 'w'; expected one of 'tau'"),
+        ("attractors", "points", {"sweep": "w"}, "points: sweep = 'w'; expected one of 'none'"),
+    ],
+)
+def test_unknown_word_is_refused(programs, good_groups, program, group, changes, words):
+    good_groups[program][group] |= changes
+    said = refusal(programs, programs.run_groups(program, good_groups[program]))
+    assert said.startswith(f"error: input.nml: {words}")
+
+
 @each_kind
 def test_bad_arguments_are_refused(programs, good_groups, program):
     """A missing namelist, too few or too many arguments, and empty paths."""

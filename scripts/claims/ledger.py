@@ -54,7 +54,7 @@ def _rules(config: dict) -> dict:
         "plane": list(config["hopf_curves"]),
         "route": list(config["routes"]["lines"]),
     }
-    tests = _of_keys({name: _rules_of(test, known) for name, test in TESTS.items()})
+    tests = _allow_keys({name: _rules_of(test, known) for name, test in TESTS.items()})
     claim = {"properties": {"test": tests}}
     return {"properties": {"claims": {"additionalProperties": claim}}}
 
@@ -69,10 +69,10 @@ def _rules_of(test: Test, known: dict[str, list[str]]) -> dict:
         properties[name]["default"] = value
     required = [name for name in properties if name not in test.defaults]
     words = f"parameters of the test: {', '.join(properties)}" if properties else "no parameters"
-    return {**_of_keys(properties), "required": required, "description": words}
+    return {**_allow_keys(properties), "required": required, "description": words}
 
 
-def _of_keys(properties: dict[str, dict]) -> dict:
+def _allow_keys(properties: dict[str, dict]) -> dict:
     """JSON schema of a mapping with these keys alone."""
     return {"type": "object", "additionalProperties": False, "properties": properties}
 

@@ -31,21 +31,21 @@ def contradictions(config: dict) -> Iterator[str]:
         yield from window(place, "ln_v", ranges["ln_v"], least=LEAST_LN_V, most=LARGEST_LN_V)
     for section in ("attractors", "atlas", "routes", "basins"):
         observation = config[section]["observation"]
-        yield from _of_observation(f"config {section} observation", observation, config["spectra"])
-    yield from _of_atlas("config atlas", config["atlas"])
+        yield from _check_samples(f"config {section} observation", observation, config["spectra"])
+    yield from _check_atlas("config atlas", config["atlas"])
     for name in set(config["routes"]["histories"]) & {"up", "down"}:
         yield (
             f"config routes histories: name {name!r}; expected another, this is the name of a sweep"
         )
     for section in ("routes", "cycles"):
         for name, line in config[section]["lines"].items():
-            yield from _of_line(f"config {section} lines {name}", line)
+            yield from _check_line(f"config {section} lines {name}", line)
     for key in ("epsilon", "tau") if "curves" in config["cycles"] else ():
         values = config["cycles"]["curves"][f"{key}_window"]
         yield from window("config cycles curves", f"{key}_window", values, **range_of(key))
 
 
-def _of_atlas(place: str, atlas: dict) -> Iterator[str]:
+def _check_atlas(place: str, atlas: dict) -> Iterator[str]:
     """Planes of epsilon and tau, each divided by its delays into parts, which are runs."""
     yield from window(place, "epsilon_window", atlas["epsilon_window"], **range_of("epsilon"))
     for name, plane in atlas["planes"].items():
@@ -65,7 +65,7 @@ def _of_atlas(place: str, atlas: dict) -> Iterator[str]:
         yield f"{place}: parts = {parts} of {points} points; expected at most {MOST_POINTS} in each"
 
 
-def _of_line(inside: str, line: dict) -> Iterator[str]:
+def _check_line(inside: str, line: dict) -> Iterator[str]:
     """A line along one parameter, the other three fixed; starts on it, of cycles."""
     along = line["along"]
     yield from window(inside, "window", line["window"], **range_of(along))
@@ -101,7 +101,7 @@ def window(
     yield f"{place}: {key} = {values}; expected two ascending numbers{' and'.join(bounds)}"
 
 
-def _of_observation(place: str, observation: dict, spectra: dict) -> Iterator[str]:
+def _check_samples(place: str, observation: dict, spectra: dict) -> Iterator[str]:
     """Samples between the beginning and the end, enough for a spectrum and not too many."""
     interval, length = observation["sample_interval"], observation["t_observed"]
     samples = length / interval

@@ -53,7 +53,7 @@ def remove_damaged(folder: str | Path) -> list[str]:
     damaged = [
         path
         for path, digest in read_digests(folder).items()
-        if Path(path).exists() and not _of_run(folder, path) and _digest_of(path) != digest
+        if Path(path).exists() and not _is_of_run(folder, path) and _digest_of(path) != digest
     ]
     for path in damaged:
         Path(path).unlink()
@@ -67,7 +67,7 @@ def record_run(folder: str | Path) -> None:
     digests = {}
     for name in results_in(folder):
         path = f"{folder}/{name}"
-        keeps = path in known and not _of_run(folder, path)
+        keeps = path in known and not _is_of_run(folder, path)
         digests[path] = known[path] if keeps else _digest_of(path)
     for list_name, measured in ((LIST, False), (MEASURED_LIST, True)):
         kept = [path for path in digests if is_measured(path[len(f"{folder}/") :]) == measured]
@@ -76,7 +76,7 @@ def record_run(folder: str | Path) -> None:
     Path(folder, STAMP).unlink(missing_ok=True)
 
 
-def _of_run(folder: str | Path, path: str) -> bool:
+def _is_of_run(folder: str | Path, path: str) -> bool:
     """Whether a result is younger than the beginning of the run at work, or of a killed one."""
     stamp = Path(folder, STAMP)
     return stamp.exists() and Path(path).stat().st_mtime_ns >= stamp.stat().st_mtime_ns

@@ -14,7 +14,7 @@ module cycles_files
    use netcdf_output, only: output_file_type
    use special_points, only: kind_length, nearest_resonance, special_point_type
    use spring_block, only: index_of_ln_v
-   use value_checks, only: absent, check_count, missing, missing_count
+   use value_checks, only: absent, check_choice, check_count, missing, missing_count
    implicit none (type, external)
    private
    public :: read_cycles, write_cycles
@@ -71,6 +71,7 @@ contains
       cycles%parameters = parameters_of(vector)
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
+      call check_choice(error, path, "along", cycles%along, parameter_names)
       call cycles%parameters%check(path, error)
       call check_count(error, path, "degree", cycles%degree, at_least=3)
       along = findloc(parameter_names == cycles%along, .true., dim=1)

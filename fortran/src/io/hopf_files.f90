@@ -11,7 +11,7 @@ module hopf_files
    use namelist_input, only: namelist_file_type, word_length
    use netcdf_output, only: output_file_type
    use stability_map, only: middles
-   use value_checks, only: missing, missing_count
+   use value_checks, only: check_choice, missing, missing_count
    implicit none (type, external)
    private
    public :: hopf_settings_type, read_plane, write_curves
@@ -52,6 +52,7 @@ contains
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
+      call check_choice(error, path, "ordinate", hopf_curves%ordinate, ["tau", "xi "])
       call check_quantity(error, path, "gamma", hopf_curves%gamma)
       plane%epsilon_window = hopf_curves%epsilon_window
       plane%ordinate_window = hopf_curves%ordinate_window

@@ -6,7 +6,7 @@ module points_input
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use namelist_input, only: word_length
-   use value_checks, only: check_count, missing, missing_count
+   use value_checks, only: check_choice, check_count, missing, missing_count
    implicit none (type, external)
    private
    public :: points_settings_type
@@ -56,6 +56,7 @@ contains
                                         xi=self%xi%window(i), gamma=self%gamma%window(i))
          call corner%check(place, error)
       end do
+      call check_choice(error, place, "sweep", self%sweep, ["none", "up  ", "down"])
       call check_count(error, place, "number of histories", size(histories), at_least=1)
       do i = 1, size(histories)
          call histories(i)%check(place, error)

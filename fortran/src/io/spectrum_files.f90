@@ -13,7 +13,7 @@ module spectrum_files
    use spectral_peaks, only: base_peak, combination_peak, harmonic_peak, other_peak, peak_type, &
                              second_base_peak
    use spectrum_verdict, only: continuum_share, line_share, spectrum_kind, spectrum_kind_name
-   use value_checks, only: check_count, missing, missing_count
+   use value_checks, only: check_choice, check_count, missing, missing_count
    implicit none (type, external)
    private
    public :: read_spectrum_settings, read_trajectory, spectrum_settings_type, trajectory_type, &
@@ -83,6 +83,7 @@ contains
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       write (file%copy, nml=without_path, delim="quote")
       call file%close(error)
+      call check_choice(error, path//": spectrum", "window", spectrum%window, ["hann  ", "boxcar"])
       call check_count(error, path//": spectrum", "segments", spectrum%segments, at_least=1)
       trajectory_path = trim(trajectory)
    end subroutine read_spectrum_settings

@@ -6,7 +6,7 @@ module value_checks
    use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: absent, check_count, check_number, missing, missing_count
+   public :: absent, check_choice, check_count, check_number, missing, missing_count
 
    !> Default of a number that must be given: not a number.
    real(wp), parameter :: missing = transfer([-1_int64, -1_int64], 1.0_wp)
@@ -64,4 +64,23 @@ contains
       call raise(error, place//": "//key//" = "//text(value)//"; expected a whole number >= " &
                  //text(at_least))
    end subroutine check_count
+
+   !> Refuse a word that is not among the choices; keep an earlier error.
+   pure subroutine check_choice(error, place, key, value, choices)
+      !> First error met
+      type(error_type), allocatable, intent(inout) :: error
+      !> File and what it describes, key
+      character(len=*), intent(in) :: place, key
+      !> Value of the key, words allowed
+      character(len=*), intent(in) :: value, choices(:)
+      character(len=:), allocatable :: list
+      integer :: i
+
+      if (allocated(error) .or. any(choices == value)) return
+      list = ""
+      do i = 1, size(choices)
+         list = list//" '"//trim(choices(i))//"'"
+      end do
+      call raise(error, place//": "//key//" = '"//trim(value)//"'; expected one of"//list)
+   end subroutine check_choice
 end module value_checks
