@@ -61,3 +61,10 @@ def test_steps_are_imposed_by_the_protocol(protocol, response):
         ends = np.cumsum([0.0, *lengths])
         expected = [np.linspace(*span, n) for span in pairwise(ends)]
         np.testing.assert_allclose(response[name], np.concatenate(expected), rtol=1e-12)
+
+
+def test_effects_are_the_jumps_of_friction(protocol, response):
+    """The direct effect as the velocity rises, and the evolution effect after it."""
+    n, mu = protocol["samples"], response.mu.values
+    assert response.attrs["direct_effect"] == pytest.approx(mu[n] - mu[n - 1], rel=1e-9)
+    assert response.attrs["evolution_effect"] == pytest.approx(mu[2 * n - 1] - mu[n], rel=1e-3)
