@@ -19,8 +19,6 @@ from scripts.namelists.write_namelist import write_namelist
 from scripts.page import play_data
 from scripts.tables import attractor_tables
 
-PARTS = "results/attractors/atlas"
-
 
 def test_table_holds_all_points_of_each_plane(smoke, smoke_config):
     """Every point once, the ends of both windows among them."""

@@ -9,8 +9,6 @@ from conftest import trajectory_settings
 
 from scripts.tables import exponents_table
 
-SCENES = ["oscillation", "torus", "chaos", "true_torus"]
-
 
 @pytest.fixture
 def groups(filled_config) -> dict[str, dict]:
