@@ -96,11 +96,11 @@ contains
       lacking = 0.0_wp
       select case (name)
       case ("radau5")
-         allocate (step, source=implicit_step_type(problem, 3))
+         allocate (step, source=implicit_step_type(problem, 3, tolerance%level))
       case ("radau9")
-         allocate (step, source=implicit_step_type(problem, 5))
+         allocate (step, source=implicit_step_type(problem, 5, tolerance%level))
       case ("radau13")
-         allocate (step, source=implicit_step_type(problem, 7))
+         allocate (step, source=implicit_step_type(problem, 7, tolerance%level))
       case ("taylor")
          allocate (step, source=taylor_step_type(problem, tolerance%level))
       case default

@@ -3,8 +3,8 @@ module dde_collocation
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: add_up, combine, difference_increments, in_lanes, lagrange_weights, shape_bump
-   public :: stage_lanes
+   public :: add_up, combine, difference_weights, in_lanes, lagrange_factors, lagrange_weights
+   public :: shape_bump, stage_lanes
 
    !> Rows of matrices over stages. Those above the number of stages are 0. The number is known to
    !> the compiler, which therefore makes vector instructions.
@@ -56,27 +56,33 @@ contains
       !> One combination a stage
       real(wp), intent(out) :: sums(n, stages)
       real(wp) :: total(stage_lanes)
-      integer :: i, k
+      integer :: k
 
-      do k = 1, n
-         select case (stages)
-         case (3)
-            total = matrix(:, 1)*vectors(k, 1) + matrix(:, 2)*vectors(k, 2) &
-                    + matrix(:, 3)*vectors(k, 3)
-         case (5)
-            total = matrix(:, 1)*vectors(k, 1) + matrix(:, 2)*vectors(k, 2) &
-                    + matrix(:, 3)*vectors(k, 3) + matrix(:, 4)*vectors(k, 4) &
-                    + matrix(:, 5)*vectors(k, 5)
-         case default
+      select case (stages)
+      case (3)
+         do k = 1, n
+            total(:4) = matrix(:4, 1)*vectors(k, 1) + matrix(:4, 2)*vectors(k, 2) &
+                        + matrix(:4, 3)*vectors(k, 3)
+            sums(k, 1) = total(1)
+            sums(k, 2) = total(2)
+            sums(k, 3) = total(3)
+         end do
+      case (5)
+         do k = 1, n
+            total(:6) = matrix(:6, 1)*vectors(k, 1) + matrix(:6, 2)*vectors(k, 2) &
+                        + matrix(:6, 3)*vectors(k, 3) + matrix(:6, 4)*vectors(k, 4) &
+                        + matrix(:6, 5)*vectors(k, 5)
+            sums(k, :) = total(:5)
+         end do
+      case default
+         do k = 1, n
             total = matrix(:, 1)*vectors(k, 1) + matrix(:, 2)*vectors(k, 2) &
                     + matrix(:, 3)*vectors(k, 3) + matrix(:, 4)*vectors(k, 4) &
                     + matrix(:, 5)*vectors(k, 5) + matrix(:, 6)*vectors(k, 6) &
                     + matrix(:, 7)*vectors(k, 7)
-         end select
-         do i = 1, stages
-            sums(k, i) = total(i)
+            sums(k, :) = total(:7)
          end do
-      end do
+      end select
    end subroutine combine
 
    !> A matrix over stages, its rows filled up with zeros.
@@ -89,20 +95,26 @@ contains
       filled(:size(matrix, 1), :) = matrix
    end function in_lanes
 
-   !> Sum over j of weight(j) times vector j, in this order. `matmul` would use fused multiply-adds
+   !> Sum over j of weight(j) times vector j, over a divisor, in this order. `matmul` would use fused multiply-adds
    !> where the processor has them, and give other last bits.
-   pure subroutine add_up(weights, vectors, total)
+   pure subroutine add_up(n, stages, weights, vectors, divisor, total)
+      !> Number of equations, and of stages
+      integer, intent(in) :: n, stages
       !> Weights
-      real(wp), intent(in) :: weights(:)
+      real(wp), intent(in) :: weights(stages)
       !> One vector a weight
-      real(wp), intent(in) :: vectors(:, :)
+      real(wp), intent(in) :: vectors(n, stages)
+      real(wp), intent(in) :: divisor
       !> The sum
-      real(wp), intent(out) :: total(:)
-      integer :: j
+      real(wp), intent(out) :: total(n)
+      integer :: j, k
 
-      total = weights(1)*vectors(:, 1)
-      do j = 2, size(weights)
-         total = total + weights(j)*vectors(:, j)
+      do k = 1, n
+         total(k) = weights(1)*vectors(k, 1)
+         do j = 2, stages
+            total(k) = total(k) + weights(j)*vectors(k, j)
+         end do
+         total(k) = total(k)/divisor
       end do
    end subroutine add_up
 
@@ -120,37 +132,62 @@ contains
       end do
    end subroutine divide_differences
 
-   !> Newton coefficients of the collocation polynomial's increments.
-   pure subroutine difference_increments(x, increments, differences)
+   !> Weights of the stage increments in the Newton coefficients of the collocation polynomial. The
+   !> coefficient of degree 0 is 0.
+   pure function difference_weights(x) result(weights)
       !> Nodes (0, c)
       real(wp), intent(in) :: x(0:)
-      !> Increments at c, shape (n, stages)
-      real(wp), intent(in) :: increments(:, :)
-      !> The coefficients, shape (0:stages, n)
-      real(wp), intent(out) :: differences(0:, :)
-      integer :: k
+      !> Weights, shape (stages, degree)
+      real(wp) :: weights(ubound(x, 1), ubound(x, 1))
+      real(wp) :: unit(0:ubound(x, 1))
+      integer :: i
 
-      do k = 1, size(differences, 2)
-         differences(0, k) = 0.0_wp
-         differences(1:, k) = increments(k, :)
-         call divide_differences(x, differences(:, k))
+      do i = 1, ubound(x, 1)
+         unit = 0.0_wp
+         unit(i) = 1.0_wp
+         call divide_differences(x, unit)
+         weights(i, :) = unit(1:)
       end do
-   end subroutine difference_increments
+   end function difference_weights
 
-   !> Weights of the stage increments in the collocation polynomial at s, without that of node 0.
-   pure function lagrange_weights(x, s) result(weights)
+   !> Weights of the stage increments in the collocation polynomial at s, over those of
+   !> `lagrange_weights`: one over the products of x(i) - x(j).
+   pure function lagrange_factors(x) result(factors)
       !> Nodes (0, c)
       real(wp), intent(in) :: x(0:)
-      !> Place
-      real(wp), intent(in) :: s
-      real(wp) :: weights(ubound(x, 1))
+      real(wp) :: factors(ubound(x, 1))
       integer :: i, j
 
-      weights = 1.0_wp
       do i = 1, ubound(x, 1)
-         do j = 0, ubound(x, 1)
-            if (j /= i) weights(i) = weights(i)*(s - x(j))/(x(i) - x(j))
-         end do
+         factors(i) = 1.0_wp/product([(x(i) - x(j), j=0, i - 1), &
+                                      (x(i) - x(j), j=i + 1, ubound(x, 1))])
       end do
-   end function lagrange_weights
+   end function lagrange_factors
+
+   !> Weights of the stage increments in the collocation polynomial at s.
+   pure subroutine lagrange_weights(stages, x, factors, s, weights)
+      !> Number of stages
+      integer, intent(in) :: stages
+      !> Nodes (0, c)
+      real(wp), intent(in) :: x(0:stages)
+      !> `lagrange_factors` of these nodes
+      real(wp), intent(in) :: factors(stages)
+      !> Place
+      real(wp), intent(in) :: s
+      !> The weights
+      real(wp), intent(out) :: weights(stages)
+      real(wp) :: behind
+      integer :: i
+
+      behind = s
+      do i = 1, stages
+         weights(i) = factors(i)*behind
+         behind = behind*(s - x(i))
+      end do
+      behind = 1.0_wp
+      do i = stages, 1, -1
+         weights(i) = weights(i)*behind
+         behind = behind*(s - x(i))
+      end do
+   end subroutine lagrange_weights
 end module dde_collocation

@@ -4,7 +4,7 @@
 !> `find_error_inside` check the step, too.
 module dde_implicit_step
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
-   use dde_collocation, only: add_up, difference_increments, shape_bump
+   use dde_collocation, only: add_up, difference_weights, shape_bump
    use dde_jacobian, only: jacobian_type
    use dde_method_constants, only: method_constants
    use dde_problem, only: dde_problem_type
@@ -41,12 +41,18 @@ module dde_implicit_step
       real(wp) :: stiffness = 0.0_wp
       !> Stages of the step and the iteration that finds them
       type(stage_iteration) :: stages
-      !> Newton coefficients of the increments over this and the last accepted step, (0:stages, n)
-      real(wp), allocatable :: differences(:, :), last_differences(:, :)
+      !> Weights of the increments in the Newton coefficients 1 to stages, shape (stages, stages)
+      real(wp), allocatable :: differences(:, :)
+      !> Increments of the last accepted step, shape (n, stages)
+      real(wp), allocatable :: last_increments(:, :)
       !> Length of the last accepted step; 0 when its polynomial must not be extrapolated
       real(wp) :: last_h = 0.0_wp
       !> Error of the embedded method, filtered and not, and without the slope, shape (n)
       real(wp), allocatable :: error_vector(:), unfiltered(:), raw(:)
+      !> Tolerance that the error estimate is held to, and over that of the step
+      real(wp), private :: asked = 1.0_wp, asked_over_level = 1.0_wp
+      !> The tolerance asked for over that of the error between the ends
+      real(wp), private :: asked_over_inside = 1.0_wp
       !> The Jacobian at the end of the step, and its real system
       type(jacobian_type), allocatable, private :: jacobian_at_end
       type(real_system), allocatable, private :: system_at_end
@@ -64,9 +70,11 @@ module dde_implicit_step
 contains
 
    !> Storage, and the constants that follow from the method.
-   pure function new_step(problem, stages) result(step)
+   pure function new_step(problem, stages, level) result(step)
       class(dde_problem_type), intent(in) :: problem
       integer, intent(in) :: stages
+      !> Relative or absolute tolerance, the larger
+      real(wp), intent(in) :: level
       type(implicit_step_type) :: step
 
       step%method = radau_iia(stages)
@@ -79,9 +87,15 @@ contains
       associate (n => problem%n, delays => size(problem%lag))
          allocate (step%error_vector(n), step%raw(n), step%unfiltered(n))
          allocate (step%jacobian_at_end, step%system_at_end)
-         allocate (step%differences(0:stages, n), step%last_differences(0:stages, n))
+         allocate (step%last_increments(n, stages))
          step%stages = stage_iteration(step%method, n, delays)
       end associate
+      ! the estimate has order s, the polynomial s + 1, the ends more: with this tolerance of the
+      ! estimate, errors are near the tolerance of the step, as with the explicit method
+      step%asked = level**((stages + 1.0_wp)/(stages + 2.0_wp))
+      step%asked_over_level = step%asked/level
+      step%asked_over_inside = step%asked/level**(real(stages, wp)/(stages + 1))
+      step%differences = difference_weights([0.0_wp, step%method%c])
       call shape_bump(step%method%c, step%bump, step%bump_slope)
    end function new_step
 
@@ -100,26 +114,21 @@ contains
       class(implicit_step_type), intent(inout) :: self
       type(step_context), intent(inout) :: context
       real(wp), intent(out) :: error
-      real(wp) :: asked, inside, level
       logical :: converged, finite, singular
 
       self%t = context%cursor%t
       self%h = context%cursor%h
-      level = context%tolerance%level
-      ! the estimate has order s, the polynomial s + 1, the ends more: with this tolerance of the
-      ! estimate, errors are near the tolerance of the step, as with the explicit method
-      asked = level**((self%method%stages + 1.0_wp)/(self%method%stages + 2.0_wp))
       call context%tolerance%scale(self%y, self%scale)
-      self%scale = asked/level*self%scale
+      self%scale = self%asked_over_level*self%scale
       call self%stages%place_delays(context, self%method)
       error = ieee_value(1.0_wp, ieee_quiet_nan)
       do
          if (.not. self%last_h > 0.0_wp) call context%delayed_values([0.0_wp], self%z)
-         call self%stages%start(self%method, self%last_differences, self%last_h, self%h)
+         call self%stages%start(self%method, self%last_increments, self%last_h, self%h)
          call self%prepare(context, singular)
          converged = .false.
          if (.not. singular) then
-            call self%stages%iterate(context, self%method, self%y, self%scale, asked, &
+            call self%stages%iterate(context, self%method, self%y, self%scale, self%asked, &
                                      self%safety, converged, finite)
          end if
          if (converged) call self%confirm(context, converged)
@@ -130,10 +139,8 @@ contains
       end do
       if (converged) then
          call self%estimate(context, error)
-         call difference_increments(self%stages%x, self%stages%increments, self%differences)
          if (ieee_is_finite(error)) then
-            call self%find_error_inside(asked, level, inside)
-            error = max(error, inside)
+            call self%find_error_inside(error)
             if (error <= 1.0_wp) return
          end if
       else if (.not. singular) then
@@ -185,16 +192,16 @@ contains
       confirmed = .false.
       t_end = context%cursor%inside(self%t + self%h)
       associate (stages => self%stages, y_end => self%stages%argument, &
-                 slope => self%stages%slope_at, misfit => self%unfiltered, &
+                 slope => self%stages%end_slope, misfit => self%unfiltered, &
                  last => self%method%stages)
          y_end = self%y + stages%increments(:, last)
-         call stages%slope_at_end(self%h, slope)
+         call stages%find_end_slope(self%h)
          call context%evaluate(t_end, y_end, stages%delayed(:, last), misfit)
          if (.not. all(ieee_is_finite(misfit))) return
          misfit = misfit - slope
          ! a part of the tolerance, and what rounding does to the slope
          allowed = 0.1_wp + 4.0_wp*epsilon(1.0_wp)*maxval(abs(y_end)/self%scale) &
-                   *sum(abs(stages%systems%a_inverse(last, :)))
+                   *stages%sum_of_end_weights
          confirmed = self%h*scaled_norm(size(misfit), misfit, self%scale) &
                      <= self%method%real_eigenvalue*allowed
          if (confirmed) return
@@ -220,8 +227,8 @@ contains
       real(wp), allocatable :: slope(:)
       real(wp) :: t
 
-      call add_up(self%method%e, self%stages%increments, self%raw)
-      self%raw = self%raw/self%h
+      call add_up(size(self%raw), self%method%stages, self%method%e, self%stages%increments, &
+                  self%h, self%raw)
       self%error_vector = self%slope + self%raw
       self%unfiltered = self%error_vector
       call self%stages%systems%filter(self%error_vector)
@@ -244,25 +251,28 @@ contains
       if (.not. all(ieee_is_finite(self%y_new))) error = ieee_value(1.0_wp, ieee_quiet_nan)
    end subroutine estimate
 
-   !> Error between the ends, in units of the tolerance. A stiff component that follows the others
-   !> at once is right at the stages however long the step, and its embedded error is filtered away.
-   !> So the last term of the polynomial there, of size h**s, is compared with tol**(s/(s + 1)).
-   !> `unfiltered` is replaced by the hidden part of that term.
-   pure subroutine find_error_inside(self, asked, tolerance, error)
+   !> Replace the error by that between the ends, in units of the tolerance, if that is larger. A
+   !> stiff component that follows the others at once is right at the stages however long the step,
+   !> and its embedded error is filtered away. So the last term of the polynomial there, of size
+   !> h**s, is compared with tol**(s/(s + 1)). `unfiltered` is replaced by the hidden part of that
+   !> term.
+   pure subroutine find_error_inside(self, error)
       class(implicit_step_type), intent(inout) :: self
-      !> Tolerance of the estimate, to which `scale` belongs
-      real(wp), intent(in) :: asked
-      real(wp), intent(in) :: tolerance
-      real(wp), intent(out) :: error
+      real(wp), intent(inout) :: error
+      real(wp) :: inside
 
       associate (s => self%method%stages, hidden => self%unfiltered, h => self%h)
+         call add_up(size(hidden), s, self%differences(:, s), self%stages%increments, 1.0_wp, &
+                     self%raw)
          ! the filter does not change the errors of components that are not stiff
          hidden = max(0.0_wp, abs(hidden) - 2.0_wp*(self%method%real_eigenvalue/h &
                                                     *abs(self%error_vector))) &
                   /max(abs(hidden), tiny(1.0_wp))
-         hidden = hidden*self%method%bulge*self%differences(s, :)
-         error = min(scaled_norm(size(self%scale), hidden, self%scale), hopeless)
-         error = (error*asked/tolerance**(real(s, wp)/(s + 1)))**((s + 1.0_wp)/s)
+         hidden = hidden*self%method%bulge*self%raw
+         inside = min(scaled_norm(size(self%scale), hidden, self%scale), hopeless) &
+                  *self%asked_over_inside
+         ! below 1 its power is smaller still
+         if (inside > min(error, 1.0_wp)) error = max(error, inside**((s + 1.0_wp)/s))
       end associate
    end subroutine find_error_inside
 
@@ -272,9 +282,16 @@ contains
       class(implicit_step_type), intent(in) :: self
       integer, intent(in) :: i
       real(wp), contiguous, intent(out) :: a(0:)
+      integer :: j, k
 
       a = self%method%real_eigenvalue*self%error_vector(i)/self%bump_slope*self%bump
-      a(0:self%method%stages) = a(0:self%method%stages) + self%differences(:, i)
+      associate (increments => self%stages%increments)
+         do k = 1, self%method%stages
+            do j = 1, self%method%stages
+               a(k) = a(k) + self%differences(j, k)*increments(i, j)
+            end do
+         end do
+      end associate
       a(0) = self%y(i)
    end subroutine interpolant
 
@@ -289,9 +306,9 @@ contains
    pure subroutine advance(self)
       class(implicit_step_type), intent(inout) :: self
 
-      call self%stages%slope_at_end(self%h, self%slope)
+      self%slope = self%stages%end_slope
       self%y = self%y_new
-      self%last_differences = self%differences
+      self%last_increments = self%stages%increments
       self%last_h = self%h
       self%jacobian_is_good = self%stages%contraction <= good_contraction
    end subroutine advance

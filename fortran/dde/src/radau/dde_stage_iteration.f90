@@ -2,8 +2,7 @@
 !> Wanner 1996, sec. IV.8).
 module dde_stage_iteration
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use dde_collocation, only: add_up, combine, lagrange_weights
-   use dde_interpolant, only: newton_value
+   use dde_collocation, only: add_up, combine, lagrange_factors, lagrange_weights, stage_lanes
    use dde_step_context, only: step_context
    use dde_radau_tableau, only: radau_tableau
    use dde_stage_systems, only: stage_systems
@@ -25,14 +24,18 @@ module dde_stage_iteration
    type :: stage_iteration
       !> Systems of the iteration
       type(stage_systems) :: systems
-      !> Nodes of the collocation polynomial: 0 and c
-      real(wp), allocatable :: x(:)
+      !> Nodes of the collocation polynomial: 0 and c, and the factors of its Lagrange weights
+      real(wp), allocatable, private :: x(:), factors(:)
+      !> Weights of the increments in the slope at the end, times the step size, and the sum of
+      !> their absolute values
+      real(wp), allocatable, private :: end_weights(:)
+      real(wp) :: sum_of_end_weights = 0.0_wp
       !> Increments Y - y at the stages, and their transforms, shape (n, stages)
       real(wp), allocatable :: increments(:, :), transforms(:, :)
       !> Slopes at the stages, shape (n, stages)
       real(wp), allocatable :: slopes(:, :)
-      !> State and slope at a stage, shape (n)
-      real(wp), allocatable :: argument(:), slope_at(:)
+      !> State at a stage, and the slope of the polynomial at the end, shape (n)
+      real(wp), allocatable :: argument(:), end_slope(:)
       !> Last correction of the transforms, and the scales of its elements, shape (n, stages)
       real(wp), allocatable, private :: change(:, :), scales(:, :)
       !> Delayed values at the stages, shape (delayed values, stages)
@@ -49,7 +52,7 @@ module dde_stage_iteration
       !> does not measure theta.
       real(wp) :: remainder = 1.0_wp
    contains
-      procedure :: place_delays, start, expect_delayed, iterate, slope_at_end
+      procedure :: place_delays, start, expect_delayed, iterate, find_end_slope
       procedure, private :: slopes_at_stages
    end type stage_iteration
 
@@ -67,13 +70,16 @@ contains
 
       associate (s => method%stages)
          allocate (iteration%increments(n, s), iteration%transforms(n, s), iteration%slopes(n, s))
-         allocate (iteration%argument(n), iteration%slope_at(n))
+         allocate (iteration%argument(n), iteration%end_slope(n))
          allocate (iteration%change(n, s), iteration%scales(n, s))
          allocate (iteration%delayed(delays, s), iteration%own_place(delays, s))
          allocate (iteration%own_weights(s, delays, s), iteration%places(s))
       end associate
       iteration%x = [0.0_wp, method%c]
+      iteration%factors = lagrange_factors(iteration%x)
       iteration%systems = stage_systems(method, n)
+      iteration%end_weights = iteration%systems%a_inverse(method%stages, :)
+      iteration%sum_of_end_weights = sum(abs(iteration%end_weights))
    end function new_iteration
 
    !> Delayed values of all stages, and the places of those that lie in the step itself.
@@ -89,7 +95,8 @@ contains
             self%own_place(:, i) = method%c(i) - lag/h
             do k = 1, size(lag)
                if (self%own_place(k, i) > 0.0_wp) then
-                  self%own_weights(:, k, i) = lagrange_weights(self%x, self%own_place(k, i))
+                  call lagrange_weights(method%stages, self%x, self%factors, &
+                                        self%own_place(k, i), self%own_weights(:, k, i))
                end if
             end do
          end do
@@ -99,29 +106,31 @@ contains
    end subroutine place_delays
 
    !> Start of the iteration: the last step's polynomial extrapolated, or no change.
-   pure subroutine start(self, method, last_differences, last_h, h)
+   pure subroutine start(self, method, last_increments, last_h, h)
       class(stage_iteration), intent(inout) :: self
       type(radau_tableau), intent(in) :: method
-      !> Newton coefficients of the last step's increments, shape (0:stages, n)
-      real(wp), contiguous, intent(in) :: last_differences(0:, :)
+      !> Increments of the last step, shape (n, stages)
+      real(wp), contiguous, intent(in) :: last_increments(:, :)
       !> Length of the last step; 0 where its polynomial must not be extrapolated
       real(wp), intent(in) :: last_h
       real(wp), intent(in) :: h
-      real(wp) :: place, rise
-      integer :: i, k
+      real(wp) :: of_stage(stage_lanes), weights(stage_lanes, stage_lanes)
+      integer :: i
 
-      self%increments = 0.0_wp
+      if (.not. last_h > 0.0_wp) then
+         self%increments = 0.0_wp
+         self%transforms = 0.0_wp
+         return
+      end if
       associate (s => method%stages, n => size(self%increments, 1))
-         if (last_h > 0.0_wp) then
-            do k = 1, n
-               rise = newton_value(s, self%x, last_differences(:, k), 1.0_wp)
-               do i = 1, s
-                  place = 1.0_wp + method%c(i)*h/last_h
-                  self%increments(k, i) = newton_value(s, self%x, last_differences(:, k), &
-                                                       place) - rise
-               end do
-            end do
-         end if
+         do i = 1, s
+            call lagrange_weights(s, self%x, self%factors, 1.0_wp + method%c(i)*h/last_h, of_stage)
+            weights(i, :s - 1) = of_stage(:s - 1)
+            ! measured from the end of the last step
+            weights(i, s) = of_stage(s) - 1.0_wp
+         end do
+         weights(s + 1:, :) = 0.0_wp
+         call combine(n, s, weights, last_increments, self%increments)
          call combine(n, s, self%systems%t_inverse, self%increments, self%transforms)
       end associate
    end subroutine start
@@ -166,7 +175,6 @@ contains
                   min(largest_remainder, 2.0_wp*sqrt(tolerance)))
       ! the stiff residual is a small difference of large numbers: below this it is rounding
       rounding = 4.0_wp*epsilon(1.0_wp)*maxval(abs(y)/scale)
-      self%remainder = max(self%remainder, epsilon(1.0_wp))**0.8_wp
       do stage = 1, method%stages
          self%scales(:, stage) = scale
       end do
@@ -179,7 +187,10 @@ contains
          norm = scaled_norm(size(self%change), self%change, self%scales)
          finite = ieee_is_finite(norm)
          if (.not. (finite .and. norm < huge(1.0_wp))) return
-         if (iteration > 1) then
+         if (iteration == 1) then
+            ! it counts if this is the only iteration
+            if (norm <= 1.0_wp) self%remainder = max(self%remainder, epsilon(1.0_wp))**0.8_wp
+         else
             rate = norm/last_norm
             self%contraction = merge(rate, sqrt(rate*last_rate), iteration == 2)
             last_rate = rate
@@ -205,14 +216,13 @@ contains
    end subroutine iterate
 
    !> Slope of the collocation polynomial at the end of a step of length `h`.
-   pure subroutine slope_at_end(self, h, slope)
-      class(stage_iteration), intent(in) :: self
+   pure subroutine find_end_slope(self, h)
+      class(stage_iteration), intent(inout) :: self
       real(wp), intent(in) :: h
-      real(wp), intent(out) :: slope(:)
 
-      call add_up(self%systems%a_inverse(size(self%increments, 2), :), self%increments, slope)
-      slope = slope/h
-   end subroutine slope_at_end
+      call add_up(size(self%end_slope), size(self%end_weights), self%end_weights, &
+                  self%increments, h, self%end_slope)
+   end subroutine find_end_slope
 
    !> Slopes of all stages.
    pure subroutine slopes_at_stages(self, context, method, y, finite)

@@ -1,6 +1,6 @@
 !> Order of one Radau IIA step, of its interpolant and of its error estimate, for 3, 5 and 7 stages.
 module test_dde_implicit_order
-   use dde_collocation, only: combine, lagrange_weights
+   use dde_collocation, only: combine, lagrange_factors, lagrange_weights
    use dde_implicit_step, only: implicit_step_type
    use dde_jacobian, only: jacobian_type
    use dde_linear, only: factorise, solve
@@ -94,7 +94,7 @@ contains
       do i = 1, size(stages)
          do j = 1, 2
             h = longest(i)*0.5_wp**j
-            step = implicit_step_type(problem, stages(i))
+            step = implicit_step_type(problem, stages(i), tight(stages(i)))
             call take_step(problem, 0.0_wp, h, step, estimate, tight(stages(i)), tight(stages(i)))
             of_estimate(j) = norm2(step%error_vector/step%scale)
             call expect_close(error, estimate, maxval(abs(step%error_vector)/step%scale), &
@@ -222,7 +222,10 @@ contains
 
       do i = 1, method%stages
          do k = 1, size(own_place, 1)
-            weights(:, k, i) = lagrange_weights([0.0_wp, method%c], own_place(k, i))
+            associate (x => [0.0_wp, method%c])
+               call lagrange_weights(method%stages, x, lagrange_factors(x), own_place(k, i), &
+                                     weights(:, k, i))
+            end associate
          end do
       end do
    end function weights_at
