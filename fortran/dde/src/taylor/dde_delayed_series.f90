@@ -63,7 +63,7 @@ contains
             if (cursor%before_origin(k)) cycle
             call read_start(context, k)
             self%first(k) = cursor%step(k)
-            if (skipping) call skip_short(context, k, thin*unit)
+            if (skipping) call skip_short(context, k, thin*min(unit, cursor%h))
             valid_for = min(valid_for, past%validity_of(cursor%step(k)) - cursor%offset(k))
          end do
          unit = min(unit, valid_for)
