@@ -14,11 +14,12 @@ module dde_methods
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: change_method, choose_method, limiting_delay, longest_step, matching_method
+   public :: choose_method, limiting_delay, longest_step, matching_method
    public :: price_of_trial
 
-   !> Tolerance below which `auto` takes order 13 in place of 9.
-   real(wp), parameter :: tight = 1.0e-11_wp
+   !> Tolerance from which on `auto` takes Radau of order 5, and below which order 13; in between
+   !> order 9.
+   real(wp), parameter :: loose = 3.0e-5_wp, tight = 1.0e-11_wp
    !> Delayed values up to which an implicit step may be longer than the shortest delay: those that
    !> lie in the step itself are unknowns beside the stages.
    integer, parameter :: most_coupled = 64
@@ -130,30 +131,10 @@ contains
    pure integer function implicit_stages(tolerance) result(stages)
       type(tolerance_type), intent(in) :: tolerance
 
-      stages = merge(7, 5, tolerance%level < tight)
+      stages = 5
+      if (tolerance%level >= loose) stages = 3
+      if (tolerance%level < tight) stages = 7
    end function implicit_stages
-
-   !> The other method takes over where the step stands.
-   subroutine change_method(problem, tolerance, step, lacking)
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> Tolerance of each component
-      type(tolerance_type), intent(in) :: tolerance
-      !> The step, advanced; replaced by one of the other method
-      class(step_type), allocatable, intent(inout) :: step
-      !> Bytes that could not be allocated, or 0: the step is then the same as before
-      real(wp), intent(out) :: lacking
-      class(step_type), allocatable :: other
-
-      associate (implicit => .not. step%constants%implicit)
-         call choose_method(problem, matching_method(problem, tolerance, implicit), tolerance, &
-                            other, lacking)
-      end associate
-      if (lacking > 0.0_wp) return
-      other%y = step%y
-      other%slope = step%slope_here()
-      call move_alloc(other, step)
-   end subroutine change_method
 
    !> The longest step allowed: an explicit one ends before its delayed values lie in it, and an
    !> implicit one where they are many.

@@ -10,7 +10,7 @@ module dde_run
    use dde_history, only: history_type, memory_of_past
    use dde_kinks, only: kink_type
    use dde_memory, only: bytes_of, lacks
-   use dde_methods, only: change_method, choose_method, longest_step, matching_method
+   use dde_methods, only: choose_method, longest_step, matching_method
    use dde_problem, only: dde_problem_type
    use dde_request, only: causes, implicit_methods, integration_options
    use dde_step, only: step_type
@@ -31,6 +31,8 @@ module dde_run
    type :: run_type
       !> The step, of the method in use
       class(step_type), allocatable :: step
+      !> The step of the other method of `auto`, kept once it has been used
+      class(step_type), allocatable, private :: other
       !> The context of its steps: problem, past, tolerance and work
       type(step_context) :: context
       !> Step control
@@ -237,10 +239,25 @@ contains
    !> Continue by the other method of `auto`.
    subroutine change_to_other(self, lacking)
       class(run_type), intent(inout) :: self
+      !> Bytes that could not be allocated, or 0: the step is then the same as before
       real(wp), intent(out) :: lacking
+      class(step_type), allocatable :: last
 
-      call change_method(self%context%problem, self%context%tolerance, self%step, lacking)
-      if (lacking > 0.0_wp) return
+      lacking = 0.0_wp
+      if (.not. allocated(self%other)) then
+         associate (problem => self%context%problem, tolerance => self%context%tolerance, &
+                    implicit => .not. self%step%constants%implicit)
+            call choose_method(problem, matching_method(problem, tolerance, implicit), tolerance, &
+                               self%other, lacking)
+         end associate
+         if (lacking > 0.0_wp) return
+      end if
+      self%other%y = self%step%y
+      self%other%slope = self%step%slope_here()
+      call self%other%reset()
+      call move_alloc(self%step, last)
+      call move_alloc(self%other, self%step)
+      call move_alloc(last, self%other)
       call self%context%work%set_cost(self%step%constants%evaluation_cost)
       self%control = controller_type()
    end subroutine change_to_other

@@ -38,7 +38,7 @@ module dde_slow_series
       !> Change of the coefficients by an iteration, shape (0:degree, n), and the state, shape (n)
       real(wp), allocatable, private :: change(:, :), state(:)
    contains
-      procedure :: decide_search, find
+      procedure :: decide_search, find, forget
    end type slow_series
 
 contains
@@ -57,6 +57,13 @@ contains
       self%waited = merge(0, self%waited + 1, value)
       if (value) self%patience = min(2*self%patience + 1, most_patience)
    end subroutine decide_search
+
+   !> Search in the next limited step: earlier ones show nothing of those from here on.
+   pure subroutine forget(self)
+      class(slow_series), intent(inout) :: self
+
+      self%waited = self%patience
+   end subroutine forget
 
    !> Iterate from the state. The series holds if it converges to the tolerance over its reach and
    !> if the state is that near to it.

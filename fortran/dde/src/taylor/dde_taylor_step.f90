@@ -73,6 +73,7 @@ contains
       class(taylor_step_type), intent(inout) :: self
 
       self%place = -1.0_wp
+      call self%series%slow%forget()
    end subroutine reset
 
    !> Find the series, and the largest step for which it and the past it is made from are valid.
