@@ -15,10 +15,9 @@ module dde_stage_iteration
    !> Iterations allowed: this many, and more for each stage above three.
    real(wp), parameter :: iterations_of_three = 7.0_wp, iterations_per_stage = 2.5_wp
 
-   !> Remaining error of the iteration, in units of the tolerance, at which it ends. Hairer and
-   !> Wanner take 0.03 in the root mean square of all stages; the largest element is about twice
-   !> that.
-   real(wp), parameter :: largest_remainder = 0.06_wp
+   !> Remaining error of the iteration, in units of the tolerance, at which it ends. A larger one
+   !> disturbs the error estimate at loose tolerances.
+   real(wp), parameter :: largest_remainder = 0.02_wp
 
    !> Stages of the current step.
    type :: stage_iteration
