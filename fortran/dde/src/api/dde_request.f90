@@ -153,8 +153,8 @@ contains
       end do
    end subroutine check_delays
 
-   !> Refuse a span that is not finite, not ascending or too long. A continued run starts exactly where the
-   !> earlier one ended.
+   !> Refuse a span that is not finite, not ascending or too long. A continued run starts exactly
+   !> where the earlier one ended.
    pure subroutine check_span(t_start, t_end, error, continuation)
       real(wp), intent(in) :: t_start, t_end
       type(error_type), allocatable, intent(out) :: error

@@ -38,8 +38,8 @@ module dde_step
       !> Time from the start of the step for which its polynomial is valid, if longer than the step
       real(wp) :: valid_for = 0.0_wp
    contains
-      procedure :: allocate_state, check_series, restart, reset, propose, complete, extend, next_length
-      procedure :: slope_here, stiff
+      procedure :: allocate_state, restart, reset, propose, complete, extend, next_length
+      procedure :: check_series, slope_here, stiff
       procedure(attempt_step), deferred :: attempt
       procedure(give_polynomial), deferred :: interpolant
       procedure(go_to_end), deferred :: advance

@@ -148,9 +148,9 @@ contains
             if (good) good = length > 0.0_wp .and. elapsed(instant(start(1), start(2)), &
                                                            instant(next(1), next(2))) >= 0.0_wp
             if (.not. good) then
-               call raise(error, "integrate: step "//text(i)//" of the continuation begins at t = " &
-                          //text(start(1))//", "//text(next(1) - start(1))//" before the next, " &
-                          //"and its length is "//text(length)//"; >= 0 and > 0 expected")
+               call raise(error, "integrate: step "//text(i)//" of the continuation begins " &
+                          //text(next(1) - start(1))//" before the next, and its length is " &
+                          //text(length)//"; >= 0 and > 0 expected")
                return
             end if
             next = start

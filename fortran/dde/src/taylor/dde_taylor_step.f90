@@ -44,7 +44,8 @@ module dde_taylor_step
       !> Time along the series of the present state; negative if its slope was evaluated instead
       real(wp), private :: place = -1.0_wp
    contains
-      procedure :: check_series, reset, propose, attempt, interpolant, stiff, next_length, advance, slope_here
+      procedure :: check_series, reset, propose, attempt, interpolant, stiff, next_length, advance
+      procedure :: slope_here
    end type taylor_step_type
 
    interface taylor_step_type

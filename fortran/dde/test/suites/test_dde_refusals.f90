@@ -247,7 +247,7 @@ contains
       call refuse(error, "step 2 of the continuation", problem, continuation=spoilt)
       spoilt = continuation
       spoilt%step_start(1, size(spoilt%step_length)) = 20.5_wp
-      call refuse(error, "begins at t = 20.5, -0.5 before the next", problem, continuation=spoilt)
+      call refuse(error, "begins -0.5 before the next", problem, continuation=spoilt)
       problem%component = [2, 3]
       call refuse(error, "keeps components 2, delayed are 2 3", problem, continuation=continuation)
       problem%component = [2, 2]

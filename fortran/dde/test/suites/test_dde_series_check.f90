@@ -50,7 +50,7 @@ contains
       call run(error, delayed(nothing), 0.0_wp, 3.0_wp, at_tolerance(1.0e-9_wp, "taylor"), outcome)
       call run(error, delayed(no_unit), 0.0_wp, 3.0_wp, at_tolerance(1.0e-9_wp, "radau9"), outcome)
       do i = 1, size(methods)
-         call refuse(error, no_unit, methods(i), "series: coefficient 1 of component 1 over unit is")
+         call refuse(error, no_unit, methods(i), "series: coefficient 1 of component 1 over unit")
          call refuse(error, no_unit, methods(i), "at t = 0.0, rhs gives 1.0; the same expected")
          call refuse(error, other_value, methods(i), "past_series: component 1 from t = -1.0 on " &
                      //"is 6.0 at t = -1.0, history gives 3.0; the same expected")

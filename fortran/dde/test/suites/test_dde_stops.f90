@@ -56,8 +56,8 @@ contains
       end do
    end subroutine test_step_underflow
 
-   !> If no step meets the tolerance because of rounding errors, the message says so: of a value, and
-   !> of a slope where the value is 0.
+   !> If no step meets the tolerance because of rounding errors, the message says so: of a value,
+   !> and of a slope where the value is 0.
    subroutine test_below_rounding(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
@@ -86,8 +86,8 @@ contains
 
       do i = 1, size(methods)
          table = event_table([1], [0.5_wp], [1], terminal=[.true.])
-         call run(error, sine(), 0.0_wp, 1.0e307_wp, at_tolerance(1.0e-10_wp, methods(i)), outcome, &
-                  watcher=table)
+         call run(error, sine(), 0.0_wp, 1.0e307_wp, at_tolerance(1.0e-10_wp, methods(i)), &
+                  outcome, watcher=table)
          call expect_close(error, outcome%t, asin(0.5_wp), 1.0e-8_wp, "t by "//methods(i))
       end do
    end subroutine test_far_end
