@@ -139,16 +139,16 @@ contains
    end subroutine check_problem
 
    !> Refuse delays that no step resolves.
-   pure subroutine check_delays(lag, too_short, error)
+   pure subroutine check_delays(lag, shortest, error)
       !> Delays, and the length up to which a step is too short
-      real(wp), intent(in) :: lag(:), too_short
+      real(wp), intent(in) :: lag(:), shortest
       type(error_type), allocatable, intent(out) :: error
       integer :: k
 
       do k = 1, size(lag)
-         if (lag(k) > too_short) cycle
+         if (lag(k) > shortest) cycle
          call raise(error, "integrate: lag("//text(k)//") = "//text(lag(k))//" is no longer than " &
-                    //"the shortest step, "//text(too_short)//"; a longer one expected")
+                    //"the shortest step, "//text(shortest)//"; a longer one expected")
          return
       end do
    end subroutine check_delays
