@@ -32,11 +32,9 @@ def installed(tmp_path_factory) -> Path:
     source = shutil.copytree(PACKAGE, folder / "source")
     settings = ["-D", "DDE_LAPACK=ON", "-D", "DDE_TESTS=OFF"]
     prefix = folder / "prefix"
-    run(
-        "cmake", *settings, f"-DCMAKE_INSTALL_PREFIX={prefix}", "-S", source, "-B", folder / "build"
-    )
+    run("cmake", *settings, "-S", source, "-B", folder / "build")
     run("cmake", "--build", folder / "build")
-    run("cmake", "--install", folder / "build")
+    run("cmake", "--install", folder / "build", "--prefix", prefix)
     shutil.rmtree(source)
     shutil.rmtree(folder / "build")
     return prefix

@@ -5,7 +5,7 @@ module dde_errors
    use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: error_type, raise, text
+   public :: check_finite, error_type, raise, text
 
    !> What went wrong, where, the value met and the range allowed.
    type :: error_type
@@ -32,6 +32,23 @@ contains
       allocate (error)
       error%message = message
    end subroutine raise
+
+   !> Refuse values that are not finite.
+   pure subroutine check_finite(name, values, error)
+      !> Words before the number of a value
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: values(:)
+      !> The first value that is not finite
+      type(error_type), allocatable, intent(out) :: error
+      integer :: i
+
+      do i = 1, size(values)
+         if (ieee_is_finite(values(i))) cycle
+         call raise(error, name//"("//text(i)//") = "//text(values(i)) &
+                    //"; a finite number expected")
+         return
+      end do
+   end subroutine check_finite
 
    !> A real number, filled up with blanks: 15 digits, which any decimal keeps in double
    !> precision, without the zeros at their end.

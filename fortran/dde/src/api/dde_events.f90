@@ -7,7 +7,7 @@
 !> the tolerance of zero, dense output may pass zero although the solution does not.
 module dde_events
    use dde_time, only: instant
-   use dde_errors, only: error_type, raise, text
+   use dde_errors, only: check_finite, error_type, raise, text
    use dde_kinds, only: wp
    implicit none (type, external)
    private
@@ -175,7 +175,7 @@ contains
       value = .false.
    end function not_known
 
-   !> Refuse levels of components that are not there.
+   !> Refuse levels of components that are not there, and levels that are not finite.
    pure subroutine check_table(self, n, error)
       class(event_table), intent(in) :: self
       integer, intent(in) :: n
@@ -198,6 +198,7 @@ contains
                     //" of the watcher; 1.."//text(n)//" expected")
          return
       end do
+      call check_finite("integrate: the watcher has level", self%level, error)
    end subroutine check_table
 
    !> Components of the table. An extension may have other functions: nothing is known of those.

@@ -10,9 +10,6 @@ module dde_outcome
    public :: event_met, out_of_memory, reached_end, refused, step_underflow, too_many_steps
    public :: value_not_finite
 
-   !> Steps below this share of the time no longer move a time.
-   real(wp), parameter :: least_step = 1.0e-140_wp
-
    !> Why an integration ended.
    enum, bind(c)
       enumerator :: reached_end, event_met, refused, step_underflow, too_many_steps, &
@@ -51,7 +48,7 @@ module dde_outcome
 contains
 
    !> The limit that forbids another attempt, or `reached_end` if none does.
-   pure integer function limit_met(outcome, last_error, options, h, largest_time) result(reason)
+   pure integer function limit_met(outcome, last_error, options, h, shortest) result(reason)
       !> Counts so far
       type(integration_result), intent(in) :: outcome
       !> Error estimate of the last attempt
@@ -60,11 +57,11 @@ contains
       type(integration_options), intent(in) :: options
       !> Length of the next attempt
       real(wp), intent(in) :: h
-      !> Largest |t| of the integration
-      real(wp), intent(in) :: largest_time
+      !> Length up to which a step is too short
+      real(wp), intent(in) :: shortest
 
       reason = reached_end
-      if (h <= least_step*largest_time) then
+      if (h <= shortest) then
          reason = step_underflow
          if (.not. ieee_is_finite(last_error)) reason = value_not_finite
       else if (outcome%accepted + outcome%rejected >= options%most_steps) then
@@ -82,7 +79,7 @@ contains
       real(wp), intent(in) :: h
       !> Limits
       type(integration_options), intent(in) :: options
-      !> Which value is not finite
+      !> Which value is not finite, or whose tolerance is too small; may be empty
       character(len=*), intent(in) :: culprit
       !> Bytes that could not be allocated
       real(wp), intent(in) :: lacking
@@ -93,16 +90,18 @@ contains
       select case (outcome%reason)
       case (step_underflow)
          why = "the step had to shrink to "//text(h) &
-               //", too small to change the time; a singularity?"
+               //", too small to change the time; "
+         if (len(culprit) == 0) why = why//"a singularity?"
       case (too_many_steps)
          why = text(options%most_steps)//" steps (most_steps) were used up"
+         if (len(culprit) > 0) why = why//"; "
       case (out_of_memory)
          why = "no memory for another "//text(lacking)//" bytes"
       case default
-         why = "a value is not finite at every step length down to "//text(h)//": "//culprit
+         why = "a value is not finite at every step length down to "//text(h)//": "
       end select
       call raise(error, "integrate: stopped at t = "//text(outcome%t)//" of "//text(t_end) &
                  //" after "//text(outcome%accepted)//" steps ("//text(outcome%rejected) &
-                 //" rejected): "//why)
+                 //" rejected): "//why//culprit)
    end subroutine explain
 end module dde_outcome

@@ -7,8 +7,8 @@ module dde_request
    use dde_lapack, only: lapack_is_there
    use dde_problem, only: dde_problem_type
    use dde_sampler, only: sampler_type
-   use dde_time, only: elapsed, instant
-   use dde_errors, only: error_type, raise, text
+   use dde_time, only: elapsed, instant, too_short
+   use dde_errors, only: check_finite, error_type, raise, text
    use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
@@ -19,6 +19,9 @@ module dde_request
    character(len=8), parameter :: implicit_methods(3) = ["radau5  ", "radau9  ", "radau13 "]
    character(len=8), parameter :: methods(6) = [character(len=8) :: "auto", "explicit", "taylor", &
                                                 implicit_methods]
+
+   !> Longest run: times must not overflow.
+   real(wp), parameter :: longest_run = 1.0e307_wp
 
    !> Options.
    type :: integration_options
@@ -85,6 +88,9 @@ contains
 
       call check_problem(problem, error)
       if (.not. allocated(error)) call check_span(t_start, t_end, error, continuation)
+      if (.not. allocated(error)) then
+         call check_delays(problem%lag, too_short(t_start, t_start, t_end), error)
+      end if
       if (.not. allocated(error)) call check_options(problem, options, error)
       goes_on = .false.
       if (present(continuation)) goes_on = allocated(continuation%y)
@@ -132,8 +138,23 @@ contains
       end do
    end subroutine check_problem
 
-   !> Refuse a span that is not finite or not ascending. A continued run starts exactly where the
-   !> earlier one ended.
+   !> Refuse delays that no step resolves.
+   pure subroutine check_delays(lag, shortest, error)
+      !> Delays, and the length up to which a step is too short
+      real(wp), intent(in) :: lag(:), shortest
+      type(error_type), allocatable, intent(out) :: error
+      integer :: k
+
+      do k = 1, size(lag)
+         if (lag(k) > shortest) cycle
+         call raise(error, "integrate: lag("//text(k)//") = "//text(lag(k))//" is no longer than " &
+                    //"the shortest step, "//text(shortest)//"; a longer one expected")
+         return
+      end do
+   end subroutine check_delays
+
+   !> Refuse a span that is not finite, not ascending or too long. A continued run starts exactly
+   !> where the earlier one ended.
    pure subroutine check_span(t_start, t_end, error, continuation)
       real(wp), intent(in) :: t_start, t_end
       type(error_type), allocatable, intent(out) :: error
@@ -145,10 +166,13 @@ contains
          if (present(continuation)) then
             if (allocated(continuation%y)) start%lo = continuation%time(2)
          end if
-         if (elapsed(start, instant(t_end)) >= 0.0_wp) return
+         ! half of each: the difference may overflow
+         if (0.5_wp*t_end - 0.5_wp*t_start <= 0.5_wp*longest_run) then
+            if (elapsed(start, instant(t_end)) >= 0.0_wp) return
+         end if
       end if
-      call raise(error, "integrate: t_end = "//text(t_end)//"; finite and >= "//text(t_start) &
-                 //" expected")
+      call raise(error, "integrate: t_end = "//text(t_end)//"; finite, >= "//text(t_start) &
+                 //" and at most "//text(longest_run)//" later expected")
    end subroutine check_span
 
    !> Refuse tolerances, limits and a method out of range.
@@ -192,12 +216,7 @@ contains
          call raise(error, "integrate: method = 'taylor' for a problem that gives no Taylor " &
                     //"series (analytic = .false.); another method expected")
       else if (allocated(options%break_at)) then
-         do i = 1, size(options%break_at)
-            if (ieee_is_finite(options%break_at(i))) cycle
-            call raise(error, "integrate: break_at("//text(i)//") = "//text(options%break_at(i)) &
-                       //"; a finite time expected")
-            return
-         end do
+         call check_finite("integrate: break_at", options%break_at, error)
       end if
    end subroutine check_options
 

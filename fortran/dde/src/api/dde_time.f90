@@ -4,7 +4,10 @@ module dde_time
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: instant, elapsed, later
+   public :: instant, elapsed, later, too_short
+
+   !> Steps up to this share of the time no longer move a time.
+   real(wp), parameter :: least_step = 1.0e-140_wp
 
    !> A point in time, hi + lo with |lo| at most half a unit in the last place of hi.
    type :: instant
@@ -15,6 +18,14 @@ module dde_time
    end type instant
 
 contains
+
+   !> Length up to which a step is too short, between the start and the end of a run. The end may
+   !> be far beyond the time that the run reaches.
+   pure real(wp) function too_short(start, now, finish) result(length)
+      real(wp), intent(in) :: start, now, finish
+
+      length = least_step*max(abs(start), abs(now), min(abs(finish), 1.0_wp))
+   end function too_short
 
    !> The time `step` after `point` (before it where step is negative).
    elemental function later(point, step) result(moved)

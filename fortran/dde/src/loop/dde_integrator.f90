@@ -3,19 +3,19 @@
 module dde_integrator
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_continuation, only: continuation_type
-   use dde_diagnosis, only: not_finite
+   use dde_diagnosis, only: find_culprit
    use dde_event_search, only: endless, most_places
    use dde_events, only: event_watcher_type
    use dde_methods, only: limiting_delay, longest_step, price_of_trial
    use dde_outcome, only: event_met, explain, integration_result, limit_met, out_of_memory, &
-                          reached_end, value_not_finite
+                          reached_end
    use dde_output, only: deliver
    use dde_problem, only: dde_problem_type
    use dde_request, only: check, integration_options
    use dde_run, only: run_type
    use dde_sampler, only: sampler_type
    use dde_switch, only: switch_type
-   use dde_time, only: elapsed, instant, later
+   use dde_time, only: elapsed, instant, later, too_short
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    implicit none (type, external)
@@ -56,7 +56,8 @@ contains
 
       call check(problem, t_start, t_end, options, error, sampler, watcher, continuation)
       if (allocated(error)) return
-      call run%begin(problem, t_start, t_end, options, lacking, continuation)
+      call run%begin(problem, t_start, t_end, options, lacking, error, continuation)
+      if (allocated(error)) return
       if (lacking > 0.0_wp) then
          outcome%reason = out_of_memory
          outcome%t = t_start
@@ -90,7 +91,7 @@ contains
          end if
          call run%plan(longest, h, goal, landing)
          outcome%reason = limit_met(outcome, error_estimate, options, h, &
-                                    max(abs(t_start), abs(t_end)))
+                                    too_short(t_start, run%now%hi, t_end))
          if (outcome%reason /= reached_end) exit
          if (run%fresh) call run%step%restart(run%context)
          run%fresh = .false.
@@ -150,10 +151,7 @@ contains
       outcome%work = run%context%work%total()
       outcome%factorisations = run%context%work%factorisations
       if (all(outcome%reason /= [reached_end, event_met])) then
-         culprit = ""
-         if (outcome%reason == value_not_finite) then
-            culprit = not_finite(run, h)
-         end if
+         call find_culprit(run, h, outcome%reason, culprit)
          call explain(outcome, t_end, h, options, culprit, lacking, error)
       end if
    end subroutine integrate

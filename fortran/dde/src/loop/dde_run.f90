@@ -5,6 +5,7 @@ module dde_run
    use dde_continuation, only: continuation_type
    use dde_controller, only: controller_type
    use dde_cursor, only: cursor_type
+   use dde_errors, only: check_finite, error_type
    use dde_event_search, only: event_search
    use dde_first_step, only: choose_first_step
    use dde_history, only: history_type, memory_of_past
@@ -61,7 +62,7 @@ module dde_run
 contains
 
    !> Begin, or continue an earlier run.
-   subroutine begin(self, problem, t_start, t_end, options, lacking, continuation)
+   subroutine begin(self, problem, t_start, t_end, options, lacking, error, continuation)
       class(run_type), intent(inout) :: self
       !> The problem, which lives as long as the run
       class(dde_problem_type), intent(in), target :: problem
@@ -69,6 +70,8 @@ contains
       type(integration_options), intent(in) :: options
       !> Bytes that could not be allocated, or 0
       real(wp), intent(out) :: lacking
+      !> What is wrong with values of the problem at the start
+      type(error_type), allocatable, intent(out) :: error
       !> Where an earlier run ended, if one did
       type(continuation_type), intent(in), optional :: continuation
       logical :: continued
@@ -90,24 +93,26 @@ contains
       if (continued) then
          call self%continue_run(instant(t_end), options, lacking, continuation)
       else
-         call self%start_anew(instant(t_start), instant(t_end), options, lacking)
+         call self%start_anew(instant(t_start), instant(t_end), options, lacking, error)
       end if
-      if (lacking > 0.0_wp) return
+      if (lacking > 0.0_wp .or. allocated(error)) return
       if (options%first_step > 0.0_wp) then
          self%h = options%first_step
       else if (.not. self%h > 0.0_wp .and. t_end > t_start) then
          call choose_first_step(self%context, self%step, &
                                 min(t_end - t_start, options%longest_step), self%h)
       end if
+      if (.not. continued) call self%step%check_series(self%context, self%h, error)
    end subroutine begin
 
    !> The first run. Its initial time is a kink, or a jump if a delayed component differs from its
    !> history there.
-   subroutine start_anew(self, start, finish, options, lacking)
+   subroutine start_anew(self, start, finish, options, lacking, error)
       class(run_type), intent(inout) :: self
       type(instant), intent(in) :: start, finish
       type(integration_options), intent(in) :: options
       real(wp), intent(out) :: lacking
+      type(error_type), allocatable, intent(out) :: error
       type(kink_type) :: first
       integer :: k
 
@@ -115,6 +120,8 @@ contains
       associate (context => self%context, problem => self%context%problem)
          call choose_method(problem, options%method, context%tolerance, self%step, lacking)
          if (lacking > 0.0_wp) return
+         call check_finite("integrate: the initial state has y", self%step%y, error)
+         if (allocated(error)) return
          call context%work%set_cost(self%step%constants%evaluation_cost)
          context%past = history_type(problem, start)
          first = kink_type(start)

@@ -3,6 +3,7 @@
 !> steps and stores the polynomials. METHODS.md tells how to write a method.
 module dde_step
    use dde_controller, only: controller_type
+   use dde_errors, only: error_type
    use dde_method_constants, only: method_constants
    use dde_problem, only: dde_problem_type
    use dde_step_context, only: step_context
@@ -38,7 +39,7 @@ module dde_step
       real(wp) :: valid_for = 0.0_wp
    contains
       procedure :: allocate_state, restart, reset, propose, complete, extend, next_length
-      procedure :: slope_here, stiff
+      procedure :: check_series, slope_here, stiff
       procedure(attempt_step), deferred :: attempt
       procedure(give_polynomial), deferred :: interpolant
       procedure(go_to_end), deferred :: advance
@@ -89,6 +90,16 @@ contains
       end associate
       call problem%initial(self%y)
    end subroutine allocate_state
+
+   !> Refuse a series of the problem that is not that of its solution. A method without series has
+   !> nothing to refuse.
+   pure subroutine check_series(self, context, h, error)
+      class(step_type), intent(inout) :: self
+      type(step_context), intent(inout) :: context
+      !> Length proposed for the first step
+      real(wp), intent(in) :: h
+      type(error_type), allocatable, intent(out) :: error
+   end subroutine check_series
 
    !> Evaluate the slope at the start of the step on which the cursor stands.
    pure subroutine restart(self, context)

@@ -7,7 +7,7 @@ module dde_continuation
    use dde_kinks, only: kink_type
    use dde_problem, only: dde_problem_type
    use dde_time, only: elapsed, instant, later
-   use dde_errors, only: error_type, raise, text
+   use dde_errors, only: check_finite, error_type, raise, text
    use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
@@ -67,7 +67,6 @@ contains
       real(wp), intent(in) :: y(:)
       !> No run has ended here, or y is no state
       type(error_type), allocatable, intent(out) :: error
-      integer :: i
 
       if (.not. allocated(self%y)) then
          call raise(error, "change_state: the continuation is empty; one filled by a run expected")
@@ -78,12 +77,8 @@ contains
                     //text(size(self%y))//" equations; "//text(size(self%y))//" expected")
          return
       end if
-      do i = 1, size(y)
-         if (ieee_is_finite(y(i))) cycle
-         call raise(error, "change_state: y("//text(i)//") = "//text(y(i)) &
-                    //"; a finite number expected")
-         return
-      end do
+      call check_finite("change_state: y", y, error)
+      if (allocated(error)) return
       self%kink = reshape([self%kink, self%time], [2, size(self%kink, 2) + 1])
       self%passages = [self%passages, -1]
       self%generation = [self%generation, 0]
@@ -93,7 +88,7 @@ contains
       self%next_step = 0.0_wp
    end subroutine change_state
 
-   !> Refuse a problem that cannot continue from here, and arrays of inconsistent shapes.
+   !> Refuse a problem that cannot continue from here, and arrays that no run leaves.
    pure subroutine check(self, problem, t_start, error)
       class(continuation_type), intent(in) :: self
       class(dde_problem_type), intent(in) :: problem
@@ -119,6 +114,10 @@ contains
                     //text(t_start - self%time(1))//" off the time "//text(self%time(1)) &
                     //" of the continuation; the same expected")
       end if
+      if (.not. allocated(error)) then
+         call check_finite("integrate: the continuation has y", self%y, error)
+      end if
+      if (.not. allocated(error)) call check_steps(self, error)
       if (allocated(error) .or. size(self%step_length) == 0) return
       associate (oldest => instant(self%step_start(1, 1), self%step_start(2, 1)), &
                  origin => instant(self%origin(1), self%origin(2)), &
@@ -133,6 +132,31 @@ contains
          end do
       end associate
    end subroutine check
+
+   !> Refuse steps of no length, and steps that begin after the next one or after the end.
+   pure subroutine check_steps(self, error)
+      type(continuation_type), intent(in) :: self
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: next(2)
+      integer :: i
+      logical :: good
+
+      next = self%time
+      do i = size(self%step_length), 1, -1
+         associate (start => self%step_start(:, i), length => self%step_length(i))
+            good = all(ieee_is_finite([next, start, length]))
+            if (good) good = length > 0.0_wp .and. elapsed(instant(start(1), start(2)), &
+                                                           instant(next(1), next(2))) >= 0.0_wp
+            if (.not. good) then
+               call raise(error, "integrate: step "//text(i)//" of the continuation begins " &
+                          //text(next(1) - start(1))//" before the next, and its length is " &
+                          //text(length)//"; >= 0 and > 0 expected")
+               return
+            end if
+            next = start
+         end associate
+      end do
+   end subroutine check_steps
 
    !> Whether the shapes of the arrays are consistent.
    pure logical function consistent(self) result(value)

@@ -33,7 +33,7 @@ module dde_taylor_series
       !> Whether the series is that of a slow solution, and when to search for one
       type(slow_series) :: slow
    contains
-      procedure :: expand, state, slope
+      procedure :: expand, expand_state, state, slope
    end type taylor_series
 
    interface taylor_series
@@ -68,13 +68,7 @@ contains
       trying = self%slow%holds
       if (trying) call find_slow(self, context, t, scale, rate, y)
       if (self%slow%holds) return
-      if (self%unit*rate > longest_unit) then
-         call self%delayed%change_unit(longest_unit/rate/self%unit)
-         self%unit = longest_unit/rate
-      end if
-      self%coefficients(0, :) = y
-      call context%problem%series(t, self%unit, self%degree, self%delayed%coefficients, &
-                                  self%coefficients)
+      call self%expand_state(context, t, rate, y)
       context%work%evaluations = context%work%evaluations + 1
       call series_reach(self%degree, self%coefficients, scale, self%reach)
       self%reach = self%unit*self%reach
@@ -85,6 +79,24 @@ contains
       call find_slow(self, context, t, scale, rate, y)
       if (.not. self%slow%holds) self%coefficients = self%of_state
    end subroutine expand
+
+   !> The series of the state.
+   pure subroutine expand_state(self, context, t, rate, y)
+      class(taylor_series), intent(inout) :: self
+      type(step_context), intent(in) :: context
+      real(wp), intent(in) :: t
+      !> Relaxation rate
+      real(wp), intent(in) :: rate
+      real(wp), contiguous, intent(in) :: y(:)
+
+      if (self%unit*rate > longest_unit) then
+         call self%delayed%change_unit(longest_unit/rate/self%unit)
+         self%unit = longest_unit/rate
+      end if
+      self%coefficients(0, :) = y
+      call context%problem%series(t, self%unit, self%degree, self%delayed%coefficients, &
+                                  self%coefficients)
+   end subroutine expand_state
 
    !> Take the slow series if it holds.
    pure subroutine find_slow(self, context, t, scale, rate, y)

@@ -4,9 +4,11 @@
 module dde_taylor_step
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    use dde_controller, only: controller_type
+   use dde_errors, only: error_type
    use dde_method_constants, only: method_constants
    use dde_interpolant, only: highest_degree
    use dde_problem, only: dde_problem_type
+   use dde_series_check, only: check_coefficients, check_past
    use dde_step, only: step_type
    use dde_step_context, only: step_context
    use dde_taylor_series, only: taylor_series
@@ -42,7 +44,8 @@ module dde_taylor_step
       !> Time along the series of the present state; negative if its slope was evaluated instead
       real(wp), private :: place = -1.0_wp
    contains
-      procedure :: reset, propose, attempt, interpolant, stiff, next_length, advance, slope_here
+      procedure :: check_series, reset, propose, attempt, interpolant, stiff, next_length, advance
+      procedure :: slope_here
    end type taylor_step_type
 
    interface taylor_step_type
@@ -67,6 +70,28 @@ contains
       allocate (step%nodes(degree), source=0.0_wp)
       step%series = taylor_series(problem, degree)
    end function new_step
+
+   !> Refuse a series of the problem that is not that of its solution, or of its history, at the
+   !> start of a run.
+   pure subroutine check_series(self, context, h, error)
+      class(taylor_step_type), intent(inout) :: self
+      type(step_context), intent(inout) :: context
+      real(wp), intent(in) :: h
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: valid_for
+
+      if (.not. h > 0.0_wp) return
+      associate (series => self%series, t => context%cursor%inside(context%cursor%t))
+         series%unit = h
+         call series%delayed%read_past(context, .false., series%unit, valid_for)
+         call check_past(context, series%unit, series%delayed%coefficients, error)
+         if (allocated(error)) return
+         call context%delayed_values([0.0_wp], self%z)
+         call series%expand_state(context, t, context%problem%relaxation_rate(t, self%y), self%y)
+         call check_coefficients(context, t, series%unit, self%y, self%z(:, 1), self%slope, &
+                                 series%coefficients(1, :), error)
+      end associate
+   end subroutine check_series
 
    !> The slope was evaluated: the last series no longer gives it.
    pure subroutine reset(self)

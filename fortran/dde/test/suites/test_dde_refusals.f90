@@ -3,7 +3,7 @@ module test_dde_refusals
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_positive_inf, ieee_quiet_nan, &
                                             ieee_value
    use dde, only: continuation_type, dde_problem_type, event_table, integrate, &
-                  integration_options, integration_result, refused, table_sampler
+                  integration_options, integration_result, methods, refused, table_sampler
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_close, expect_failure
    use dde_kinds, only: wp
@@ -22,6 +22,7 @@ contains
 
       testsuite = [new_unittest("nothing to refuse", test_good), &
                    new_unittest("problems", test_problems), &
+                   new_unittest("first states", test_first_states), &
                    new_unittest("ends", test_ends), &
                    new_unittest("options", test_options), &
                    new_unittest("tolerances of components", test_each), &
@@ -45,7 +46,7 @@ contains
    !> At least one equation; delays that are positive numbers, each of one component.
    subroutine test_problems(error)
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: lags(4)
+      real(wp) :: lags(5)
       type(wille_baker) :: problem
       integer :: i
 
@@ -62,7 +63,7 @@ contains
       call refuse(error, "not allocated", problem)
       call refuse(error, "3 delays for 2 delayed components", &
                   wille_baker(lag=[1.0_wp, 0.2_wp, 0.5_wp]))
-      lags = [0.0_wp, -1.5_wp, not_a_number(), infinity()]
+      lags = [0.0_wp, -1.5_wp, not_a_number(), infinity(), 1.0e-150_wp]
       do i = 1, size(lags)
          call refuse(error, "lag(2) = "//text(lags(i)), wille_baker(lag=[1.0_wp, lags(i)]))
       end do
@@ -75,7 +76,23 @@ contains
       call refuse(error, "lower = 1, upper = -1; both >= 0 expected", problem)
    end subroutine test_problems
 
-   !> The end is a finite number after the start, and the start is finite.
+   !> The first state is finite.
+   subroutine test_first_states(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: bad(2)
+      integer :: i, j
+
+      bad = [not_a_number(), -infinity()]
+      do i = 1, size(bad)
+         do j = 1, size(methods)
+            call refuse(error, "the initial state has y(2) = "//text(bad(i))//"; a finite number", &
+                        wille_baker(first=[1.0_wp, bad(i), 1.0_wp]), &
+                        integration_options(methods(j)))
+         end do
+      end do
+   end subroutine test_first_states
+
+   !> The end is a finite number after the start, and the start is finite. Their distance is finite.
    subroutine test_ends(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: ends(3)
@@ -87,6 +104,8 @@ contains
       end do
       call refuse(error, ">= NaN", t_start=not_a_number())
       call refuse(error, ">= -Inf", t_start=-infinity())
+      call refuse(error, "t_end = 1.0E+308; finite, >= -1.0E+308 and at most 1.0E+307 later", &
+                  t_start=-1.0e308_wp, t_end=1.0e308_wp)
    end subroutine test_ends
 
    !> Tolerances, limits and the method are in their ranges.
@@ -117,7 +136,7 @@ contains
       call refuse(error, "method = 'taylor' for a problem that gives no Taylor series " &
                   //"(analytic = .false.)", enzyme(), integration_options("taylor"))
       options%break_at = [1.0_wp, not_a_number()]
-      call refuse(error, "break_at(2) = NaN; a finite time expected", options=options)
+      call refuse(error, "break_at(2) = NaN; a finite number expected", options=options)
    end subroutine test_options
 
    !> As many tolerances as equations, each one that can be.
@@ -192,15 +211,19 @@ contains
                   watcher=event_table([4], [0.5_wp], [1]))
       call refuse(error, "component(2) = 0", &
                   watcher=event_table([1, 0], [0.5_wp, 0.5_wp], [1, 1]))
+      call refuse(error, "the watcher has level(1) = NaN; a finite number expected", &
+                  watcher=event_table([1], [not_a_number()], [1]))
       call refuse(error, "2 levels, 1 directions", watcher=event_table([1], [0.5_wp, 0.5_wp], [1]))
    end subroutine test_watchers
 
-   !> Another time, other equations, other components, a past too short, arrays that do not fit.
+   !> Another time, other equations, other components, a past too short, arrays that do not fit or
+   !> that no run leaves.
    subroutine test_continuations(error)
       type(error_type), allocatable, intent(out) :: error
       type(continuation_type) :: continuation, spoilt
       type(integration_result) :: outcome
       type(infection) :: problem
+      integer :: i
 
       problem = infection()
       call run(error, problem, 0.0_wp, 20.0_wp, at_tolerance(1.0e-9_wp), outcome, &
@@ -210,6 +233,21 @@ contains
       spoilt = continuation
       deallocate (spoilt%nodes)
       call refuse(error, "arrays of the continuation do not fit", problem, continuation=spoilt)
+      spoilt = continuation
+      spoilt%y(3) = not_a_number()
+      call refuse(error, "the continuation has y(3) = NaN", problem, continuation=spoilt)
+      do i = -1, 0
+         spoilt = continuation
+         spoilt%step_length(2) = real(i, wp)
+         call refuse(error, "step 2 of the continuation", problem, continuation=spoilt)
+         call refuse(error, "its length is "//text(real(i, wp)), problem, continuation=spoilt)
+      end do
+      spoilt = continuation
+      spoilt%step_start(:, 2) = spoilt%step_start(:, 4)
+      call refuse(error, "step 2 of the continuation", problem, continuation=spoilt)
+      spoilt = continuation
+      spoilt%step_start(1, size(spoilt%step_length)) = 20.5_wp
+      call refuse(error, "begins -0.5 before the next", problem, continuation=spoilt)
       problem%component = [2, 3]
       call refuse(error, "keeps components 2, delayed are 2 3", problem, continuation=continuation)
       problem%component = [2, 2]

@@ -1,15 +1,15 @@
 !> Why an integration ends, and that time and state say how far it came.
 module test_dde_stops
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use dde, only: integrate, integration_options, integration_result, methods, reached_end, &
-                  step_underflow, table_sampler, too_many_steps, value_not_finite
+   use dde, only: event_table, integrate, integration_options, integration_result, methods, &
+                  reached_end, step_underflow, table_sampler, too_many_steps, value_not_finite
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_failure
    use dde_kinds, only: int64, wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use piecewise_problems, only: jumping_history
    use solving, only: at_tolerance, run
-   use test_problems, only: fill
+   use test_problems, only: fill, sine
    use undelayed_problems, only: blow_up, decay, falls_out, swing
    implicit none (type, external)
    private
@@ -21,6 +21,8 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("step underflow", test_step_underflow), &
+                   new_unittest("tolerance below rounding", test_below_rounding), &
+                   new_unittest("an end far away", test_far_end), &
                    new_unittest("too many steps", test_too_many_steps), &
                    new_unittest("value not finite", test_value_not_finite), &
                    new_unittest("value not finite from the start", test_not_finite_at_start), &
@@ -41,7 +43,7 @@ contains
          options = at_tolerance(1.0e-9_wp, methods(i))
          call integrate(blow_up(), 0.0_wp, 2.0_wp, options, outcome, failure)
          call expect(error, outcome%reason == step_underflow, "the reason is `step_underflow`")
-         call expect_failure(error, failure, "the step had to shrink")
+         call expect_failure(error, failure, "too small to change the time; a singularity?")
          call expect_close(error, outcome%t, 1.0_wp, 1.0e-8_wp, "t by "//methods(i))
          options%most_steps = 3
          call integrate(blow_up(), 0.0_wp, 0.9_wp, options, outcome, failure)
@@ -53,6 +55,42 @@ contains
          call expect_between(error, outcome%y(1), 1.0e15_wp, huge(1.0_wp), "y")
       end do
    end subroutine test_step_underflow
+
+   !> If no step meets the tolerance because of rounding errors, the message says so: of a value,
+   !> and of a slope where the value is 0.
+   subroutine test_below_rounding(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_options) :: options
+      type(integration_result) :: outcome
+      integer :: i
+
+      do i = 1, size(methods)
+         options = integration_options(methods(i), relative=0.0_wp, absolute=1.0e-300_wp, &
+                                       most_steps=1000_int64)
+         call integrate(swing(), 0.0_wp, 2.0_wp, options, outcome, failure)
+         call expect_failure(error, failure, "the tolerance 1.0E-300 of y(1) = 1.0 is below its " &
+                             //"rounding error 2.22044604925031E-016")
+      end do
+      options%method = "explicit"
+      call integrate(sine(), 0.0_wp, 2.0_wp, options, outcome, failure)
+      call expect_failure(error, failure, "the tolerance 1.0E-300 of y(1) = 0.0 is below its")
+   end subroutine test_below_rounding
+
+   !> y = sin t up to 1/2, where an event ends the run, with its end far away.
+   subroutine test_far_end(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(event_table) :: table
+      type(integration_result) :: outcome
+      integer :: i
+
+      do i = 1, size(methods)
+         table = event_table([1], [0.5_wp], [1], terminal=[.true.])
+         call run(error, sine(), 0.0_wp, 1.0e307_wp, at_tolerance(1.0e-10_wp, methods(i)), &
+                  outcome, watcher=table)
+         call expect_close(error, outcome%t, asin(0.5_wp), 1.0e-8_wp, "t by "//methods(i))
+      end do
+   end subroutine test_far_end
 
    !> The steps run out: time and state belong together.
    subroutine test_too_many_steps(error)
