@@ -105,7 +105,7 @@ contains
       case ("taylor")
          allocate (step, source=taylor_step_type(problem, tolerance%level))
       case default
-         allocate (step, source=explicit_step_type(problem))
+         allocate (step, source=explicit_step_type(problem, tolerance%level))
       end select
    end subroutine choose_method
 

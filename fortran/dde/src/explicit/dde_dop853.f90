@@ -1,51 +1,53 @@
-!> The arithmetic of the explicit pair 8(5,3) of Dormand and Prince and of its dense output of order
-!> 7 (Hairer, Norsett and Wanner 1993, sec. II.5, II.6 and II.10). Components are stored in blocks
-!> of a few lanes. The number is known to the compiler, which therefore turns the sums over stages
-!> into vector instructions without a loop.
-module dde_explicit_stages
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+!> The explicit pair 8(5,3) of Dormand and Prince with its dense output of order 7 (Hairer, Norsett
+!> and Wanner 1993, sec. II.5, II.6 and II.10).
+module dde_dop853
    use dde_dop853_tableau
+   use dde_explicit_pair, only: add, explicit_pair, lanes, slope_count
    use dde_step_context, only: step_context
    use dde_tolerance, only: scaled_norm
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: dense_coefficients, dense_places, dense_stages, error_853, evaluate, lanes, places
-   public :: slope_count, take_stages
+   public :: dop853
 
-   !> Components in a block.
-   integer, parameter :: lanes = 4
-   !> Slopes of a step and its dense output.
-   integer, parameter :: slope_count = 16
-   !> Places of stages 2 to 12 in the step, ascending: the past is read in one direction.
-   real(wp), parameter :: places(11) = [c2, c3, c4, c7, c5, c8, c6, c10, c9, c11, 1.0_wp]
    !> Largest embedded errors of orders 3 and 5 for which the estimate is trusted, over
    !> tolerance**(1/2) and tolerance**(3/4). They are a few times the values of accurate steps.
    real(wp), parameter :: largest_e3 = 50.0_wp, largest_e5 = 3.0_wp
-   !> Places of stages 14 to 16, those of the dense output.
-   real(wp), parameter :: dense_places(3) = [c14, c15, c16]
+
+   !> The pair. Slope 13 is that at the end, slopes 14 to 16 serve the dense output.
+   type, extends(explicit_pair) :: dop853
+   contains
+      procedure :: take_stages, take_dense_stages, find_error, find_coefficients
+   end type dop853
+
+   interface dop853
+      module procedure :: new_pair
+   end interface dop853
 
 contains
 
+   !> Its constants. The explicit method is stable up to 6 (Hairer and Wanner 1996, sec. IV.2).
+   pure function new_pair() result(pair)
+      type(dop853) :: pair
+
+      pair%order = 8
+      pair%error_order = 8
+      pair%stages = 12
+      pair%limited_by_stability = 2.5_wp
+      pair%places = [c2, c3, c4, c7, c5, c8, c6, c10, c9, c11, 1.0_wp]
+      pair%dense_places = [c14, c15, c16]
+      pair%nodes = real([0, 1, 0, 1, 0, 1, 0], wp)
+   end function new_pair
+
    !> Stages 2 to 12 and the state at the end of the step.
-   pure subroutine take_stages(context, h, blocks, y, z, k, stage, last_stage, y_new, finite)
-      !> The context of the step
+   pure subroutine take_stages(self, context, h, blocks, y, z, k, stage, y_new, finite)
+      class(dop853), intent(in) :: self
       type(step_context), intent(inout) :: context
-      !> Length of the step
       real(wp), intent(in) :: h
-      !> Number of blocks of lanes
       integer, intent(in) :: blocks
-      !> State at the start
-      real(wp), intent(in) :: y(lanes, blocks)
-      !> Delayed values at `places`
-      real(wp), intent(in) :: z(size(context%problem%lag), size(places))
-      !> Slopes, the first known
+      real(wp), intent(in) :: y(lanes, blocks), z(size(context%problem%lag), size(self%places))
       real(wp), intent(inout) :: k(lanes, blocks, slope_count)
-      !> Arguments of the current and of the last stage
-      real(wp), intent(inout) :: stage(lanes, blocks), last_stage(lanes, blocks)
-      !> State at the end
-      real(wp), intent(inout) :: y_new(lanes, blocks)
-      !> Whether all slopes are finite
+      real(wp), intent(inout) :: stage(lanes, blocks), y_new(lanes, blocks)
       logical, intent(inout) :: finite
       real(wp) :: t, t_end
 
@@ -78,28 +80,19 @@ contains
                      + a12_7*k(:, :, 7) + a12_8*k(:, :, 8) + a12_9*k(:, :, 9) &
                      + a12_10*k(:, :, 10))
       call add(context, t_end, stage, h*a12_11, k(:, :, 11), z(:, 11), k(:, :, 12), finite)
-      last_stage = stage
       y_new = y + h*(b1*k(:, :, 1) + b6*k(:, :, 6) + b7*k(:, :, 7) + b8*k(:, :, 8) &
                      + b9*k(:, :, 9) + b10*k(:, :, 10) + b11*k(:, :, 11) + b12*k(:, :, 12))
    end subroutine take_stages
 
    !> Slopes 14 to 16, for the dense output of an accepted step.
-   pure subroutine dense_stages(context, h, blocks, y, z, k, stage, finite)
-      !> The context of the step
+   pure subroutine take_dense_stages(self, context, h, blocks, y, z, k, stage, finite)
+      class(dop853), intent(in) :: self
       type(step_context), intent(inout) :: context
-      !> Length of the step
       real(wp), intent(in) :: h
-      !> Number of blocks of lanes
       integer, intent(in) :: blocks
-      !> State at the start
-      real(wp), intent(in) :: y(lanes, blocks)
-      !> Delayed values at `dense_places`
-      real(wp), intent(in) :: z(size(context%problem%lag), size(dense_places))
-      !> Slopes, the first 13 known
-      real(wp), intent(inout) :: k(lanes, blocks, slope_count)
-      !> Argument of the current stage
-      real(wp), intent(inout) :: stage(lanes, blocks)
-      !> Whether all slopes are finite
+      real(wp), intent(in) :: y(lanes, blocks), z(size(context%problem%lag), &
+                              size(self%dense_places))
+      real(wp), intent(inout) :: k(lanes, blocks, slope_count), stage(lanes, blocks)
       logical, intent(inout) :: finite
       real(wp) :: t
 
@@ -113,83 +106,37 @@ contains
       stage = y + h*(a16_1*k(:, :, 1) + a16_6*k(:, :, 6) + a16_7*k(:, :, 7) + a16_8*k(:, :, 8) &
                      + a16_9*k(:, :, 9) + a16_13*k(:, :, 13) + a16_14*k(:, :, 14))
       call add(context, t + c16*h, stage, h*a16_15, k(:, :, 15), z(:, 3), k(:, :, 16), finite)
-   end subroutine dense_stages
-
-   !> Add `weight` times the newest slope to a stage and evaluate it, unless an earlier slope was
-   !> not finite. The addition is scalar: the evaluation has just stored the slope number by number,
-   !> and a vector load would wait until all of them are in the cache.
-   pure subroutine add(context, t, stage, weight, newest, z, slope, finite)
-      type(step_context), intent(inout) :: context
-      real(wp), intent(in) :: t
-      !> State of the stage, completed here
-      real(wp), intent(inout) :: stage(context%problem%n)
-      real(wp), intent(in) :: weight, newest(context%problem%n), z(size(context%problem%lag))
-      real(wp), intent(inout) :: slope(context%problem%n)
-      logical, intent(inout) :: finite
-
-      stage = stage + weight*newest
-      call evaluate(context, t, stage, z, slope, finite)
-   end subroutine add
-
-   !> Slope at time `t` in state `y`, unless an earlier slope of this step was not finite.
-   pure subroutine evaluate(context, t, y, z, slope, finite)
-      !> The context of the step
-      type(step_context), intent(inout) :: context
-      !> Time
-      real(wp), intent(in) :: t
-      !> State
-      real(wp), intent(in) :: y(context%problem%n)
-      !> Delayed values
-      real(wp), intent(in) :: z(size(context%problem%lag))
-      !> Slope
-      real(wp), intent(inout) :: slope(context%problem%n)
-      !> Whether all slopes so far are finite
-      logical, intent(inout) :: finite
-
-      if (.not. finite) return
-      call context%evaluate(t, y, z, slope)
-      finite = all(ieee_is_finite(slope))
-   end subroutine evaluate
+   end subroutine take_dense_stages
 
    !> The largest e5^2/sqrt(e5^2 + 0.01 e3^2) of all components, with e3 and e5 over the tolerance
    !> of the component (Hairer, Norsett and Wanner 1993, eq. (II.10.17), for each component alone:
    !> a large e3 of one must not hide the e5 of another). It assumes that e3 is of size h^4 and e5
    !> of size h^6. In a step far too long for that e5 can be small by chance while e3 is large.
    !> Therefore each of them has a bound of its own.
-   pure subroutine error_853(n, blocks, k, h, scale, tolerance, e3, e5, error)
-      !> Number of equations
-      integer, intent(in) :: n
-      !> Number of blocks of lanes
-      integer, intent(in) :: blocks
-      !> Slopes
-      real(wp), intent(in) :: k(lanes, blocks, slope_count)
-      !> Length of the step
-      real(wp), intent(in) :: h
-      !> Tolerance of each component, shape (n)
-      real(wp), intent(in) :: scale(n)
-      !> Tolerance level
-      real(wp), intent(in) :: tolerance
-      !> Errors of the embedded methods
-      real(wp), intent(out) :: e3(lanes, blocks), e5(lanes, blocks)
-      !> Estimated error in units of the tolerance
-      real(wp), intent(out) :: error
+   pure subroutine find_error(self, n, blocks, k, h, scale, tolerance, embedded, error)
+      class(dop853), intent(in) :: self
+      integer, intent(in) :: n, blocks
+      real(wp), intent(in) :: k(lanes, blocks, slope_count), h, scale(n), tolerance
+      real(wp), intent(out) :: embedded(lanes, blocks, 2), error
       real(wp) :: norm3, norm5
 
-      e3 = h*((b1 - bhh1)*k(:, :, 1) + b6*k(:, :, 6) + b7*k(:, :, 7) + b8*k(:, :, 8) &
-              + (b9 - bhh2)*k(:, :, 9) + b10*k(:, :, 10) + b11*k(:, :, 11) &
-              + (b12 - bhh3)*k(:, :, 12))
-      e5 = h*(er1*k(:, :, 1) + er6*k(:, :, 6) + er7*k(:, :, 7) + er8*k(:, :, 8) &
-              + er9*k(:, :, 9) + er10*k(:, :, 10) + er11*k(:, :, 11) + er12*k(:, :, 12))
-      norm3 = scaled_norm(n, e3, scale)
-      norm5 = scaled_norm(n, e5, scale)
-      error = huge(1.0_wp)
-      if (norm3 < error .and. norm5 < error) then
-         associate (root => sqrt(tolerance))
-            error = max(combine(n, e3, e5, scale), norm3*root/largest_e3, &
-                        norm5*sqrt(root)/largest_e5)
-         end associate
-      end if
-   end subroutine error_853
+      associate (e3 => embedded(:, :, 2), e5 => embedded(:, :, 1))
+         e3 = h*((b1 - bhh1)*k(:, :, 1) + b6*k(:, :, 6) + b7*k(:, :, 7) + b8*k(:, :, 8) &
+                 + (b9 - bhh2)*k(:, :, 9) + b10*k(:, :, 10) + b11*k(:, :, 11) &
+                 + (b12 - bhh3)*k(:, :, 12))
+         e5 = h*(er1*k(:, :, 1) + er6*k(:, :, 6) + er7*k(:, :, 7) + er8*k(:, :, 8) &
+                 + er9*k(:, :, 9) + er10*k(:, :, 10) + er11*k(:, :, 11) + er12*k(:, :, 12))
+         norm3 = scaled_norm(n, e3, scale)
+         norm5 = scaled_norm(n, e5, scale)
+         error = huge(1.0_wp)
+         if (norm3 < error .and. norm5 < error) then
+            associate (root => sqrt(tolerance))
+               error = max(combine(n, e3, e5, scale), norm3*root/largest_e3, &
+                           norm5*sqrt(root)/largest_e5)
+            end associate
+         end if
+      end associate
+   end subroutine find_error
 
    !> The largest e5^2/sqrt(e5^2 + 0.01 e3^2), with e3 and e5 over `scale`.
    pure real(wp) function combine(n, e3, e5, scale) result(error)
@@ -210,17 +157,10 @@ contains
    end function combine
 
    !> Newton coefficients of one component's dense output over the nodes 0, 1, 0, 1, 0, 1, 0.
-   pure subroutine dense_coefficients(k, h, y, y_new, a)
-      !> Slopes of the component
-      real(wp), intent(in) :: k(slope_count)
-      !> Length of the step
-      real(wp), intent(in) :: h
-      !> The component at the start of the step
-      real(wp), intent(in) :: y
-      !> The component at its end
-      real(wp), intent(in) :: y_new
-      !> Newton coefficients
-      real(wp), intent(out) :: a(0:7)
+   pure subroutine find_coefficients(self, k, h, y, y_new, a)
+      class(dop853), intent(in) :: self
+      real(wp), intent(in) :: k(slope_count), h, y, y_new
+      real(wp), intent(out) :: a(0:size(self%nodes))
       real(wp) :: rise
 
       rise = y_new - y
@@ -240,5 +180,5 @@ contains
       a(7) = -h*(d71*k(1) + d76*k(6) + d77*k(7) + d78*k(8) + d79*k(9) + d7_10*k(10) &
                  + d7_11*k(11) + d7_12*k(12) + d7_13*k(13) + d7_14*k(14) + d7_15*k(15) &
                  + d7_16*k(16))
-   end subroutine dense_coefficients
-end module dde_explicit_stages
+   end subroutine find_coefficients
+end module dde_dop853

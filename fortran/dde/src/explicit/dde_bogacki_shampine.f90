@@ -1,0 +1,183 @@
+!> The explicit pair 5(4) of Bogacki and Shampine (1996, "An efficient Runge-Kutta (4,5) pair",
+!> Comput. Math. Applic. 32, 15), the estimate without the slope at the end. Its dense output of
+!> order 4 takes no further stages: the cubic Hermite polynomial, and a multiple of s**2 (1 - s)**2.
+module dde_bogacki_shampine
+   use dde_explicit_pair, only: add, explicit_pair, lanes, slope_count
+   use dde_step_context, only: step_context
+   use dde_tolerance, only: scaled_norm
+   use dde_kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: bogacki_shampine
+
+   !> Times of stages 2 to 6; that of stage 7 is 1
+   real(wp), parameter :: &
+      c2 = 1.0_wp/6.0_wp, &
+      c3 = 2.0_wp/9.0_wp, &
+      c4 = 3.0_wp/7.0_wp, &
+      c5 = 2.0_wp/3.0_wp, &
+      c6 = 0.75_wp
+
+   !> Row 2
+   real(wp), parameter :: &
+      a21 = 1.0_wp/6.0_wp
+
+   !> Row 3
+   real(wp), parameter :: &
+      a31 = 2.0_wp/27.0_wp, &
+      a32 = 4.0_wp/27.0_wp
+
+   !> Row 4
+   real(wp), parameter :: &
+      a41 = 183.0_wp/1372.0_wp, &
+      a42 = -162.0_wp/343.0_wp, &
+      a43 = 1053.0_wp/1372.0_wp
+
+   !> Row 5
+   real(wp), parameter :: &
+      a51 = 68.0_wp/297.0_wp, &
+      a52 = -4.0_wp/11.0_wp, &
+      a53 = 42.0_wp/143.0_wp, &
+      a54 = 1960.0_wp/3861.0_wp
+
+   !> Row 6
+   real(wp), parameter :: &
+      a61 = 597.0_wp/22528.0_wp, &
+      a62 = 81.0_wp/352.0_wp, &
+      a63 = 63099.0_wp/585728.0_wp, &
+      a64 = 58653.0_wp/366080.0_wp, &
+      a65 = 4617.0_wp/20480.0_wp
+
+   !> Row 7
+   real(wp), parameter :: &
+      a71 = 174197.0_wp/959244.0_wp, &
+      a72 = -30942.0_wp/79937.0_wp, &
+      a73 = 8152137.0_wp/19744439.0_wp, &
+      a74 = 666106.0_wp/1039181.0_wp, &
+      a75 = -29421.0_wp/29068.0_wp, &
+      a76 = 482048.0_wp/414219.0_wp
+
+   !> Weights of the end
+   real(wp), parameter :: &
+      b1 = 587.0_wp/8064.0_wp, &
+      b3 = 4440339.0_wp/15491840.0_wp, &
+      b4 = 24353.0_wp/124800.0_wp, &
+      b5 = 387.0_wp/44800.0_wp, &
+      b6 = 2152.0_wp/5985.0_wp, &
+      b7 = 7267.0_wp/94080.0_wp
+
+   !> Those less the weights of the embedded method of order 4
+   real(wp), parameter :: &
+      e1 = -3.0_wp/1280.0_wp, &
+      e3 = 6561.0_wp/632320.0_wp, &
+      e4 = -343.0_wp/20800.0_wp, &
+      e5 = 243.0_wp/12800.0_wp, &
+      e6 = -1.0_wp/95.0_wp
+
+   !> Dense output: of the weights that give order 4, those with the least error of order 5, in the
+   !> mean square over all trees and over the step
+   real(wp), parameter :: &
+      d1 = -11269.0_wp/8064.0_wp, &
+      d3 = 7254279.0_wp/3098368.0_wp, &
+      d4 = 110789.0_wp/224640.0_wp, &
+      d5 = -1161.0_wp/8960.0_wp, &
+      d6 = -9512.0_wp/3591.0_wp, &
+      d7 = -7267.0_wp/6272.0_wp, &
+      d8 = 5.0_wp/2.0_wp
+
+   !> The pair. Slope 8 is that at the end.
+   type, extends(explicit_pair) :: bogacki_shampine
+   contains
+      procedure :: take_stages, take_dense_stages, find_error, find_coefficients
+   end type bogacki_shampine
+
+   interface bogacki_shampine
+      module procedure :: new_pair
+   end interface bogacki_shampine
+
+contains
+
+   !> Its constants. The explicit method is stable up to 4.
+   pure function new_pair() result(pair)
+      type(bogacki_shampine) :: pair
+
+      pair%order = 5
+      pair%error_order = 5
+      pair%stages = 7
+      pair%limited_by_stability = 1.75_wp
+      pair%places = [c2, c3, c4, c5, c6, 1.0_wp]
+      allocate (pair%dense_places(0))
+      pair%nodes = real([0, 1, 0, 1], wp)
+   end function new_pair
+
+   !> Stages 2 to 7 and the state at the end of the step.
+   pure subroutine take_stages(self, context, h, blocks, y, z, k, stage, y_new, finite)
+      class(bogacki_shampine), intent(in) :: self
+      type(step_context), intent(inout) :: context
+      real(wp), intent(in) :: h
+      integer, intent(in) :: blocks
+      real(wp), intent(in) :: y(lanes, blocks), z(size(context%problem%lag), size(self%places))
+      real(wp), intent(inout) :: k(lanes, blocks, slope_count)
+      real(wp), intent(inout) :: stage(lanes, blocks), y_new(lanes, blocks)
+      logical, intent(inout) :: finite
+      real(wp) :: t, t_end
+
+      t = context%cursor%inside(context%cursor%t)
+      t_end = context%cursor%inside(context%cursor%t + h)
+      stage = y
+      call add(context, t + c2*h, stage, h*a21, k(:, :, 1), z(:, 1), k(:, :, 2), finite)
+      stage = y + h*(a31*k(:, :, 1))
+      call add(context, t + c3*h, stage, h*a32, k(:, :, 2), z(:, 2), k(:, :, 3), finite)
+      stage = y + h*(a41*k(:, :, 1) + a42*k(:, :, 2))
+      call add(context, t + c4*h, stage, h*a43, k(:, :, 3), z(:, 3), k(:, :, 4), finite)
+      stage = y + h*(a51*k(:, :, 1) + a52*k(:, :, 2) + a53*k(:, :, 3))
+      call add(context, t + c5*h, stage, h*a54, k(:, :, 4), z(:, 4), k(:, :, 5), finite)
+      stage = y + h*(a61*k(:, :, 1) + a62*k(:, :, 2) + a63*k(:, :, 3) + a64*k(:, :, 4))
+      call add(context, t + c6*h, stage, h*a65, k(:, :, 5), z(:, 5), k(:, :, 6), finite)
+      stage = y + h*(a71*k(:, :, 1) + a72*k(:, :, 2) + a73*k(:, :, 3) + a74*k(:, :, 4) &
+                     + a75*k(:, :, 5))
+      call add(context, t_end, stage, h*a76, k(:, :, 6), z(:, 6), k(:, :, 7), finite)
+      y_new = y + h*(b1*k(:, :, 1) + b3*k(:, :, 3) + b4*k(:, :, 4) + b5*k(:, :, 5) &
+                     + b6*k(:, :, 6) + b7*k(:, :, 7))
+   end subroutine take_stages
+
+   !> There are none.
+   pure subroutine take_dense_stages(self, context, h, blocks, y, z, k, stage, finite)
+      class(bogacki_shampine), intent(in) :: self
+      type(step_context), intent(inout) :: context
+      real(wp), intent(in) :: h
+      integer, intent(in) :: blocks
+      real(wp), intent(in) :: y(lanes, blocks), z(size(context%problem%lag), &
+                              size(self%dense_places))
+      real(wp), intent(inout) :: k(lanes, blocks, slope_count), stage(lanes, blocks)
+      logical, intent(inout) :: finite
+   end subroutine take_dense_stages
+
+   !> The largest error of the embedded method.
+   pure subroutine find_error(self, n, blocks, k, h, scale, tolerance, embedded, error)
+      class(bogacki_shampine), intent(in) :: self
+      integer, intent(in) :: n, blocks
+      real(wp), intent(in) :: k(lanes, blocks, slope_count), h, scale(n), tolerance
+      real(wp), intent(out) :: embedded(lanes, blocks, 2), error
+
+      associate (e => embedded(:, :, 1))
+         e = h*(e1*k(:, :, 1) + e3*k(:, :, 3) + e4*k(:, :, 4) + e5*k(:, :, 5) + e6*k(:, :, 6))
+      end associate
+      error = scaled_norm(n, embedded, scale)
+   end subroutine find_error
+
+   !> Newton coefficients of one component's dense output over the nodes 0, 1, 0, 1.
+   pure subroutine find_coefficients(self, k, h, y, y_new, a)
+      class(bogacki_shampine), intent(in) :: self
+      real(wp), intent(in) :: k(slope_count), h, y, y_new
+      real(wp), intent(out) :: a(0:size(self%nodes))
+      real(wp) :: rise
+
+      rise = y_new - y
+      a(0) = y
+      a(1) = rise
+      a(2) = rise - h*k(1)
+      a(3) = h*(k(1) + k(8)) - 2.0_wp*rise
+      a(4) = h*(d1*k(1) + d3*k(3) + d4*k(4) + d5*k(5) + d6*k(6) + d7*k(7) + d8*k(8))
+   end subroutine find_coefficients
+end module dde_bogacki_shampine
