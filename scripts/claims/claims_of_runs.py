@@ -7,7 +7,7 @@ import numpy as np
 from scripts.claims.claims_results import Finding, Results, decided, short
 from scripts.claims.declare import Gamma, among, claim, number, reads, says, tested_with
 
-METHODS = ["auto", "explicit", "taylor", "radau5", "radau9", "radau13"]
+METHODS = ["auto", "explicit", "bs5", "dop853", "taylor", "radau5", "radau9", "radau13"]
 Method = Annotated[str, among("method of a run", METHODS)]
 Distance = Annotated[float, number("distance from (0, 0, 1) up to which a run has settled there")]
 

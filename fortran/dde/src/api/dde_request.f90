@@ -17,8 +17,8 @@ module dde_request
    !> Methods. `taylor` is for problems that give their series. `auto` changes between it (the
    !> explicit pair for other problems) and an implicit method.
    character(len=8), parameter :: implicit_methods(3) = ["radau5  ", "radau9  ", "radau13 "]
-   character(len=8), parameter :: methods(6) = [character(len=8) :: "auto", "explicit", "taylor", &
-                                                implicit_methods]
+   character(len=8), parameter :: methods(8) = [character(len=8) :: "auto", "explicit", "bs5", &
+                                                "dop853", "taylor", implicit_methods]
 
    !> Longest run: times must not overflow.
    real(wp), parameter :: longest_run = 1.0e307_wp

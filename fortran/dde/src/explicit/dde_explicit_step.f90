@@ -1,5 +1,5 @@
-!> One step of an explicit Runge-Kutta pair: 5(4) at loose tolerances, else 8(5,3). It is at most as
-!> long as the shortest delay, so that all delayed values lie in the past.
+!> One step of an explicit Runge-Kutta pair. It is at most as long as the shortest delay, so that
+!> all delayed values lie in the past.
 module dde_explicit_step
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    use dde_bogacki_shampine, only: bogacki_shampine
@@ -13,9 +13,6 @@ module dde_explicit_step
    implicit none (type, external)
    private
    public :: explicit_step_type
-
-   !> Tolerance from which on the pair is 5(4).
-   real(wp), parameter :: loose = 1.0e-6_wp
 
    !> Stages of the current step. Components fill blocks of lanes; unused lanes of the last are 0.
    type, extends(step_type) :: explicit_step_type
@@ -46,19 +43,19 @@ module dde_explicit_step
 contains
 
    !> Storage, and the state at the initial time.
-   pure function new_step(problem, tolerance) result(step)
+   pure function new_step(problem, name) result(step)
       class(dde_problem_type), intent(in) :: problem
-      !> Relative or absolute tolerance, the larger
-      real(wp), intent(in) :: tolerance
+      !> Name of the pair
+      character(len=*), intent(in) :: name
       type(explicit_step_type) :: step
       integer :: blocks
 
-      if (tolerance >= loose) then
+      if (name == "bs5") then
          allocate (step%pair, source=bogacki_shampine())
       else
          allocate (step%pair, source=dop853())
       end if
-      step%constants = method_constants(name="explicit", order=step%pair%order, &
+      step%constants = method_constants(name=name, order=step%pair%order, &
                                         error_order=step%pair%error_order)
       call step%allocate_state(problem)
       step%nodes = step%pair%nodes

@@ -17,9 +17,10 @@ module dde_methods
    public :: choose_method, limiting_delay, longest_step, matching_method
    public :: price_of_trial
 
-   !> Tolerance from which on `auto` takes Radau of order 5, and below which order 13; in between
-   !> order 9.
-   real(wp), parameter :: loose = 3.0e-5_wp, tight = 1.0e-11_wp
+   !> Tolerances from which on `explicit` is the pair 5(4), below that 8(5,3), and from which on
+   !> `auto` takes Radau of order 5, below that 9, and at last 13.
+   real(wp), parameter :: least_of_bs5 = 3.0e-6_wp, least_of_radau5 = 3.0e-5_wp, &
+                          least_of_radau9 = 1.0e-11_wp
    !> Delayed values up to which an implicit step may be longer than the shortest delay: those that
    !> lie in the step itself are unknowns beside the stages.
    integer, parameter :: most_coupled = 64
@@ -91,7 +92,9 @@ contains
       real(wp), intent(out) :: lacking
       character(len=8) :: name
 
-      name = merge(matching_method(problem, tolerance, implicit=.false.), method, method == "auto")
+      name = method
+      if (name == "auto") name = matching_method(problem, tolerance, implicit=.false.)
+      if (name == "explicit") name = explicit_pair(tolerance)
       lacking = memory_of(problem, name)
       if (lacks(lacking)) return
       lacking = 0.0_wp
@@ -105,7 +108,7 @@ contains
       case ("taylor")
          allocate (step, source=taylor_step_type(problem, tolerance%level))
       case default
-         allocate (step, source=explicit_step_type(problem, tolerance%level))
+         allocate (step, source=explicit_step_type(problem, name))
       end select
    end subroutine choose_method
 
@@ -123,17 +126,25 @@ contains
          ! the order of Radau IIA with s stages is 2 s - 1
          write (method, "(a,i0)") "radau", 2*implicit_stages(tolerance) - 1
       else
-         method = merge("taylor  ", "explicit", problem%analytic)
+         method = merge("taylor  ", explicit_pair(tolerance), problem%analytic)
       end if
    end function matching_method
+
+   !> The pair of `explicit`.
+   pure function explicit_pair(tolerance) result(name)
+      type(tolerance_type), intent(in) :: tolerance
+      character(len=8) :: name
+
+      name = merge("bs5     ", "dop853  ", tolerance%level >= least_of_bs5)
+   end function explicit_pair
 
    !> Number of stages of the implicit method of `auto`.
    pure integer function implicit_stages(tolerance) result(stages)
       type(tolerance_type), intent(in) :: tolerance
 
       stages = 5
-      if (tolerance%level >= loose) stages = 3
-      if (tolerance%level < tight) stages = 7
+      if (tolerance%level >= least_of_radau5) stages = 3
+      if (tolerance%level < least_of_radau9) stages = 7
    end function implicit_stages
 
    !> The longest step allowed: an explicit one ends before its delayed values lie in it, and an

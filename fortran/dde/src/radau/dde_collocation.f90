@@ -95,8 +95,8 @@ contains
       filled(:size(matrix, 1), :) = matrix
    end function in_lanes
 
-   !> Sum over j of weight(j) times vector j, over a divisor, in this order. `matmul` would use fused multiply-adds
-   !> where the processor has them, and give other last bits.
+   !> Sum over j of weight(j) times vector j, over a divisor, in this order. `matmul` would use
+   !> fused multiply-adds where the processor has them, and give other last bits.
    pure subroutine add_up(n, stages, weights, vectors, divisor, total)
       !> Number of equations, and of stages
       integer, intent(in) :: n, stages

@@ -44,7 +44,7 @@ contains
       integer :: i
 
       do i = 1, size(methods)
-         if (methods(i) == "auto") cycle
+         if (any(methods(i) == ["auto    ", "explicit"])) cycle
          continuation = continuation_type()
          call run(error, sine(), 0.0_wp, 1.0_wp, at_tolerance(1.0e-6_wp, methods(i)), outcome, &
                   continuation=continuation)

@@ -1,5 +1,5 @@
-!> Order of one explicit 8(5,3) step, of its interpolant and of its error estimate: Butcher's
-!> condition of every rooted tree, and powers of t.
+!> Order of one step of the explicit pairs 8(5,3) and 5(4), of its interpolant and of its error
+!> estimate: Butcher's condition of every rooted tree, and powers of t.
 module test_dde_order
    use dde_dop853_tableau, only: b1, b10, b11, b12, b6, b7, b8, b9, bhh1, bhh2, bhh3, er1, er10, &
                                  er11, er12, er6, er7, er8, er9
@@ -20,20 +20,23 @@ module test_dde_order
    !> Places in the step.
    real(wp), parameter :: places(9) = [0.0_wp, 0.07_wp, 0.21_wp, 0.33_wp, 0.45_wp, 0.62_wp, &
                                        0.71_wp, 0.94_wp, 1.0_wp]
+   !> The pairs and their orders.
+   character(len=6), parameter :: pairs(2) = ["dop853", "bs5   "]
+   integer, parameter :: orders(2) = [8, 5]
 
 contains
 
    subroutine collect_dde_order(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("200 conditions of the step", test_step_conditions), &
-                   new_unittest("85 conditions of the interpolant", test_interpolant_conditions), &
+      testsuite = [new_unittest("conditions of the steps", test_step_conditions), &
+                   new_unittest("conditions of the interpolants", test_interpolant_conditions), &
                    new_unittest("conditions of the estimates", test_estimate_conditions), &
                    new_unittest("estimate of the error", test_estimate), &
                    new_unittest("estimate of far too long steps", test_long_steps)]
    end subroutine collect_dde_order
 
-   !> The step gives h**order/density for every tree up to order 8, but not for those of order 9;
+   !> The step gives h**order/density for every tree up to its order, but not for those of the next;
    !> with and without the time of its stages.
    subroutine test_step_conditions(error)
       type(error_type), allocatable, intent(out) :: error
@@ -41,52 +44,57 @@ contains
       type(tree_system) :: trees
       real(wp) :: estimate
       real(wp), allocatable :: misfit(:)
-      integer :: i
+      integer :: i, j
 
       trees = grow_trees(9)
       call expect(error, all([(count(trees%order == i) == tree_counts(i), i=1, 9)]), &
                   "the trees of each order are as many as there are known to be")
       do i = 1, 2
          trees%by_the_clock = i == 2
-         step = explicit_step_type(trees)
-         call take_step(trees, 0.0_wp, h, step, estimate)
-         misfit = abs(step%y_new/h**trees%order - 1.0_wp/trees%density)
-         call expect_between(error, maxval(misfit, trees%order <= 8), 0.0_wp, 1.0e-14_wp, &
-                             "largest misfit of orders 1 to 8")
-         call expect_between(error, maxval(misfit, trees%order == 9), 1.0e-6_wp, 1.0e-4_wp, &
-                             "largest misfit of order 9")
+         do j = 1, size(pairs)
+            step = explicit_step_type(trees, pairs(j))
+            call take_step(trees, 0.0_wp, h, step, estimate)
+            misfit = abs(step%y_new/h**trees%order - 1.0_wp/trees%density)
+            call expect_between(error, maxval(misfit, trees%order <= orders(j)), 0.0_wp, &
+                                1.0e-14_wp, "largest misfit up to order "//text(orders(j)))
+            call expect_between(error, maxval(misfit, trees%order == orders(j) + 1), 1.0e-6_wp, &
+                                1.0e-4_wp, "largest misfit beyond order "//text(orders(j)))
+         end do
       end do
    end subroutine test_step_conditions
 
-   !> All over the step, the interpolant gives (s h)**order/density for every tree up to order 7,
-   !> but not for those of order 8; with and without the time of its stages.
+   !> All over the step, the interpolant gives (s h)**order/density for every tree up to an order
+   !> one lower, but not for the next; with and without the time of its stages.
    subroutine test_interpolant_conditions(error)
       type(error_type), allocatable, intent(out) :: error
       type(explicit_step_type) :: step
       type(tree_system) :: trees
       real(wp) :: estimate
       real(wp), allocatable :: misfit(:)
-      integer :: i, j
+      integer :: i, j, k
 
       trees = grow_trees(8)
       do i = 1, 2
          trees%by_the_clock = i == 2
-         step = explicit_step_type(trees)
-         call take_step(trees, 0.0_wp, h, step, estimate)
-         misfit = spread(0.0_wp, 1, trees%n)
-         do j = 1, size(places)
-            misfit = max(misfit, abs(interpolated(step, places(j))/h**trees%order &
-                                     - places(j)**trees%order/trees%density))
+         do k = 1, size(pairs)
+            step = explicit_step_type(trees, pairs(k))
+            call take_step(trees, 0.0_wp, h, step, estimate)
+            misfit = spread(0.0_wp, 1, trees%n)
+            do j = 1, size(places)
+               misfit = max(misfit, abs(interpolated(step, places(j))/h**trees%order &
+                                        - places(j)**trees%order/trees%density))
+            end do
+            call expect_between(error, maxval(misfit, trees%order < orders(k)), 0.0_wp, &
+                                1.0e-14_wp, "largest misfit below order "//text(orders(k)))
+            call expect_between(error, maxval(misfit, trees%order == orders(k)), 1.0e-5_wp, &
+                                1.0e-2_wp, "largest misfit of order "//text(orders(k)))
          end do
-         call expect_between(error, maxval(misfit, trees%order <= 7), 0.0_wp, 1.0e-14_wp, &
-                             "largest misfit of orders 1 to 7")
-         call expect_between(error, maxval(misfit, trees%order == 8), 1.0e-5_wp, 1.0e-3_wp, &
-                             "largest misfit of order 8")
       end do
    end subroutine test_interpolant_conditions
 
-   !> The estimate of order 5 vanishes for every tree up to order 5, that of order 3 up to order 3,
-   !> and neither beyond; with and without the time of the stages.
+   !> The estimate of order 5 of the pair 8(5,3) vanishes for every tree up to order 5, that of
+   !> order 3 up to order 3, that of the pair 5(4) up to order 4, and none beyond; with and without
+   !> the time of the stages.
    subroutine test_estimate_conditions(error)
       type(error_type), allocatable, intent(out) :: error
       type(explicit_step_type) :: step
@@ -97,7 +105,15 @@ contains
       trees = grow_trees(6)
       do i = 1, 2
          trees%by_the_clock = i == 2
-         step = explicit_step_type(trees)
+         step = explicit_step_type(trees, pairs(2))
+         call take_step(trees, 0.0_wp, 1.0_wp, step, estimate)
+         associate (e => pack(abs(step%embedded(:, :, 1)), .true.), order => trees%order)
+            call expect_between(error, maxval(e(:trees%n), order <= 4), 0.0_wp, 1.0e-14_wp, &
+                                "estimate 4 of orders 1 to 4")
+            call expect_between(error, maxval(e(:trees%n), order == 5), 1.0e-4_wp, 1.0e-1_wp, &
+                                "estimate 4 of order 5")
+         end associate
+         step = explicit_step_type(trees, pairs(1))
          call take_step(trees, 0.0_wp, 1.0_wp, step, estimate)
          associate (e3 => abs(e_3(step)), e5 => abs(e_5(step)), order => trees%order)
             call expect_between(error, maxval(e5, order <= 5), 0.0_wp, 1.0e-14_wp, &
@@ -123,7 +139,7 @@ contains
       real(wp), dimension(sum(tree_counts(:6))) :: of_order_3, of_order_5, unit
 
       trees = grow_trees(6)
-      step = explicit_step_type(trees)
+      step = explicit_step_type(trees, pairs(1))
       call take_step(trees, 0.0_wp, h, step, estimate, relative, absolute)
       unit = absolute + relative*step%y_new
       of_order_3 = h*e_3(step)/unit
@@ -148,7 +164,7 @@ contains
          worst = 0.0_wp
          do i = 1, 4000
             problem%rate = 0.01_wp*i
-            step = explicit_step_type(problem)
+            step = explicit_step_type(problem, "dop853")
             call take_step(problem, 0.0_wp, 1.0_wp, step, estimate, absolute=tolerance)
             if (estimate > 1.0_wp) cycle
             worst = max(worst, abs(step%y_new(1) - exp(-problem%rate))/tolerance)

@@ -69,8 +69,7 @@ contains
          options = integration_options(methods(i), relative=0.0_wp, absolute=1.0e-300_wp, &
                                        most_steps=1000_int64)
          call integrate(swing(), 0.0_wp, 2.0_wp, options, outcome, failure)
-         call expect_failure(error, failure, "the tolerance 1.0E-300 of y(1) = 1.0 is below its " &
-                             //"rounding error 2.22044604925031E-016")
+         call expect_failure(error, failure, "below its rounding error 2.220446049")
       end do
       options%method = "explicit"
       call integrate(sine(), 0.0_wp, 2.0_wp, options, outcome, failure)

@@ -16,10 +16,10 @@ contains
    pure type(integration_options) function at_tolerance(tolerance, method) result(options)
       !> Relative and absolute tolerance
       real(wp), intent(in) :: tolerance
-      !> Method; the explicit one if not given
+      !> Method; the explicit pair of order 8 if not given
       character(len=*), intent(in), optional :: method
 
-      options%method = "explicit"
+      options%method = "dop853"
       if (present(method)) options%method = method
       options%relative = tolerance
       options%absolute = tolerance
