@@ -159,14 +159,15 @@ contains
       logical :: coupled, finite
 
       singular = .false.
-      coupled = any(self%stages%own_place > 0.0_wp)
+      coupled = self%stages%coupled
       if (.not. self%jacobian_is_good .or. coupled .and. .not. self%jacobian%knows_delays) then
          call self%stages%expect_delayed(context%problem%component, self%y)
          associate (middle => (self%method%stages + 1)/2)
+            self%stages%argument = self%y + self%stages%increments(:, middle)
             call self%jacobian%evaluate(context%problem, context%tolerance, context%work, &
                                         self%t + self%method%c(middle)*self%h, &
-                                        self%y + self%stages%increments(:, middle), &
-                                        self%stages%delayed(:, middle), coupled, finite)
+                                        self%stages%argument, self%stages%delayed(:, middle), &
+                                        coupled, finite)
          end associate
          self%stages%systems%h = 0.0_wp
          singular = .not. finite

@@ -41,6 +41,8 @@ module dde_stage_iteration
       real(wp), allocatable :: delayed(:, :)
       !> Times of the stages since the start of the step, shape (stages)
       real(wp), allocatable, private :: places(:)
+      !> Whether delayed values lie in the step
+      logical :: coupled = .false.
       !> Place of each stage's delayed values in this step, in units of h; <= 0 in the past
       real(wp), allocatable :: own_place(:, :)
       !> Weights of the stage increments in those, shape (stages, delayed values, stages)
@@ -90,8 +92,11 @@ contains
 
       associate (lag => context%problem%lag, h => context%cursor%h)
          if (size(lag) == 0) return
+         ! the last stage is at the end
+         self%coupled = any(lag < h)
          do i = 1, method%stages
             self%own_place(:, i) = method%c(i) - lag/h
+            if (.not. self%coupled) cycle
             do k = 1, size(lag)
                if (self%own_place(k, i) > 0.0_wp) then
                   call lagrange_weights(method%stages, self%x, self%factors, &
@@ -141,6 +146,7 @@ contains
       real(wp), intent(in) :: y(:)
       integer :: i, k
 
+      if (.not. self%coupled) return
       do i = 1, size(self%own_place, 2)
          do k = 1, size(self%own_place, 1)
             if (.not. self%own_place(k, i) > 0.0_wp) cycle
