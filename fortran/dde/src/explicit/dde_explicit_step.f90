@@ -33,43 +33,40 @@ module dde_explicit_step
       !> Whether all slopes so far are finite
       logical :: finite = .true.
    contains
-      procedure :: attempt, complete, extend, interpolant, stiff, advance
+      procedure :: set_up, attempt, complete, extend, interpolant, stiff, advance
    end type explicit_step_type
-
-   interface explicit_step_type
-      module procedure :: new_step
-   end interface explicit_step_type
 
 contains
 
    !> Storage, and the state at the initial time.
-   pure function new_step(problem, name) result(step)
+   subroutine set_up(self, problem, name)
+      class(explicit_step_type), intent(out) :: self
+      !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Name of the pair
       character(len=*), intent(in) :: name
-      type(explicit_step_type) :: step
       integer :: blocks
 
       if (name == "bs5") then
-         allocate (step%pair, source=bogacki_shampine())
+         allocate (self%pair, source=bogacki_shampine())
       else
-         allocate (step%pair, source=dop853())
+         allocate (self%pair, source=dop853())
       end if
-      step%constants = method_constants(name=name, order=step%pair%order, &
-                                        error_order=step%pair%error_order)
-      call step%allocate_state(problem)
-      step%nodes = step%pair%nodes
+      self%constants = method_constants(name=name, order=self%pair%order, &
+                                        error_order=self%pair%error_order)
+      call self%allocate_state(problem)
+      self%nodes = self%pair%nodes
       blocks = (problem%n + lanes - 1)/lanes
-      allocate (step%k(lanes, blocks, slope_count), source=0.0_wp)
-      allocate (step%start(lanes, blocks), step%finish(lanes, blocks), source=0.0_wp)
-      allocate (step%stage(lanes, blocks), step%dense_stage(lanes, blocks), source=0.0_wp)
-      allocate (step%embedded(lanes, blocks, 2))
-      associate (places => size(step%pair%places), dense_places => size(step%pair%dense_places))
-         allocate (step%delayed(size(problem%lag), places), step%times(places))
-         allocate (step%dense_delayed(size(problem%lag), dense_places))
-         allocate (step%dense_times(dense_places))
+      allocate (self%k(lanes, blocks, slope_count), source=0.0_wp)
+      allocate (self%start(lanes, blocks), self%finish(lanes, blocks), source=0.0_wp)
+      allocate (self%stage(lanes, blocks), self%dense_stage(lanes, blocks), source=0.0_wp)
+      allocate (self%embedded(lanes, blocks, 2))
+      associate (places => size(self%pair%places), dense_places => size(self%pair%dense_places))
+         allocate (self%delayed(size(problem%lag), places), self%times(places))
+         allocate (self%dense_delayed(size(problem%lag), dense_places))
+         allocate (self%dense_times(dense_places))
       end associate
-   end function new_step
+   end subroutine set_up
 
    !> Attempt a step. `error` is the estimate in units of the tolerance, or not finite if an
    !> evaluation was not.

@@ -1,7 +1,7 @@
 !> The methods: how a step of each is made, how one follows another, and how long steps may be.
 module dde_methods
    use dde_explicit_step, only: explicit_step_type
-   use dde_implicit_step, only: implicit_cost, implicit_step_type
+   use dde_implicit_step, only: implicit_cost, implicit_step_type, stages_of
    use dde_interpolant, only: highest_degree
    use dde_memory, only: bytes_of, lacks
    use dde_problem, only: dde_problem_type
@@ -31,12 +31,13 @@ contains
       class(dde_problem_type), intent(in) :: problem
       !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance
-      integer :: columns
+      integer :: columns, stages
 
+      stages = stages_of(matching_method(problem, tolerance, implicit=.true.))
       columns = problem%n
       if (problem%lower >= 0) columns = min(problem%n, 1 + problem%lower + problem%upper)
       price = implicit_cost*(columns &
-                             + least_trial*(usual_iterations*implicit_stages(tolerance) + 2))
+                             + least_trial*(usual_iterations*stages + 2))
    end function price_of_trial
 
    !> Bytes that a step of a method takes, at most, counted from its components. It is made as a
@@ -51,8 +52,7 @@ contains
       delays = size(problem%lag)
       select case (method)
       case ("radau5", "radau9", "radau13")
-         read (method(6:), *) stages
-         stages = (stages + 1)/2
+         stages = stages_of(method)
          height = n
          below = n - 1
          above = n - 1
@@ -101,16 +101,20 @@ contains
       if (lacks(lacking)) return
       lacking = 0.0_wp
       select case (name)
-      case ("radau5")
-         allocate (step, source=implicit_step_type(problem, 3, tolerance%level))
-      case ("radau9")
-         allocate (step, source=implicit_step_type(problem, 5, tolerance%level))
-      case ("radau13")
-         allocate (step, source=implicit_step_type(problem, 7, tolerance%level))
+      case ("radau5", "radau9", "radau13")
+         allocate (implicit_step_type :: step)
       case ("taylor")
-         allocate (step, source=taylor_step_type(problem, tolerance%level))
+         allocate (taylor_step_type :: step)
       case default
-         allocate (step, source=explicit_step_type(problem, name))
+         allocate (explicit_step_type :: step)
+      end select
+      select type (step)
+      type is (implicit_step_type)
+         call step%set_up(problem, name, tolerance%level)
+      type is (taylor_step_type)
+         call step%set_up(problem, tolerance%level)
+      type is (explicit_step_type)
+         call step%set_up(problem, name)
       end select
    end subroutine choose_method
 
@@ -125,8 +129,9 @@ contains
       character(len=8) :: method
 
       if (implicit) then
-         ! the order of Radau IIA with s stages is 2 s - 1
-         write (method, "(a,i0)") "radau", 2*implicit_stages(tolerance) - 1
+         method = "radau9"
+         if (tolerance%level >= least_of_radau5) method = "radau5"
+         if (tolerance%level < least_of_radau9) method = "radau13"
       else
          method = merge("taylor  ", explicit_pair(tolerance), problem%analytic)
       end if
@@ -139,15 +144,6 @@ contains
 
       name = merge("bs5     ", "dop853  ", tolerance%level >= least_of_bs5)
    end function explicit_pair
-
-   !> Number of stages of the implicit method of `auto`.
-   pure integer function implicit_stages(tolerance) result(stages)
-      type(tolerance_type), intent(in) :: tolerance
-
-      stages = 5
-      if (tolerance%level >= least_of_radau5) stages = 3
-      if (tolerance%level < least_of_radau9) stages = 7
-   end function implicit_stages
 
    !> The longest step allowed: an explicit one ends before its delayed values lie in it.
    pure function longest_step(problem, step, of_all) result(longest)

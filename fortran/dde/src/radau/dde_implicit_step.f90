@@ -17,7 +17,7 @@ module dde_implicit_step
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: implicit_cost, implicit_step_type
+   public :: implicit_cost, implicit_step_type, stages_of
 
    !> Contraction below which the next step uses the same Jacobian.
    real(wp), parameter :: good_contraction = 1.0e-3_wp
@@ -59,45 +59,59 @@ module dde_implicit_step
       !> Whether the last Jacobian can be used again
       logical :: jacobian_is_good = .false.
    contains
-      procedure :: reset, attempt, interpolant, stiff, advance
+      procedure :: set_up, reset, attempt, interpolant, stiff, advance
       procedure, private :: confirm, estimate, find_error_inside, prepare
    end type implicit_step_type
 
-   interface implicit_step_type
-      module procedure :: new_step
-   end interface implicit_step_type
-
 contains
 
+   !> Number of stages of a method.
+   pure integer function stages_of(name) result(stages)
+      !> Its name
+      character(len=*), intent(in) :: name
+
+      select case (name)
+      case ("radau5")
+         stages = 3
+      case ("radau9")
+         stages = 5
+      case default
+         stages = 7
+      end select
+   end function stages_of
+
    !> Storage, and the constants that follow from the method.
-   pure function new_step(problem, stages, level) result(step)
+   subroutine set_up(self, problem, name, level)
+      class(implicit_step_type), intent(out) :: self
+      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      integer, intent(in) :: stages
+      !> Name of the method
+      character(len=*), intent(in) :: name
       !> Relative or absolute tolerance, the larger
       real(wp), intent(in) :: level
-      type(implicit_step_type) :: step
+      integer :: stages
 
-      step%method = radau_iia(stages)
-      step%constants = method_constants(order=2*stages - 1, error_order=stages + 1, &
+      stages = stages_of(name)
+      self%method = radau_iia(stages)
+      self%constants = method_constants(name=name, order=2*stages - 1, error_order=stages + 1, &
                                         implicit=.true., evaluation_cost=implicit_cost, &
                                         predictive=.true., largest_kept_ratio=keep_length)
-      write (step%constants%name, "(a,i0)") "radau", step%constants%order
-      call step%allocate_state(problem)
-      step%nodes = [0.0_wp, step%method%c]
+      call self%allocate_state(problem)
+      self%nodes = [0.0_wp, self%method%c]
       associate (n => problem%n, delays => size(problem%lag))
-         allocate (step%error_vector(n), step%raw(n), step%unfiltered(n))
-         allocate (step%jacobian_at_end, step%system_at_end)
-         allocate (step%last_increments(n, stages))
-         step%stages = stage_iteration(step%method, n, delays)
+         allocate (self%error_vector(n), self%raw(n), self%unfiltered(n))
+         allocate (self%jacobian_at_end, self%system_at_end)
+         allocate (self%last_increments(n, stages))
+         self%stages = stage_iteration(self%method, n, delays)
       end associate
       ! the estimate has order s, the polynomial s + 1, the ends more: with this tolerance of the
       ! estimate, errors are near the tolerance of the step, as with the explicit method
-      step%asked = level**((stages + 1.0_wp)/(stages + 2.0_wp))
-      step%asked_over_level = step%asked/level
-      step%asked_over_inside = step%asked/level**(real(stages, wp)/(stages + 1))
-      step%differences = difference_weights([0.0_wp, step%method%c])
-      call shape_bump(step%method%c, step%bump, step%bump_slope)
-   end function new_step
+      self%asked = level**((stages + 1.0_wp)/(stages + 2.0_wp))
+      self%asked_over_level = self%asked/level
+      self%asked_over_inside = self%asked/level**(real(stages, wp)/(stages + 1))
+      self%differences = difference_weights([0.0_wp, self%method%c])
+      call shape_bump(self%method%c, self%bump, self%bump_slope)
+   end subroutine set_up
 
    !> Polynomial, Jacobian and factors of earlier steps are not used again.
    pure subroutine reset(self)

@@ -44,32 +44,29 @@ module dde_taylor_step
       !> Time along the series of the present state; negative if its slope was evaluated instead
       real(wp), private :: place = -1.0_wp
    contains
-      procedure :: check_series, reset, propose, attempt, interpolant, stiff, next_length, advance
+      procedure :: set_up, check_series, reset, propose, attempt, interpolant, stiff, next_length, advance
       procedure :: slope_here
    end type taylor_step_type
-
-   interface taylor_step_type
-      module procedure :: new_step
-   end interface taylor_step_type
 
 contains
 
    !> Storage, and the state at the initial time.
-   pure function new_step(problem, tolerance) result(step)
+   subroutine set_up(self, problem, tolerance)
+      class(taylor_step_type), intent(out) :: self
+      !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Relative or absolute tolerance, the larger
       real(wp), intent(in) :: tolerance
-      type(taylor_step_type) :: step
       integer :: degree
 
       degree = max(lowest_degree, min(highest_degree, nint(degree_at_one - log10(tolerance))))
-      step%constants = method_constants(name="taylor", order=degree, error_order=degree, &
+      self%constants = method_constants(name="taylor", order=degree, error_order=degree, &
                                         evaluation_cost=cost_of_degree*degree)
-      call step%allocate_state(problem)
-      step%powers = .true.
-      allocate (step%nodes(degree), source=0.0_wp)
-      step%series = taylor_series(problem, degree)
-   end function new_step
+      call self%allocate_state(problem)
+      self%powers = .true.
+      allocate (self%nodes(degree), source=0.0_wp)
+      self%series = taylor_series(problem, degree)
+   end subroutine set_up
 
    !> Refuse a series of the problem that is not that of its solution, or of its history, at the
    !> start of a run.

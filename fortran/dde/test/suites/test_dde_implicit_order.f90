@@ -20,6 +20,7 @@ module test_dde_implicit_order
 
    !> Numbers of stages.
    integer, parameter :: stages(3) = [3, 5, 7]
+   character(len=7), parameter :: names(3) = ["radau5 ", "radau9 ", "radau13"]
    !> Places in the step.
    real(wp), parameter :: places(5) = [0.05_wp, 0.31_wp, 0.52_wp, 0.77_wp, 0.93_wp]
    !> What the estimate is asked for, so that the iteration goes on to rounding.
@@ -97,7 +98,7 @@ contains
       do i = 1, size(stages)
          do j = 1, 2
             h = longest(i)*0.5_wp**j
-            step = implicit_step_type(problem, stages(i), tight(stages(i)))
+            call step%set_up(problem, names(i), tight(stages(i)))
             call take_step(problem, 0.0_wp, h, step, estimate, tight(stages(i)), tight(stages(i)))
             of_estimate(j) = norm2(step%error_vector/step%scale)
             call expect_close(error, estimate, maxval(abs(step%error_vector)/step%scale), &

@@ -52,7 +52,7 @@ contains
       do i = 1, 2
          trees%by_the_clock = i == 2
          do j = 1, size(pairs)
-            step = explicit_step_type(trees, pairs(j))
+            call step%set_up(trees, pairs(j))
             call take_step(trees, 0.0_wp, h, step, estimate)
             misfit = abs(step%y_new/h**trees%order - 1.0_wp/trees%density)
             call expect_between(error, maxval(misfit, trees%order <= orders(j)), 0.0_wp, &
@@ -77,7 +77,7 @@ contains
       do i = 1, 2
          trees%by_the_clock = i == 2
          do k = 1, size(pairs)
-            step = explicit_step_type(trees, pairs(k))
+            call step%set_up(trees, pairs(k))
             call take_step(trees, 0.0_wp, h, step, estimate)
             misfit = spread(0.0_wp, 1, trees%n)
             do j = 1, size(places)
@@ -105,7 +105,7 @@ contains
       trees = grow_trees(6)
       do i = 1, 2
          trees%by_the_clock = i == 2
-         step = explicit_step_type(trees, pairs(2))
+         call step%set_up(trees, pairs(2))
          call take_step(trees, 0.0_wp, 1.0_wp, step, estimate)
          associate (e => pack(abs(step%embedded(:, :, 1)), .true.), order => trees%order)
             call expect_between(error, maxval(e(:trees%n), order <= 4), 0.0_wp, 1.0e-14_wp, &
@@ -113,7 +113,7 @@ contains
             call expect_between(error, maxval(e(:trees%n), order == 5), 1.0e-4_wp, 1.0e-1_wp, &
                                 "estimate 4 of order 5")
          end associate
-         step = explicit_step_type(trees, pairs(1))
+         call step%set_up(trees, pairs(1))
          call take_step(trees, 0.0_wp, 1.0_wp, step, estimate)
          associate (e3 => abs(e_3(step)), e5 => abs(e_5(step)), order => trees%order)
             call expect_between(error, maxval(e5, order <= 5), 0.0_wp, 1.0e-14_wp, &
@@ -139,7 +139,7 @@ contains
       real(wp), dimension(sum(tree_counts(:6))) :: of_order_3, of_order_5, unit
 
       trees = grow_trees(6)
-      step = explicit_step_type(trees, pairs(1))
+      call step%set_up(trees, pairs(1))
       call take_step(trees, 0.0_wp, h, step, estimate, relative, absolute)
       unit = absolute + relative*step%y_new
       of_order_3 = h*e_3(step)/unit
@@ -164,7 +164,7 @@ contains
          worst = 0.0_wp
          do i = 1, 4000
             problem%rate = 0.01_wp*i
-            step = explicit_step_type(problem, "dop853")
+            call step%set_up(problem, "dop853")
             call take_step(problem, 0.0_wp, 1.0_wp, step, estimate, absolute=tolerance)
             if (estimate > 1.0_wp) cycle
             worst = max(worst, abs(step%y_new(1) - exp(-problem%rate))/tolerance)

@@ -106,7 +106,7 @@ contains
       integer :: i, place
 
       problem = swing()
-      step = explicit_step_type(problem, "dop853")
+      call step%set_up(problem, "dop853")
       call take_step(problem, 0.0_wp, h, step, estimate)
       do i = 1, 2
          call step%interpolant(i, a)

@@ -83,7 +83,7 @@ contains
       real(wp) :: estimate, length
 
       problem = blow_up()
-      step = taylor_step_type(problem, tolerance)
+      call step%set_up(problem, tolerance)
       context = new_context(problem, 0.0_wp, 1.0_wp, 0.0_wp, tolerance)
       length = 0.5_wp*h
       call step%propose(context, length)

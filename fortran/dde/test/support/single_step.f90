@@ -68,7 +68,7 @@ contains
       type(taylor_step_type) :: step
       real(wp) :: estimate, length
 
-      step = taylor_step_type(problem, tolerance)
+      call step%set_up(problem, tolerance)
       context = new_context(problem, 0.0_wp, 1.0e3_wp, 0.0_wp, tolerance)
       length = 1.0e-6_wp
       call step%propose(context, length)
