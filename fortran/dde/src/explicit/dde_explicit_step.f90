@@ -33,7 +33,7 @@ module dde_explicit_step
       !> Whether all slopes so far are finite
       logical :: finite = .true.
    contains
-      procedure :: set_up, attempt, complete, extend, interpolant, stiff, advance
+      procedure :: set_up, attempt, extend, interpolant, stiff, advance
    end type explicit_step_type
 
 contains
@@ -89,6 +89,10 @@ contains
       call copy(size(self%y), self%finish, self%y_new)
       error = ieee_value(1.0_wp, ieee_quiet_nan)
       if (.not. (self%finite .and. all(ieee_is_finite(self%y_new)))) return
+      call evaluate(context, context%cursor%inside(self%t + self%h), self%y_new, &
+                    self%delayed(:, size(self%times)), self%k(:, :, self%pair%stages + 1), &
+                    self%finite)
+      if (.not. self%finite) return
       associate (tolerance => context%tolerance)
          self%scale = tolerance%absolute + tolerance%relative*max(abs(self%y), abs(self%y_new))
          call self%pair%find_error(size(self%y), size(self%k, 2), self%k, self%h, self%scale, &
@@ -104,17 +108,6 @@ contains
 
       to = from
    end subroutine copy
-
-   !> The slope at the end of an accepted step.
-   pure subroutine complete(self, context)
-      class(explicit_step_type), intent(inout) :: self
-      type(step_context), intent(inout) :: context
-
-      associate (last => self%pair%stages)
-         call evaluate(context, context%cursor%inside(self%t + self%h), self%y_new, &
-                       self%delayed(:, size(self%times)), self%k(:, :, last + 1), self%finite)
-      end associate
-   end subroutine complete
 
    !> Whether stability limits the step: its length times the difference of the slopes of the last
    !> stage and at the end over the distance of their arguments, both at the end of the step (Hairer

@@ -28,6 +28,10 @@ module dde_run
    !> times.
    real(wp), parameter :: beside = 4.0_wp
 
+   !> An implicit step of a proposed length below this many times the shortest delay is no longer than
+   !> the delay: otherwise its delayed values couple its stages.
+   real(wp), parameter :: uncoupled = 2.0_wp
+
    !> The state of a run.
    type :: run_type
       !> The step, of the method in use
@@ -237,6 +241,11 @@ contains
       call bound_times(self)
       call self%step%propose(self%context, self%h)
       self%h = min(self%h, longest)
+      if (self%step%constants%implicit) then
+         associate (lag => minval(self%context%problem%lag))
+            if (self%h > lag .and. self%h < uncoupled*lag) self%h = lag
+         end associate
+      end if
       landing = stretch*self%h >= gap .and. gap <= longest
       h = merge(gap, merge(0.5_wp*gap, self%h, 2.0_wp*self%h > gap), landing)
       self%context%cursor%h = h
