@@ -51,7 +51,7 @@ def sources_of(program):
             "fortran/dde/CMakeLists.txt",
         ),
         f"fortran/app/{program}.f90",
-        *files_in("src", "dde/src", "dde/lapack", endings={".f90", ".c", ".in"}),
+        *files_in("src", "dde/src", endings={".f90", ".c", ".in"}),
     ]
 
 

@@ -5,8 +5,8 @@
 !> Extend `dde_problem_type`, fill `n`, `lag` and `component`, and write the three deferred
 !> procedures. Without delays `lag` and `component` have size zero, and no past is kept.
 !>
-!> Optional are - for implicit methods: `jacobian`, or `lower` and `upper` of a banded one, - for
-!> the method `taylor`: `series` and `past_series`, with `analytic` true, - for long Taylor steps
+!> Optional are - for implicit methods: `jacobian`, `lower` and `upper` of a banded one, and `rows` of
+!> delayed values, - for the method `taylor`: `series` and `past_series`, with `analytic` true, - for long Taylor steps
 !> where fast components are in balance: `relaxation_rate` and `slow_series`.
 module dde_problem
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
@@ -26,9 +26,11 @@ module dde_problem
       real(wp), allocatable :: lag(:)
       !> Number of the component of y that each delayed value z(k) is, 1..n
       integer, allocatable :: component(:)
-      !> Diagonals of a banded Jacobian by y below and above the main one. If they are given, it is
-      !> found by differences.
+      !> Diagonals of a banded Jacobian by y below and above the main one
       integer :: lower = -1, upper = -1
+      !> First and last equation that contains each delayed value, shape (2, size(lag)); all
+      !> equations unless they are given. A banded Jacobian needs them.
+      integer, allocatable :: rows(:, :)
       !> Whether the extension gives `series` and `past_series`
       logical :: analytic = .false.
    contains
@@ -96,10 +98,12 @@ contains
       real(wp), intent(in) :: t, y(self%n)
       !> Delayed values, shape (size(lag))
       real(wp), intent(in) :: z(size(self%lag))
-      !> Derivatives by y, shape (n, n)
-      real(wp), intent(out) :: by_y(self%n, self%n)
-      !> Derivatives by z, shape (n, size(lag))
-      real(wp), intent(out) :: by_z(self%n, size(self%lag))
+      !> Derivatives by y: element (i, j) at (i, j), shape (n, n), or at (1 + upper + i - j, j)
+      !> where it is banded, shape (1 + lower + upper, n). All elements are set.
+      real(wp), intent(out) :: by_y(:, :)
+      !> Derivatives by z: those of equation i at (i, k), shape (n, size(lag)), or at
+      !> (1 + i - rows(1, k), k), shape (most rows, size(lag)). All elements are set.
+      real(wp), intent(out) :: by_z(:, :)
 
       by_y = not_given
       by_z = not_given

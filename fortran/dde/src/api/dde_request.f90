@@ -4,7 +4,6 @@ module dde_request
    use dde_continuation, only: continuation_type
    use dde_events, only: event_watcher_type
    use dde_kinks, only: kink_type
-   use dde_lapack, only: lapack_is_there
    use dde_problem, only: dde_problem_type
    use dde_sampler, only: sampler_type
    use dde_time, only: elapsed, instant, too_short
@@ -121,9 +120,10 @@ contains
       else if (problem%lower < 0 .neqv. problem%upper < 0) then
          call raise(error, "integrate: lower = "//text(problem%lower)//", upper = " &
                     //text(problem%upper)//"; both >= 0 expected (a banded Jacobian), or neither")
-      else if (problem%lower >= 0 .and. .not. lapack_is_there) then
-         call raise(error, "integrate: lower = "//text(problem%lower)//" (a banded Jacobian) " &
-                    //"in a build without LAPACK; lower and upper < 0 expected")
+      else if (problem%lower >= 0 .and. size(problem%lag) > 0 &
+               .and. .not. allocated(problem%rows)) then
+         call raise(error, "integrate: lower = "//text(problem%lower)//" (a banded Jacobian) and no " &
+                    //"rows; rows of each delayed value expected")
       end if
       if (allocated(error)) return
       do k = 1, size(problem%lag)
@@ -136,7 +136,29 @@ contains
          end if
          if (allocated(error)) return
       end do
+      if (allocated(problem%rows)) call check_rows(problem, error)
    end subroutine check_problem
+
+   !> Refuse rows of delayed values that are not some of the equations.
+   pure subroutine check_rows(problem, error)
+      class(dde_problem_type), intent(in) :: problem
+      type(error_type), allocatable, intent(out) :: error
+      integer :: k
+
+      associate (rows => problem%rows, delays => size(problem%lag))
+         if (any(shape(rows) /= [2, delays])) then
+            call raise(error, "integrate: rows has the shape ("//text(size(rows, 1))//", " &
+                       //text(size(rows, 2))//"); (2, "//text(delays)//") expected")
+            return
+         end if
+         do k = 1, delays
+            if (rows(1, k) >= 1 .and. rows(1, k) <= rows(2, k) .and. rows(2, k) <= problem%n) cycle
+            call raise(error, "integrate: rows(:, "//text(k)//") = "//text(rows(1, k))//", " &
+                       //text(rows(2, k))//"; ascending in 1.."//text(problem%n)//" expected")
+            return
+         end do
+      end associate
+   end subroutine check_rows
 
    !> Refuse delays that no step resolves.
    pure subroutine check_delays(lag, shortest, error)

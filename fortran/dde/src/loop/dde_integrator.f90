@@ -6,7 +6,7 @@ module dde_integrator
    use dde_diagnosis, only: find_culprit
    use dde_event_search, only: endless, most_places
    use dde_events, only: event_watcher_type
-   use dde_methods, only: limiting_delay, longest_step, price_of_trial
+   use dde_methods, only: longest_step, price_of_trial
    use dde_outcome, only: event_met, explain, integration_result, limit_met, out_of_memory, &
                           reached_end
    use dde_output, only: deliver
@@ -49,7 +49,7 @@ contains
       type(run_type) :: run
       type(switch_type) :: switch
       type(instant) :: step_end
-      real(wp) :: error_estimate, h, lacking, left, longest, longest_of_all, shortest_delay
+      real(wp) :: error_estimate, h, lacking, left, longest, longest_of_all
       character(len=:), allocatable :: culprit
       integer :: goal
       logical :: automatic, ended, landing, last, other
@@ -77,8 +77,7 @@ contains
       end if
       longest = longest_step(problem, run%step, longest_of_all)
       automatic = options%method == "auto"
-      if (automatic) switch%price = price_of_trial(problem, run%context%tolerance)
-      shortest_delay = limiting_delay(problem)
+      if (automatic) switch = switch_type(price_of_trial(problem, run%context%tolerance))
       error_estimate = 0.0_wp
 
       outcome%reason = reached_end
@@ -122,8 +121,7 @@ contains
             ! a run that may be continued has no end yet
             left = huge(1.0_wp)
             if (.not. present(continuation)) left = run%points%time_to_end(step_end)
-            call switch%judge(problem, run%step, run%context%work%total(), shortest_delay, h, &
-                              left, other)
+            call switch%judge(problem, run%step, run%context%work, h, left, other)
          end if
          call run%step%advance()
          last = landing .and. run%points%is_end(goal)

@@ -7,49 +7,34 @@ module dde_methods
    use dde_problem, only: dde_problem_type
    use dde_step, only: step_type
    use dde_switch, only: least_trial
-   use dde_systems, only: complex_over_real, factor_operations
    use dde_taylor_step, only: taylor_step_type
    use dde_tolerance, only: tolerance_type
-   use dde_work, only: operations_of_evaluation
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: choose_method, limiting_delay, longest_step, matching_method
-   public :: price_of_trial
+   public :: choose_method, longest_step, matching_method, price_of_trial
 
    !> Tolerances from which on `explicit` is the pair 5(4), below that 8(5,3), and from which on
    !> `auto` takes Radau of order 5, below that 9, and at last 13.
    real(wp), parameter :: least_of_bs5 = 3.0e-6_wp, least_of_radau5 = 3.0e-5_wp, &
                           least_of_radau9 = 1.0e-11_wp
-   !> Delayed values up to which an implicit step may be longer than the shortest delay: those that
-   !> lie in the step itself are unknowns beside the stages.
-   integer, parameter :: most_coupled = 64
-
    !> Iterations of a usual implicit step.
    integer, parameter :: usual_iterations = 3
 
 contains
 
-   !> Work of a short trial of the implicit method, in evaluations of the explicit pair: one
-   !> Jacobian by differences, and steps that factorise anew.
+   !> Work of a short trial of the implicit method without its linear systems, in evaluations of the
+   !> explicit pair: one Jacobian by differences, and the steps.
    pure real(wp) function price_of_trial(problem, tolerance) result(price)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance
-      integer :: columns, stages
-      real(wp) :: operations
+      integer :: columns
 
-      stages = implicit_stages(tolerance)
       columns = problem%n
       if (problem%lower >= 0) columns = min(problem%n, 1 + problem%lower + problem%upper)
-      ! one real system, and one complex one for each pair of stages
-      operations = (1 + complex_over_real*(stages/2)) &
-                   *(factor_operations(problem%n, problem%lower >= 0, problem%lower, &
-                                       problem%upper) + usual_iterations*2.0_wp*problem%n*columns)
-      price = implicit_cost*columns &
-              + least_trial*(implicit_cost*(usual_iterations*stages + 2) &
-                             + operations/(operations_of_evaluation*problem%n))
+      price = implicit_cost*(columns + least_trial*(usual_iterations*implicit_stages(tolerance) + 2))
    end function price_of_trial
 
    !> Bytes that a step of a method takes, at most, counted from its components. It is made as a
@@ -57,7 +42,8 @@ contains
    pure real(wp) function memory_of(problem, method) result(bytes)
       class(dde_problem_type), intent(in) :: problem
       character(len=8), intent(in) :: method
-      real(wp) :: delays, matrix, n, stages
+      integer :: stages
+      real(wp) :: above, below, delays, height, n
 
       n = problem%n
       delays = size(problem%lag)
@@ -65,11 +51,25 @@ contains
       case ("radau5", "radau9", "radau13")
          read (method(6:), *) stages
          stages = (stages + 1)/2
-         matrix = n*n
-         if (problem%lower >= 0) matrix = n*(1.0_wp + problem%lower + problem%upper)
+         height = n
+         below = n - 1
+         above = n - 1
+         if (problem%lower >= 0) then
+            below = problem%lower
+            above = problem%upper
+         end if
+         if (allocated(problem%rows) .and. delays > 0) then
+            height = maxval(problem%rows(2, :) - problem%rows(1, :)) + 1
+            ! delayed values in the step widen the band
+            below = max(below, real(maxval(problem%rows(2, :) - problem%component), wp))
+            above = max(above, real(maxval(problem%component - problem%rows(1, :)), wp))
+         end if
          ! two Jacobians, a real system for each, and a complex one for each pair of stages
-         bytes = matrix*(4 + (stages - 1)) + n*(delays + 2*(8*stages + 16))
-         if (delays <= most_coupled) bytes = bytes + n*delays*2*stages**2
+         bytes = 2*(n*min(n, 1 + below + above) + height*delays) &
+                 + n*min(n, 1 + 2*below + above)*(2 + (stages - 1)) + n*2*(8*stages + 16) &
+                 + delays*2*stages**2
+         ! and one of all stages
+         if (delays > 0) bytes = bytes + n*stages*min(n*stages, stages*(2*below + above + 3))
       case ("taylor")
          bytes = n*4*(2 + highest_degree)
       case default
@@ -147,8 +147,7 @@ contains
       if (tolerance%level < least_of_radau9) stages = 7
    end function implicit_stages
 
-   !> The longest step allowed: an explicit one ends before its delayed values lie in it, and an
-   !> implicit one where they are many.
+   !> The longest step allowed: an explicit one ends before its delayed values lie in it.
    pure function longest_step(problem, step, of_all) result(longest)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
@@ -159,17 +158,6 @@ contains
       real(wp) :: longest
 
       longest = of_all
-      if (.not. step%constants%implicit .or. size(problem%lag) > most_coupled) then
-         longest = min(longest, minval(problem%lag))
-      end if
+      if (.not. step%constants%implicit) longest = min(longest, minval(problem%lag))
    end function longest_step
-
-   !> The shortest delay, where implicit steps may be longer than it; else no delay is that long.
-   pure real(wp) function limiting_delay(problem) result(delay)
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-
-      delay = huge(1.0_wp)
-      if (size(problem%lag) <= most_coupled) delay = minval(problem%lag)
-   end function limiting_delay
 end module dde_methods

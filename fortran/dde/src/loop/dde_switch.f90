@@ -7,6 +7,7 @@ module dde_switch
    use dde_problem, only: dde_problem_type
    use dde_slow_series, only: least_balance
    use dde_step, only: step_type
+   use dde_work, only: work_type
    use dde_kinds, only: wp
    implicit none (type, external)
    private
@@ -41,14 +42,17 @@ module dde_switch
 
    !> The choice, and what it rests on.
    type :: switch_type
-      !> Work of a short trial of the implicit method
-      real(wp) :: price = 0.0_wp
+      !> Work of a short trial of the implicit method without its linear systems, and with those
+      !> of the last trial
+      real(wp), private :: least_price = 0.0_wp, price = 0.0_wp
       !> `settled` or `on_trial`
       integer, private :: state = settled
       !> Work in limited steps, and in visits that were not worth it
       real(wp), private :: limited_work = 0.0_wp, lost_work = 0.0_wp
       !> All work up to the last step
       real(wp), private :: work_done = 0.0_wp
+      !> Work in linear systems before this visit
+      real(wp), private :: work_in_systems = 0.0_wp
       !> The steps that the present pace is taken over, and all since the last change of method
       type(stretch_type), private :: recent, visit
       !> Pace of the other method when it was left
@@ -57,7 +61,20 @@ module dde_switch
       procedure :: judge
    end type switch_type
 
+   interface switch_type
+      module procedure :: new_switch
+   end interface switch_type
+
 contains
+
+   !> The choice at the start of a run.
+   pure type(switch_type) function new_switch(least_price) result(switch)
+      !> Work of a short trial of the implicit method without its linear systems
+      real(wp), intent(in) :: least_price
+
+      switch%least_price = least_price
+      switch%price = least_price
+   end function new_switch
 
    !> One more step.
    pure subroutine add(self, time, work)
@@ -77,13 +94,12 @@ contains
    end function pace
 
    !> Take in an accepted step, and see whether the other method takes over.
-   pure subroutine judge(self, problem, step, work_done, shortest_delay, h_next, left, other)
+   pure subroutine judge(self, problem, step, work_done, h_next, left, other)
       class(switch_type), intent(inout) :: self
       class(dde_problem_type), intent(in) :: problem
       class(step_type), intent(in) :: step
-      real(wp), intent(in) :: work_done
-      !> Shortest delay, where an implicit step may be longer than it
-      real(wp), intent(in) :: shortest_delay
+      !> Work of the run so far
+      type(work_type), intent(in) :: work_done
       !> Length that step control proposes for the next step
       real(wp), intent(in) :: h_next
       !> Time left to the end of the run, as far as there is one
@@ -92,8 +108,8 @@ contains
       logical :: limited, pace_is_known
       real(wp) :: pace, work
 
-      work = work_done - self%work_done
-      self%work_done = work_done
+      work = work_done%total() - self%work_done
+      self%work_done = work_done%total()
       call self%recent%add(step%h, work)
       call self%visit%add(step%h, work)
       pace = self%recent%pace()
@@ -104,9 +120,16 @@ contains
          ! steps of the present length may be faster than the first ones
          if (pace_is_known) pace = max(pace, step%h*self%recent%steps/self%recent%work)
          other = pace_is_known .and. pace < self%pace_of_other
-         if (pace_is_known) self%state = settled
+         if (pace_is_known) then
+            self%state = settled
+            if (step%constants%implicit) then
+               ! which zeros a Jacobian has is known only now
+               self%price = self%least_price + (work_done%in_systems() - self%work_in_systems) &
+                            *least_trial/self%recent%steps
+            end if
+         end if
       case default
-         limited = is_limited(problem, step, shortest_delay, h_next)
+         limited = is_limited(problem, step, h_next)
          pace_is_known = .not. limited
          if (step%constants%implicit) then
             pace_is_known = self%recent%steps == longest_trial
@@ -117,7 +140,10 @@ contains
                  .and. self%price*pace <= share*left
          if (other) self%state = on_trial
       end select
-      if (other) call end_visit(self, pace)
+      if (other) then
+         self%work_in_systems = work_done%in_systems()
+         call end_visit(self, pace)
+      end if
       if (other .or. pace_is_known) self%recent = stretch_type()
    end subroutine judge
 
@@ -135,13 +161,13 @@ contains
 
    !> Whether something else than the change of the solution limits a step: of the explicit method
    !> stability or a delay; of the implicit one nothing, where an explicit step could be as long.
-   pure logical function is_limited(problem, step, shortest_delay, h_next) result(limited)
+   pure logical function is_limited(problem, step, h_next) result(limited)
       class(dde_problem_type), intent(in) :: problem
       class(step_type), intent(in) :: step
-      real(wp), intent(in) :: shortest_delay, h_next
+      real(wp), intent(in) :: h_next
       logical :: delay_limits
 
-      delay_limits = h_next/beyond_the_delay > shortest_delay
+      delay_limits = h_next/beyond_the_delay > minval(problem%lag)
       if (step%constants%implicit) then
          limited = (.not. step%stiff() .or. in_balance(problem, step)) &
                    .and. .not. delay_limits

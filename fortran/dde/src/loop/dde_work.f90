@@ -3,7 +3,7 @@ module dde_work
    use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: operations_of_evaluation, work_type
+   public :: work_type
 
    !> Additions and multiplications that cost as much as one evaluation by the explicit pair, for
    !> each equation.
@@ -25,7 +25,7 @@ module dde_work
       integer(int64), private :: earlier_evaluations = 0
       real(wp), private :: earlier_cost = 0.0_wp
    contains
-      procedure :: set_cost, total
+      procedure :: count_factors, in_systems, set_cost, total
    end type work_type
 
    interface work_type
@@ -41,6 +41,16 @@ contains
 
       work%equations = equations
    end function new_work
+
+   !> One more matrix is factorised.
+   pure subroutine count_factors(self, operations)
+      class(work_type), intent(inout) :: self
+      !> Additions and multiplications
+      real(wp), intent(in) :: operations
+
+      self%factorisations = self%factorisations + 1
+      self%operations = self%operations + operations
+   end subroutine count_factors
 
    !> Another method takes over, whose evaluations have another cost.
    pure subroutine set_cost(self, cost)
@@ -59,6 +69,13 @@ contains
       class(work_type), intent(in) :: self
 
       all_work = self%earlier_cost + self%cost*(self%evaluations - self%earlier_evaluations) &
-              + self%operations/(operations_of_evaluation*self%equations)
+                 + self%in_systems()
    end function total
+
+   !> Work in linear systems, in evaluations of the explicit pair.
+   pure real(wp) function in_systems(self) result(work)
+      class(work_type), intent(in) :: self
+
+      work = self%operations/(operations_of_evaluation*self%equations)
+   end function in_systems
 end module dde_work

@@ -1,6 +1,7 @@
 !> The Jacobian of a problem at one place. The problem gives it, or it is found by forward
-!> differences. A banded Jacobian costs one evaluation for each diagonal (Curtis, Powell and Reid
-!> 1974, "On the estimation of sparse Jacobian matrices", J. Inst. Maths Applics 13, 117).
+!> differences. Columns that share no equation are moved together (Curtis, Powell and Reid 1974, "On
+!> the estimation of sparse Jacobian matrices", J. Inst. Maths Applics 13, 117): a banded Jacobian
+!> costs one evaluation for each diagonal.
 module dde_jacobian
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_problem, only: dde_problem_type, not_given
@@ -22,10 +23,13 @@ module dde_jacobian
       !> By y: element (i, j) at (i, j), shape (n, n), or at (1 + upper + i - j, j) where it is
       !> banded, shape (1 + lower + upper, n)
       real(wp), allocatable :: by_y(:, :)
-      !> By the delayed values, shape (n, delayed values)
+      !> By the delayed values, from the first row of each on, shape (most rows, delayed values)
       real(wp), allocatable :: by_z(:, :)
-      !> Whether the Jacobian by y is banded, its diagonals below and above the main one
+      !> First and last row of each delayed value, shape (2, delayed values)
+      integer, allocatable :: rows(:, :)
+      !> Whether the Jacobian by y is banded
       logical :: banded = .false.
+      !> Diagonals below and above the main one
       integer :: lower = 0, upper = 0
       !> Whether `by_z` is known
       logical :: knows_delays = .false.
@@ -35,9 +39,11 @@ module dde_jacobian
       real(wp), allocatable, private :: here(:), beside(:)
       !> Moved arguments, shapes (n) and (delayed values)
       real(wp), allocatable, private :: moved_y(:), moved_z(:)
+      !> Number of the evaluation in which each delayed value is moved
+      integer, allocatable, private :: group(:)
    contains
       procedure :: evaluate, find_norm, find_rows
-      procedure, private :: prepare
+      procedure, private :: group_delays, prepare
    end type jacobian_type
 
 contains
@@ -55,7 +61,7 @@ contains
       logical, intent(out) :: finite
       integer :: apart, first, group, j, k, last, shift
 
-      call self%prepare(problem, with_delays)
+      call self%prepare(problem)
       if (self%given) then
          call problem%jacobian(t, y, z, self%by_y, self%by_z)
          self%given = any(self%by_y > not_given) .or. .not. all(ieee_is_finite(self%by_y))
@@ -79,12 +85,18 @@ contains
                   = (self%beside(first:last) - self%here(first:last))/(self%moved_y(j) - y(j))
             end do
          end do
-         do k = 1, merge(size(z), 0, with_delays)
-            self%moved_z = z
-            self%moved_z(k) = z(k) + difference*size_of(tolerance, problem%component(k), z(k))
+         do group = 1, merge(maxval(self%group), 0, with_delays)
+            self%moved_z = merge(z + difference*size_of(tolerance, problem%component, z), z, &
+                                 self%group == group)
             call problem%rhs(t, y, self%moved_z, self%beside)
             work%evaluations = work%evaluations + 1
-            self%by_z(:, k) = (self%beside - self%here)/(self%moved_z(k) - z(k))
+            do k = 1, size(z)
+               if (self%group(k) /= group) cycle
+               first = self%rows(1, k)
+               last = self%rows(2, k)
+               self%by_z(:last - first + 1, k) &
+                  = (self%beside(first:last) - self%here(first:last))/(self%moved_z(k) - z(k))
+            end do
          end do
       end if
       finite = all(ieee_is_finite(self%by_y))
@@ -109,7 +121,7 @@ contains
 
    !> The Jacobian of a problem outside of a run, as the problem gives it or by differences.
    pure subroutine find_jacobian(problem, t, y, z, by_y, by_z)
-      !> The problem, its Jacobian not banded
+      !> The problem, without a band and without rows of delayed values
       class(dde_problem_type), intent(in) :: problem
       !> Time
       real(wp), intent(in) :: t
@@ -135,31 +147,50 @@ contains
    end subroutine find_jacobian
 
    !> Storage, when it is first needed.
-   pure subroutine prepare(self, problem, with_delays)
+   pure subroutine prepare(self, problem)
       class(jacobian_type), intent(inout) :: self
       class(dde_problem_type), intent(in) :: problem
-      logical, intent(in) :: with_delays
+      integer :: k
 
-      if (.not. allocated(self%by_y)) then
+      if (allocated(self%by_y)) return
+      associate (n => problem%n, delays => size(problem%lag))
          self%banded = problem%lower >= 0
-         if (self%banded) then
-            self%given = .false.
-            self%lower = min(problem%lower, problem%n - 1)
-            self%upper = min(problem%upper, problem%n - 1)
-            allocate (self%by_y(1 + self%lower + self%upper, problem%n), source=0.0_wp)
-         else
-            allocate (self%by_y(problem%n, problem%n))
+         self%lower = merge(problem%lower, n - 1, self%banded)
+         self%upper = merge(problem%upper, n - 1, self%banded)
+         allocate (self%by_y(merge(1 + self%lower + self%upper, n, self%banded), n), source=0.0_wp)
+         allocate (self%rows(2, delays), self%group(delays))
+         self%rows(1, :) = 1
+         self%rows(2, :) = n
+         self%group = [(k, k=1, delays)]
+         if (allocated(problem%rows)) then
+            self%rows = problem%rows
+            call self%group_delays()
          end if
-         allocate (self%here(problem%n), self%beside(problem%n), self%moved_y(problem%n))
-         allocate (self%moved_z(size(problem%lag)))
-      end if
-      if ((with_delays .or. self%given) .and. .not. allocated(self%by_z)) then
-         allocate (self%by_z(problem%n, size(problem%lag)))
-      end if
+         allocate (self%by_z(maxval([0, self%rows(2, :) - self%rows(1, :) + 1]), delays), &
+                   source=0.0_wp)
+         allocate (self%here(n), self%beside(n), self%moved_y(n), self%moved_z(delays))
+      end associate
    end subroutine prepare
 
+   !> Each delayed value joins the first group whose last one ends above its rows.
+   pure subroutine group_delays(self)
+      class(jacobian_type), intent(inout) :: self
+      integer, allocatable :: end_of(:)
+      integer :: group, k
+
+      allocate (end_of(size(self%group)), source=0)
+      do k = 1, size(self%group)
+         group = 1
+         do while (end_of(group) >= self%rows(1, k))
+            group = group + 1
+         end do
+         self%group(k) = group
+         end_of(group) = self%rows(2, k)
+      end do
+   end subroutine group_delays
+
    !> Size of a component, to which its difference is proportional.
-   pure real(wp) function size_of(tolerance, i, value) result(size)
+   elemental real(wp) function size_of(tolerance, i, value) result(size)
       type(tolerance_type), intent(in) :: tolerance
       integer, intent(in) :: i
       real(wp), intent(in) :: value

@@ -1,13 +1,27 @@
-!> Small dense linear systems by Gaussian elimination, real and complex. Each pivot is the largest
-!> of its column relative to its row. Otherwise a row of huge numbers in a stiff system would be the
-!> pivot for the others. LAPACK does not scale rows and is slower for a few equations (dde_systems).
-!> Zeros at both ends of a column are left out: the Jacobian of a trajectory with tangent vectors
-!> has blocks on its diagonal.
+!> Linear systems by Gaussian elimination, real and complex, full and banded. Each pivot is the
+!> largest of its column relative to its row. Otherwise a row of huge numbers in a stiff system
+!> would be the pivot for the others. Zeros at both ends of a column are left out, and each zero
+!> above the diagonal: the Jacobian of a trajectory with tangent vectors has blocks on its diagonal.
 module dde_linear
-   use dde_kinds, only: wp
+   use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: factorise, solve
+   public :: factorise, matrix_layout, solve
+
+   !> Where the elements of a matrix and of its factors are. Rows exchanged move the first element of
+   !> a column up by `lower` rows.
+   type :: matrix_layout
+      !> Number of equations, diagonals below and above the main one
+      integer :: n = 0, lower = 0, upper = 0
+      !> Element (i, j) is number origin + i + j*stride: by columns, those of a band shifted
+      integer(int64) :: origin = 0, stride = 0
+   contains
+      procedure :: length
+   end type matrix_layout
+
+   interface matrix_layout
+      module procedure :: new_layout
+   end interface matrix_layout
 
    !> Replace a matrix by its factors.
    interface factorise
@@ -29,38 +43,63 @@ module dde_linear
 
 contains
 
+   !> A band, or the full matrix where that takes less memory.
+   pure type(matrix_layout) function new_layout(n, lower, upper) result(layout)
+      !> Number of equations
+      integer, intent(in) :: n
+      !> Diagonals below the main one
+      integer, intent(in) :: lower
+      !> Diagonals above it
+      integer, intent(in) :: upper
+
+      layout%n = n
+      layout%lower = min(lower, n - 1)
+      layout%upper = min(upper, n - 1)
+      layout%stride = min(int(n, int64), 2_int64*layout%lower + layout%upper)
+      layout%origin = -layout%stride
+      if (layout%stride < n) layout%origin = -layout%lower
+   end function new_layout
+
+   !> Number of elements.
+   pure integer(int64) function length(self) result(elements)
+      class(matrix_layout), intent(in) :: self
+
+      elements = self%origin + self%n*(self%stride + 1)
+   end function length
+
    !> Factors of a real matrix.
-   pure subroutine factorise_real(a, pivot, first, last, row_scale, singular)
-      integer, intent(out) :: pivot(:)
+   pure subroutine factorise_real(layout, a, pivot, first, last, row_scale, operations, singular)
+      type(matrix_layout), intent(in) :: layout
       !> Matrix, replaced by its factors
-      real(wp), intent(inout) :: a(size(pivot), size(pivot))
+      real(wp), intent(inout) :: a(*)
       real(wp) :: moved
       include "factorise.inc"
    end subroutine factorise_real
 
    !> Factors of a complex matrix.
-   pure subroutine factorise_complex(a, pivot, first, last, row_scale, singular)
-      integer, intent(out) :: pivot(:)
-      complex(wp), intent(inout) :: a(size(pivot), size(pivot))
+   pure subroutine factorise_complex(layout, a, pivot, first, last, row_scale, operations, &
+                                     singular)
+      type(matrix_layout), intent(in) :: layout
+      complex(wp), intent(inout) :: a(*)
       complex(wp) :: moved
       include "factorise.inc"
    end subroutine factorise_complex
 
    !> Solution of a factorised real system.
-   pure subroutine solve_real(a, pivot, first, last, b)
-      integer, intent(in) :: pivot(:)
-      real(wp), intent(in) :: a(size(pivot), size(pivot))
+   pure subroutine solve_real(layout, a, pivot, first, last, b)
+      type(matrix_layout), intent(in) :: layout
+      real(wp), intent(in) :: a(*)
       !> Right-hand side, replaced by the solution
-      real(wp), intent(inout) :: b(size(pivot))
+      real(wp), intent(inout) :: b(layout%n)
       real(wp) :: moved
       include "solve.inc"
    end subroutine solve_real
 
    !> Solution of a factorised complex system.
-   pure subroutine solve_complex(a, pivot, first, last, b)
-      integer, intent(in) :: pivot(:)
-      complex(wp), intent(in) :: a(size(pivot), size(pivot))
-      complex(wp), intent(inout) :: b(size(pivot))
+   pure subroutine solve_complex(layout, a, pivot, first, last, b)
+      type(matrix_layout), intent(in) :: layout
+      complex(wp), intent(in) :: a(*)
+      complex(wp), intent(inout) :: b(layout%n)
       complex(wp) :: moved
       include "solve.inc"
    end subroutine solve_complex

@@ -1,14 +1,13 @@
 !> The linear systems of the simplified Newton iteration of a Radau IIA step. The stages part into
 !> one real and some complex systems of size n (Hairer and Wanner 1996, sec. IV.8). Delayed values
-!> that lie in the step itself couple these systems. They are additional unknowns.
+!> that lie in the step itself couple these systems. Then there is one system for all stages.
 module dde_stage_systems
    use dde_collocation, only: combine, in_lanes, stage_lanes
-   use dde_coupling, only: coupling_type
    use dde_jacobian, only: jacobian_type
    use dde_radau_tableau, only: radau_tableau
    use dde_systems, only: complex_system, real_system
    use dde_work, only: work_type
-   use dde_kinds, only: wp
+   use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
    public :: stage_systems
@@ -27,14 +26,14 @@ module dde_stage_systems
       type(complex_system), allocatable, private :: of_pairs(:)
       !> Right-hand side of one of them, shape (n)
       complex(wp), allocatable, private :: pair_side(:)
-      !> Right-hand sides of all stages for one delayed value, shape (n, stages)
-      real(wp), allocatable, private :: solution(:, :)
-      !> Delayed values of all stages, and those at the end of the step for the real system alone
-      !> (allocatable: of two components of one type, gfortran frees only the first with the step)
-      type(coupling_type), allocatable, private :: of_stages, of_end
+      !> The system of all stages if they are coupled: (j - 1) stages + i is the transform i of
+      !> equation j
+      type(real_system), allocatable, private :: of_all
+      !> Its right-hand side, shape (stages, n)
+      real(wp), allocatable, private :: all_sides(:, :)
    contains
       procedure :: prepare, correct, filter
-      procedure, private :: couple, solve_stages
+      procedure, private :: add_delayed, couple, solve_stages
    end type stage_systems
 
    interface stage_systems
@@ -50,18 +49,17 @@ contains
       type(stage_systems) :: systems
 
       associate (s => method%stages)
-         allocate (systems%of_pairs(s/2), systems%pair_side(n), systems%solution(n, s))
+         allocate (systems%of_pairs(s/2), systems%pair_side(n))
          systems%t = in_lanes(method%t)
          systems%t_inverse = in_lanes(method%t_inverse)
          systems%a_inverse = inverse_of_a(method)
       end associate
    end function new_systems
 
-   !> inverse(A) = T L inverse(T).
-   pure function inverse_of_a(method) result(a_inverse)
+   !> L, the real eigenvalue and a block for each complex pair.
+   pure function blocks_of(method) result(blocks)
       type(radau_tableau), intent(in) :: method
-      real(wp) :: a_inverse(stage_lanes, method%stages)
-      real(wp), dimension(method%stages, method%stages) :: blocks, first, second
+      real(wp) :: blocks(method%stages, method%stages)
       integer :: i, pair
 
       blocks = 0.0_wp
@@ -74,8 +72,16 @@ contains
             blocks(i:i + 1, i + 1) = [-beta, alpha]
          end associate
       end do
+   end function blocks_of
+
+   !> inverse(A) = T L inverse(T).
+   pure function inverse_of_a(method) result(a_inverse)
+      type(radau_tableau), intent(in) :: method
+      real(wp) :: a_inverse(stage_lanes, method%stages)
+      real(wp), dimension(method%stages, method%stages) :: first, second
+
       associate (s => method%stages)
-         call combine(s, s, in_lanes(blocks), transpose(method%t_inverse), first)
+         call combine(s, s, in_lanes(blocks_of(method)), transpose(method%t_inverse), first)
          call combine(s, s, in_lanes(method%t), first, second)
          a_inverse = in_lanes(transpose(second))
       end associate
@@ -100,64 +106,103 @@ contains
 
       self%h = h
       self%coupled = any(own_place > 0.0_wp)
+      if (self%coupled) then
+         call self%couple(method, jacobian, component, own_place, own_weights, work, singular)
+         return
+      end if
       call self%of_real%prepare(jacobian, method%real_eigenvalue/h, singular)
-      work%factorisations = work%factorisations + 1
-      work%operations = work%operations + self%of_real%factor_operations
+      call work%count_factors(self%of_real%factor_operations)
       if (singular) return
       do pair = 1, size(self%of_pairs)
          call self%of_pairs(pair)%prepare(jacobian, method%complex_eigenvalues(pair)/h, singular)
-         work%factorisations = work%factorisations + 1
-         work%operations = work%operations + self%of_pairs(pair)%factor_operations
+         call work%count_factors(self%of_pairs(pair)%factor_operations)
          if (singular) return
       end do
-      if (self%coupled) then
-         call self%couple(method, jacobian%by_z, component, own_place, own_weights, work, singular)
-      end if
    end subroutine prepare
 
-   !> Make the delayed values that lie in the step unknowns. The others have weight 0.
-   pure subroutine couple(self, method, by_z, component, own_place, own_weights, work, singular)
+   !> Factorise the system of all stages, and the real system with the delayed values at the end of
+   !> the step.
+   pure subroutine couple(self, method, jacobian, component, own_place, own_weights, work, singular)
       class(stage_systems), intent(inout) :: self
       type(radau_tableau), intent(in) :: method
-      real(wp), intent(in) :: by_z(:, :)
+      type(jacobian_type), intent(in) :: jacobian
       integer, intent(in) :: component(:)
       real(wp), intent(in) :: own_place(:, :), own_weights(:, :, :)
       type(work_type), intent(inout) :: work
       logical, intent(out) :: singular
-      integer :: i, j, k, unknown
+      real(wp), dimension(method%stages, method%stages) :: blocks
+      integer(int64) :: at
+      integer :: above, below, first, i, j, k, last, shift
 
-      if (.not. allocated(self%of_stages)) then
-         self%of_stages = coupling_type(size(by_z, 1)*method%stages, size(component)*method%stages)
-         self%of_end = coupling_type(size(by_z, 1), size(component))
-      end if
-      call self%of_stages%clear()
-      call self%of_end%clear()
-      associate (n => size(by_z, 1), s => method%stages, last => method%stages)
-         do k = 1, size(component)
-            do i = 1, s
-               unknown = (k - 1)*s + i
-               if (.not. own_place(k, i) > 0.0_wp) cycle
-               do j = 1, s
-                  self%of_stages%weights((j - 1)*n + component(k), unknown) &
-                     = sum(own_weights(:, k, i)*self%t(:s, j))
-                  self%solution(:, j) = self%t_inverse(j, i)*by_z(:, k)
+      below = max(0, maxval(jacobian%rows(2, :) - component))
+      above = max(0, maxval(component - jacobian%rows(1, :)))
+      call self%of_real%fill(jacobian, method%real_eigenvalue/self%h, max(jacobian%lower, below), &
+                             max(jacobian%upper, above))
+      blocks = blocks_of(method)/self%h
+      associate (n => size(jacobian%by_y, 2), s => method%stages)
+         if (.not. allocated(self%of_all)) allocate (self%of_all, self%all_sides(s, n))
+         call self%of_all%reshape(n*s, max(jacobian%lower*s, (below + 1)*s - 1), &
+                                  max(jacobian%upper*s, (above + 1)*s - 1))
+         self%of_all%a = 0.0_wp
+         do j = 1, n
+            call jacobian%find_rows(j, first, last, shift)
+            do k = 1, s
+               at = self%of_all%column((j - 1)*s + k)
+               do i = first, last
+                  self%of_all%a(at + (i - 1)*s + k) = -jacobian%by_y(shift + i, j)
                end do
-               call self%solve_stages(self%solution, work)
-               self%of_stages%solutions(:, unknown) = reshape(self%solution, [n*s])
+               at = at + (j - 1)*s
+               self%of_all%a(at + 1:at + s) = self%of_all%a(at + 1:at + s) + blocks(:, k)
             end do
-            if (own_place(k, last) > 0.0_wp) then
-               self%of_end%weights(component(k), k) = 1.0_wp
-               self%of_end%solutions(:, k) = by_z(:, k)
-               call self%of_real%solve(self%of_end%solutions(:, k))
-            end if
          end do
       end associate
-      call self%of_end%prepare(singular)
-      work%factorisations = work%factorisations + 1
+      do k = 1, size(component)
+         call self%add_delayed(method, jacobian, component(k), k, own_place(k, :), &
+                               own_weights(:, k, :))
+      end do
+      call self%of_all%factorise(singular)
+      call work%count_factors(self%of_all%factor_operations)
       if (singular) return
-      call self%of_stages%prepare(singular)
-      work%factorisations = work%factorisations + 1
+      call self%of_real%factorise(singular)
+      call work%count_factors(self%of_real%factor_operations)
    end subroutine couple
+
+   !> Add a delayed value, where it lies in the step, to the matrices of all stages and of the end.
+   pure subroutine add_delayed(self, method, jacobian, component, k, own_place, own_weights)
+      class(stage_systems), intent(inout) :: self
+      type(radau_tableau), intent(in) :: method
+      type(jacobian_type), intent(in) :: jacobian
+      !> Component that it is, and its number
+      integer, intent(in) :: component, k
+      !> Its place at each stage
+      real(wp), intent(in) :: own_place(:)
+      !> Its weights, shape (stages, stages)
+      real(wp), intent(in) :: own_weights(:, :)
+      real(wp), dimension(method%stages, method%stages) :: by_stages, transforms, weights
+      integer(int64) :: at
+      integer :: i, j
+
+      if (.not. any(own_place > 0.0_wp)) return
+      associate (s => method%stages, first => jacobian%rows(1, k), last => jacobian%rows(2, k))
+         ! inverse(T) W T, where row i of W has the weights at stage i
+         weights = merge(own_weights, 0.0_wp, spread(own_place > 0.0_wp, 1, s))
+         call combine(s, s, self%t_inverse, weights, by_stages)
+         call combine(s, s, in_lanes(transpose(by_stages)), transpose(method%t), transforms)
+         do j = 1, s
+            at = self%of_all%column((component - 1)*s + j)
+            do i = first, last
+               associate (block => self%of_all%a(at + (i - 1)*s + 1:at + i*s))
+                  block = block - jacobian%by_z(1 + i - first, k)*transforms(j, :)
+               end associate
+            end do
+         end do
+         if (.not. own_place(s) > 0.0_wp) return
+         at = self%of_real%column(component)
+         do i = first, last
+            self%of_real%a(at + i) = self%of_real%a(at + i) - jacobian%by_z(1 + i - first, k)
+         end do
+      end associate
+   end subroutine add_delayed
 
    !> Solution of the real and the complex systems, for transformed stages.
    pure subroutine solve_stages(self, x, work)
@@ -203,8 +248,14 @@ contains
          change(:, i + 1) = change(:, i + 1) - (real(eigenvalue)*transforms(:, i + 1) &
                                                 + aimag(eigenvalue)*transforms(:, i))
       end do
-      call self%solve_stages(change, work)
-      if (self%coupled) call self%of_stages%complete(change)
+      if (self%coupled) then
+         self%all_sides = transpose(change)
+         call self%of_all%solve(self%all_sides)
+         work%operations = work%operations + self%of_all%solve_operations
+         change = transpose(self%all_sides)
+      else
+         call self%solve_stages(change, work)
+      end if
    end subroutine correct
 
    !> Replace a vector by the solution of the real system. Only its stiff components shrink.
@@ -214,6 +265,5 @@ contains
       real(wp), contiguous, intent(inout) :: vector(:)
 
       call self%of_real%solve(vector)
-      if (self%coupled) call self%of_end%complete(vector)
    end subroutine filter
 end module dde_stage_systems

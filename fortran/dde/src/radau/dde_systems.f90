@@ -1,104 +1,155 @@
-!> The linear systems (shift - J) x = b of an implicit step, where J is the Jacobian. dde_linear
-!> solves small dense systems, LAPACK solves large dense and banded ones. Real and complex systems
-!> have one body in two files that are included.
+!> The linear systems (shift - J) x = b of an implicit step, where J is the Jacobian. Real and
+!> complex systems have one body in a file that is included.
 module dde_systems
    use dde_jacobian, only: jacobian_type
-   use dde_lapack, only: gbtrf, gbtrs, getrf, getrs, lapack_is_there
-   use dde_linear, only: factorise, solve
-   use dde_kinds, only: wp
+   use dde_linear, only: factorise, matrix_layout, solve
+   use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: complex_over_real, complex_system, factor_operations, real_system
+   public :: complex_system, real_system
 
-   !> LAPACK is faster than dde_linear from this number of equations on.
-   integer, parameter :: large = 48
    !> Operations of a complex multiplication over those of a real one.
    real(wp), parameter :: complex_over_real = 4.0_wp
 
    !> What real and complex systems have in common.
    type :: linear_system
-      !> Rows exchanged, shape (n)
+      !> Where the elements are
+      type(matrix_layout) :: layout
+      !> Row exchanged with each row, shape (n)
       integer, allocatable, private :: pivot(:)
       !> First and last row of each column of the factors that is not 0, shape (n)
       integer, allocatable, dimension(:), private :: first, last
-      !> Factor of each equation that makes its largest coefficient 1, shape (n). Otherwise a stiff
-      !> equation would be the pivot for the others.
-      real(wp), allocatable, private :: row(:)
-      !> Whether the Jacobian is banded, its diagonals below and above the main one
-      logical, private :: banded = .false.
-      integer, private :: lower = 0, upper = 0
+      !> One over the largest coefficient of each equation, shape (n)
+      real(wp), allocatable, private :: row_scale(:)
       !> Additions and multiplications of a factorisation and of a solution
       real(wp) :: factor_operations = 0.0_wp, solve_operations = 0.0_wp
+   contains
+      procedure :: column
+      procedure, private :: count_operations
    end type linear_system
 
    !> A system with a real shift.
    type, extends(linear_system) :: real_system
-      !> Factors, shape (n, n) or (1 + 2 lower + upper, n)
-      real(wp), allocatable, private :: a(:, :)
+      !> Elements, then those of the factors
+      real(wp), allocatable :: a(:)
    contains
+      procedure :: reshape => reshape_real
+      procedure :: fill => fill_real
+      procedure :: factorise => factorise_system
       procedure :: prepare => prepare_real
       procedure :: solve => solve_real
    end type real_system
 
    !> A system with a complex shift.
    type, extends(linear_system) :: complex_system
-      !> Factors, shape (n, n) or (1 + 2 lower + upper, n)
-      complex(wp), allocatable, private :: a(:, :)
+      !> Elements, then those of the factors
+      complex(wp), allocatable, private :: a(:)
    contains
+      procedure, private :: reshape => reshape_complex
+      procedure, private :: fill => fill_complex
       procedure :: prepare => prepare_complex
       procedure :: solve => solve_complex
    end type complex_system
 
 contains
 
+   !> Storage for a band of at least so many diagonals.
+   pure subroutine reshape_real(self, n, lower, upper)
+      class(real_system), intent(inout) :: self
+      include "reshape_system.inc"
+   end subroutine reshape_real
+
+   !> Storage for a band of at least so many diagonals.
+   pure subroutine reshape_complex(self, n, lower, upper)
+      class(complex_system), intent(inout) :: self
+      include "reshape_system.inc"
+   end subroutine reshape_complex
+
+   !> The matrix shift - J, whose band may be wider than that of J.
+   pure subroutine fill_real(self, jacobian, shift, lower, upper)
+      class(real_system), intent(inout) :: self
+      real(wp), intent(in) :: shift
+      include "fill_system.inc"
+   end subroutine fill_real
+
+   !> The matrix shift - J.
+   pure subroutine fill_complex(self, jacobian, shift, lower, upper)
+      class(complex_system), intent(inout) :: self
+      complex(wp), intent(in) :: shift
+      include "fill_system.inc"
+   end subroutine fill_complex
+
+   !> Factorise a matrix that is filled.
+   pure subroutine factorise_system(self, singular)
+      class(real_system), intent(inout) :: self
+      !> Whether a pivot vanished
+      logical, intent(out) :: singular
+      integer(int64) :: operations(2)
+
+      call factorise(self%layout, self%a, self%pivot, self%first, self%last, self%row_scale, &
+                     operations, singular)
+      call self%count_operations(operations, 1.0_wp)
+   end subroutine factorise_system
+
    !> Factorise shift - J.
    pure subroutine prepare_real(self, jacobian, shift, singular)
       class(real_system), intent(inout) :: self
+      type(jacobian_type), intent(in) :: jacobian
       real(wp), intent(in) :: shift
-      !> Operations of a multiplication
-      real(wp), parameter :: cost = 1.0_wp
-      include "prepare_system.inc"
+      logical, intent(out) :: singular
+
+      call self%fill(jacobian, shift, jacobian%lower, jacobian%upper)
+      call self%factorise(singular)
    end subroutine prepare_real
+
+   !> Factorise shift - J.
+   pure subroutine prepare_complex(self, jacobian, shift, singular)
+      class(complex_system), intent(inout) :: self
+      type(jacobian_type), intent(in) :: jacobian
+      complex(wp), intent(in) :: shift
+      logical, intent(out) :: singular
+      integer(int64) :: operations(2)
+
+      call self%fill(jacobian, shift, jacobian%lower, jacobian%upper)
+      call factorise(self%layout, self%a, self%pivot, self%first, self%last, self%row_scale, &
+                     operations, singular)
+      call self%count_operations(operations, complex_over_real)
+   end subroutine prepare_complex
 
    !> Replace a right-hand side by the solution.
    pure subroutine solve_real(self, b)
       class(real_system), intent(in) :: self
       !> Right-hand side, replaced by the solution, shape (n)
-      real(wp), contiguous, intent(inout) :: b(:)
-      include "solve_system.inc"
-   end subroutine solve_real
+      real(wp), intent(inout) :: b(self%layout%n)
 
-   !> Factorise shift - J.
-   pure subroutine prepare_complex(self, jacobian, shift, singular)
-      class(complex_system), intent(inout) :: self
-      complex(wp), intent(in) :: shift
-      !> Operations of a multiplication
-      real(wp), parameter :: cost = complex_over_real
-      include "prepare_system.inc"
-   end subroutine prepare_complex
+      call solve(self%layout, self%a, self%pivot, self%first, self%last, b)
+   end subroutine solve_real
 
    !> Replace a right-hand side by the solution.
    pure subroutine solve_complex(self, b)
       class(complex_system), intent(in) :: self
-      complex(wp), contiguous, intent(inout) :: b(:)
-      include "solve_system.inc"
+      complex(wp), intent(inout) :: b(self%layout%n)
+
+      call solve(self%layout, self%a, self%pivot, self%first, self%last, b)
    end subroutine solve_complex
 
-   !> Additions and multiplications of a factorisation, in real numbers.
-   pure real(wp) function factor_operations(n, banded, lower, upper) result(operations)
-      !> Number of equations
-      integer, intent(in) :: n
-      !> Whether the matrix is banded
-      logical, intent(in) :: banded
-      !> Diagonals below the main one
-      integer, intent(in) :: lower
-      !> Diagonals above it
-      integer, intent(in) :: upper
+   !> Where a column is: its element i is number column + i.
+   pure integer(int64) function column(self, j) result(at)
+      class(linear_system), intent(in) :: self
+      integer, intent(in) :: j
 
-      if (banded) then
-         operations = 2.0_wp*n*lower*(lower + upper + 1)
-      else
-         operations = 2.0_wp/3.0_wp*real(n, wp)**3
-      end if
-   end function factor_operations
+      at = self%layout%origin + j*self%layout%stride
+   end function column
+
+   !> Additions and multiplications of a factorisation and of a solution, in real numbers.
+   pure subroutine count_operations(self, operations, cost)
+      class(linear_system), intent(inout) :: self
+      !> Elements, as `factorise` counts them
+      integer(int64), intent(in) :: operations(2)
+      !> Operations of a multiplication
+      real(wp), intent(in) :: cost
+
+      self%factor_operations = cost*2*operations(1)
+      self%solve_operations = cost*2*operations(2)
+   end subroutine count_operations
 end module dde_systems

@@ -3,13 +3,13 @@ module test_dde_implicit_order
    use dde_collocation, only: combine, lagrange_factors, lagrange_weights
    use dde_implicit_step, only: implicit_step_type
    use dde_jacobian, only: jacobian_type
-   use dde_linear, only: factorise, solve
+   use dde_linear, only: factorise, matrix_layout, solve
    use dde_radau_tableau, only: radau_iia, radau_tableau
    use dde_stage_systems, only: stage_systems
    use dde_work, only: work_type
    use dde_errors, only: text
    use expectations, only: expect, expect_between, expect_close
-   use dde_kinds, only: wp
+   use dde_kinds, only: int64, wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use pseudo_random, only: uniform
    use single_step, only: interpolated, take_step
@@ -42,9 +42,10 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(radau_tableau) :: method
       type(stage_systems) :: systems
-      real(wp), allocatable :: a_inverse(:, :), b(:), factors(:, :), row_scale(:)
+      real(wp), allocatable :: a_inverse(:, :), b(:), factors(:), row_scale(:)
       integer, allocatable, dimension(:) :: first, last, pivot
       integer :: i, q
+      integer(int64) :: operations(2)
       logical :: singular
 
       do i = 1, size(stages)
@@ -53,15 +54,16 @@ contains
          associate (c => method%c, s => stages(i))
             a_inverse = systems%a_inverse(:s, :)
             ! b is the last row of A
-            factors = transpose(a_inverse)
+            factors = reshape(transpose(a_inverse), [s*s])
             b = spread(0.0_wp, 1, s)
             b(s) = 1.0_wp
             row_scale = b
             pivot = spread(0, 1, s)
             first = pivot
             last = pivot
-            call factorise(factors, pivot, first, last, row_scale, singular)
-            call solve(factors, pivot, first, last, b)
+            call factorise(matrix_layout(s, s, s), factors, pivot, first, last, row_scale, &
+                           operations, singular)
+            call solve(matrix_layout(s, s, s), factors, pivot, first, last, b)
             do q = 1, 2*s - 1
                call expect_close(error, sum(b*c**(q - 1)), 1.0_wp/q, 1.0e-13_wp, "B "//text(q))
             end do
@@ -127,6 +129,9 @@ contains
       type(work_type) :: work
 
       allocate (jacobian%by_y(3, 3), jacobian%by_z(3, 1), source=0.0_wp)
+      jacobian%rows = reshape([1, 3], [2, 1])
+      jacobian%lower = 2
+      jacobian%upper = 2
       jacobian%by_y(3, :) = -stiffness*[2.0_wp, 1.0_wp, 2.0_wp - 2.0e-8_wp]
       do i = 1, size(stages)
          do lag = 0, 1
@@ -171,6 +176,9 @@ contains
       by_z = reshape(uniform(2, n*2, -2.0_wp, 2.0_wp), [n, 2])
       jacobian%by_y = by_y
       jacobian%by_z = by_z
+      jacobian%rows = reshape([1, n, 1, n], [2, 2])
+      jacobian%lower = n - 1
+      jacobian%upper = n - 1
       vector = uniform(3, n, -1.0_wp, 1.0_wp)
       do i = 1, size(stages)
          method = radau_iia(stages(i))

@@ -3,7 +3,6 @@
 module test_dde_large
    use dde, only: integration_result
    use dde_jacobian, only: jacobian_type
-   use dde_lapack, only: lapack_is_there
    use dde_methods, only: price_of_trial
    use dde_tolerance, only: tolerance_type
    use dde_work, only: work_type
@@ -23,10 +22,8 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("differences", test_differences), &
-                   new_unittest("the cost of auto", test_auto)]
-      ! a build without LAPACK refuses banded Jacobians
-      if (.not. lapack_is_there) return
-      testsuite = [testsuite, new_unittest("a banded Jacobian", test_banded), &
+                   new_unittest("the cost of auto", test_auto), &
+                   new_unittest("a banded Jacobian", test_banded), &
                    new_unittest("100 000 equations", test_stack)]
    end subroutine collect_dde_large
 
@@ -68,8 +65,7 @@ contains
       end do
    end subroutine test_differences
 
-   !> With a band the solution is the same, for a tenth of the evaluations; below and above the
-   !> number of equations from which on LAPACK factorises.
+   !> With a band the solution is the same, for a tenth of the evaluations.
    subroutine test_banded(error)
       type(error_type), allocatable, intent(out) :: error
       integer, parameter :: sizes(2) = [30, 80]
@@ -119,7 +115,7 @@ contains
       real(wp) :: price
       integer :: banded, i, n
 
-      do banded = 0, merge(1, 0, lapack_is_there)
+      do banded = 0, 1
          do n = 30, 150, 120
             do i = 1, size(diffusion)
                problem = cells(n, diffusion(i), delayed=.true.)

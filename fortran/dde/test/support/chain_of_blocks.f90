@@ -42,6 +42,7 @@ contains
          problem%lag = problem%lag*[(1.0_wp + spread*(j - 1)/max(1, blocks - 1), j=1, blocks)]
       end if
       problem%component = [(3*j, j=1, blocks)]
+      problem%rows = reshape([(3*j - 2, 3*j - 2, j=1, blocks)], [2, blocks])
       allocate (problem%past(3*blocks), source=0.0_wp)
       do j = 1, blocks
          problem%past(3*j - 1) = 0.1_wp*sin(real(j, wp))

@@ -35,6 +35,7 @@ contains
          if (delayed) problem%component(i) = i
          problem%past(i) = 1.0_wp + 0.5_wp*cos(2.0_wp*acos(0.0_wp)*(i - 0.5_wp)/n)
       end do
+      problem%rows = reshape([(i, i, i=1, size(problem%lag))], [2, size(problem%lag)])
       call fill(problem, n, first=problem%past)
    end function new_cells
 
