@@ -27,12 +27,11 @@ def largest_error(printed: str) -> float:
 
 @pytest.fixture(scope="module")
 def installed(tmp_path_factory) -> Path:
-    """Folder of an installed copy, with LAPACK; its sources and its build are gone."""
+    """Folder of an installed copy; its sources and its build are gone."""
     folder = tmp_path_factory.mktemp("solver")
     source = shutil.copytree(PACKAGE, folder / "source")
-    settings = ["-D", "DDE_LAPACK=ON", "-D", "DDE_TESTS=OFF"]
     prefix = folder / "prefix"
-    run("cmake", *settings, "-S", source, "-B", folder / "build")
+    run("cmake", "-D", "DDE_TESTS=OFF", "-S", source, "-B", folder / "build")
     run("cmake", "--build", folder / "build")
     run("cmake", "--install", folder / "build", "--prefix", prefix)
     shutil.rmtree(source)
@@ -76,7 +75,7 @@ def test_pkg_config_finds_it(installed, tmp_path):
 
 
 def test_fpm_builds_it(tmp_path):
-    """From a copy of its folder alone, without LAPACK."""
+    """From a copy of its folder alone."""
     shutil.copytree(PACKAGE, tmp_path / "dde")
     shutil.copytree(OUTSIDE / "by_fpm", tmp_path / "mine")
     printed = run("fpm", "run", cwd=tmp_path / "mine")
@@ -85,7 +84,7 @@ def test_fpm_builds_it(tmp_path):
 
 
 @pytest.mark.long
-def test_its_own_tests_pass_without_lapack(tmp_path):
+def test_its_own_tests_pass(tmp_path):
     """From its folder alone."""
     build = tmp_path / "build"
     run("cmake", "-S", PACKAGE, "-B", build)

@@ -32,6 +32,7 @@ contains
 
       testsuite = [new_unittest("conditions B, C and D", test_conditions), &
                    new_unittest("one step of an oscillator", test_oscillator), &
+                   new_unittest("elimination", test_elimination), &
                    new_unittest("a row of huge numbers", test_huge_row), &
                    new_unittest("delayed values in the step", test_coupling)]
    end subroutine collect_dde_implicit_order
@@ -114,6 +115,56 @@ contains
       end do
    end subroutine test_oscillator
 
+   !> Real and complex systems are solved, full and banded, with rows exchanged.
+   subroutine test_elimination(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: n = 20, lower(3) = [2, 1, n], upper(3) = [1, 3, n]
+      real(wp) :: a(n, n), row_scale(n), side(n), x(n)
+      complex(wp) :: shifted(n, n), z(n)
+      complex(wp), allocatable :: complex_factors(:)
+      real(wp), allocatable :: factors(:)
+      integer, dimension(n) :: first, last, pivot
+      integer :: i, j, k
+      integer(int64) :: at, operations(2)
+      logical :: singular
+      type(matrix_layout) :: layout
+
+      side = uniform(5, n, -1.0_wp, 1.0_wp)
+      do k = 1, size(lower)
+         a = reshape(uniform(6, n*n, -1.0_wp, 1.0_wp), [n, n])
+         layout = matrix_layout(n, lower(k), upper(k))
+         allocate (factors(layout%length()), source=0.0_wp)
+         allocate (complex_factors(layout%length()), source=(0.0_wp, 0.0_wp))
+         shifted = a
+         do j = 1, n
+            at = layout%origin + j*layout%stride
+            shifted(j, j) = shifted(j, j) + (0.0_wp, 2.0_wp)
+            do i = 1, n
+               if (i - j > lower(k) .or. j - i > upper(k)) then
+                  a(i, j) = 0.0_wp
+                  shifted(i, j) = 0.0_wp
+               else
+                  factors(at + i) = a(i, j)
+                  complex_factors(at + i) = shifted(i, j)
+               end if
+            end do
+         end do
+         x = side
+         call factorise(layout, factors, pivot, first, last, row_scale, operations, singular)
+         call solve(layout, factors, pivot, first, last, x)
+         call expect(error, any(pivot /= [(i, i=1, n)]), "rows are exchanged")
+         call expect_close(error, matmul(a, x), side, 1.0e-12_wp, "real")
+         z = side
+         call factorise(layout, complex_factors, pivot, first, last, row_scale, operations, &
+                        singular)
+         call solve(layout, complex_factors, pivot, first, last, z)
+         z = matmul(shifted, z)
+         call expect_close(error, real(z), side, 1.0e-12_wp, "complex")
+         call expect_close(error, aimag(z), 0.0_wp*side, 1.0e-12_wp, "complex")
+         deallocate (complex_factors, factors)
+      end do
+   end subroutine test_elimination
+
    !> One Newton correction of a block deep in stick (stiffness 1e23, near balance of forces), alone
    !> and with the delay inside the step: theta stays, u falls by h c. The row of ln v must not
    !> be the pivot for the others.
@@ -156,69 +207,107 @@ contains
    end subroutine test_huge_row
 
    !> A correction solves the linearised equations of all stages, and the filter its own, with two
-   !> delays that lie in the step at all stages, at some and at none.
+   !> delays that lie in the step at all stages, at some and at none; full and banded.
    subroutine test_coupling(error)
       type(error_type), allocatable, intent(out) :: error
       type(radau_tableau) :: method
-      type(jacobian_type) :: jacobian
-      type(stage_systems) :: systems
-      real(wp), parameter :: h = 0.7_wp, lags(2, 3) = reshape([0.01_wp, 0.3_wp, 0.5_wp, 0.02_wp, &
-                                                               0.4_wp, 0.9_wp], [2, 3])
-      integer, parameter :: component(2) = [3, 1], n = 4
-      real(wp), allocatable, dimension(:, :) :: change, correction, left, own_place, slopes
-      real(wp), allocatable :: weights(:, :, :)
-      real(wp) :: by_y(n, n), by_z(n, 2), filtered(n), vector(n)
-      integer :: i, j, k, lag
-      logical :: singular
-      type(work_type) :: work
+      type(jacobian_type) :: full, banded
+      integer, parameter :: n = 6
+      real(wp), parameter :: lags(2, 3) = reshape([0.01_wp, 0.3_wp, 0.5_wp, 0.02_wp, 0.4_wp, &
+                                                   0.9_wp], [2, 3])
+      real(wp) :: by_y(n, n), by_z(n, 2)
+      integer :: i, j, lag
 
       by_y = reshape(uniform(1, n*n, -2.0_wp, 2.0_wp), [n, n])
       by_z = reshape(uniform(2, n*2, -2.0_wp, 2.0_wp), [n, 2])
-      jacobian%by_y = by_y
-      jacobian%by_z = by_z
-      jacobian%rows = reshape([1, n, 1, n], [2, 2])
-      jacobian%lower = n - 1
-      jacobian%upper = n - 1
-      vector = uniform(3, n, -1.0_wp, 1.0_wp)
+      full%by_y = by_y
+      full%by_z = by_z
+      full%rows = reshape([1, n, 1, n], [2, 2])
+      full%lower = n - 1
+      full%upper = n - 1
+      banded%banded = .true.
+      banded%lower = 1
+      banded%upper = 2
+      banded%rows = reshape([4, 6, 2, 3], [2, 2])
+      allocate (banded%by_y(4, n), source=0.0_wp)
+      do j = 1, n
+         do i = max(1, j - 2), min(n, j + 1)
+            banded%by_y(3 + i - j, j) = by_y(i, j)
+         end do
+      end do
+      banded%by_z = by_z(:3, :)
       do i = 1, size(stages)
          method = radau_iia(stages(i))
          do lag = 1, size(lags, 2)
-            systems = stage_systems(method, n)
-            allocate (own_place(2, stages(i)), change(n, stages(i)), correction(n, stages(i)))
-            do j = 1, stages(i)
-               own_place(:, j) = method%c(j) - lags(:, lag)/h
-            end do
-            slopes = reshape(uniform(4, n*stages(i), -1.0_wp, 1.0_wp), [n, stages(i)])
-            weights = weights_at(method, own_place)
-            call systems%prepare(method, h, jacobian, component, own_place, weights, work, &
-                                 singular)
-            call systems%correct(method, slopes, 0.0_wp*slopes, work, correction)
-            call combine(n, stages(i), systems%t, correction, change)
-            left = matmul(change, transpose(systems%a_inverse(:stages(i), :)))/h &
-                   - matmul(by_y, change)
-            do j = 1, stages(i)
-               do k = 1, 2
-                  if (own_place(k, j) <= 0.0_wp) cycle
-                  left(:, j) = left(:, j) - by_z(:, k)*sum(weights(:, k, j)*change(component(k), :))
-               end do
-            end do
-            call expect(error, .not. singular, "there is a solution")
-            do j = 1, stages(i)
-               call expect_close(error, left(:, j), slopes(:, j), 1.0e-12_wp, "stage "//text(j))
-            end do
-            filtered = vector
-            call systems%filter(filtered)
-            left = reshape(method%real_eigenvalue/h*filtered - matmul(by_y, filtered), [n, 1])
-            do k = 1, 2
-               if (own_place(k, stages(i)) > 0.0_wp) then
-                  left(:, 1) = left(:, 1) - by_z(:, k)*filtered(component(k))
-               end if
-            end do
-            call expect_close(error, left(:, 1), vector, 1.0e-13_wp, "the filter")
-            deallocate (own_place, change, correction)
+            call check_systems(error, method, full, by_y, by_z, lags(:, lag))
+         end do
+      end do
+      do j = 1, n
+         by_y(:j - 3, j) = 0.0_wp
+         by_y(j + 2:, j) = 0.0_wp
+      end do
+      by_z = 0.0_wp
+      by_z(4:6, 1) = banded%by_z(:, 1)
+      by_z(2:3, 2) = banded%by_z(:2, 2)
+      do i = 1, size(stages)
+         method = radau_iia(stages(i))
+         do lag = 1, size(lags, 2)
+            call check_systems(error, method, banded, by_y, by_z, lags(:, lag))
          end do
       end do
    end subroutine test_coupling
+
+   !> The systems of a step of length 0.7 with two delayed values, of components 3 and 1.
+   subroutine check_systems(error, method, jacobian, by_y, by_z, lags)
+      type(error_type), allocatable, intent(inout) :: error
+      type(radau_tableau), intent(in) :: method
+      type(jacobian_type), intent(in) :: jacobian
+      !> Its elements
+      real(wp), intent(in) :: by_y(:, :), by_z(:, :)
+      real(wp), intent(in) :: lags(2)
+      type(stage_systems) :: systems
+      real(wp), parameter :: h = 0.7_wp
+      integer, parameter :: component(2) = [3, 1]
+      real(wp), dimension(size(by_y, 1), method%stages) :: change, correction, left, slopes
+      real(wp) :: own_place(2, method%stages), weights(method%stages, 2, method%stages)
+      real(wp), dimension(size(by_y, 1)) :: filtered, vector
+      integer :: j, k
+      logical :: singular
+      type(work_type) :: work
+
+      associate (n => size(by_y, 1), s => method%stages)
+         vector = uniform(3, n, -1.0_wp, 1.0_wp)
+         systems = stage_systems(method, n)
+         do j = 1, s
+            own_place(:, j) = method%c(j) - lags/h
+         end do
+         slopes = reshape(uniform(4, n*s, -1.0_wp, 1.0_wp), [n, s])
+         weights = weights_at(method, own_place)
+         call systems%prepare(method, h, jacobian, component, own_place, weights, work, singular)
+         call systems%correct(method, slopes, 0.0_wp*slopes, work, correction)
+         call combine(n, s, systems%t, correction, change)
+         left = matmul(change, transpose(systems%a_inverse(:s, :)))/h - matmul(by_y, change)
+         do j = 1, s
+            do k = 1, 2
+               if (own_place(k, j) <= 0.0_wp) cycle
+               left(:, j) = left(:, j) - by_z(:, k)*sum(weights(:, k, j)*change(component(k), :))
+            end do
+         end do
+         call expect(error, .not. singular, "there is a solution")
+         do j = 1, s
+            call expect_close(error, left(:, j), slopes(:, j), 1.0e-12_wp, "stage "//text(j))
+         end do
+         filtered = vector
+         call systems%filter(filtered)
+         left(:, 1) = method%real_eigenvalue/h*filtered - matmul(by_y, filtered)
+         do k = 1, 2
+            if (own_place(k, s) > 0.0_wp) then
+               left(:, 1) = left(:, 1) - by_z(:, k)*filtered(component(k))
+            end if
+         end do
+         call expect_close(error, left(:, 1), vector, 1.0e-13_wp, "the filter")
+      end associate
+   end subroutine check_systems
 
    !> Weights of the stage increments in the delayed values of each stage.
    pure function weights_at(method, own_place) result(weights)

@@ -16,6 +16,12 @@ module test_dde_large
    private
    public :: collect_dde_large
 
+   !> Cells that give their derivatives.
+   type, extends(cells) :: cells_with_derivatives
+   contains
+      procedure :: jacobian => three_diagonals
+   end type cells_with_derivatives
+
 contains
 
    subroutine collect_dde_large(testsuite)
@@ -24,11 +30,12 @@ contains
       testsuite = [new_unittest("differences", test_differences), &
                    new_unittest("the cost of auto", test_auto), &
                    new_unittest("a banded Jacobian", test_banded), &
+                   new_unittest("many short delays", test_short_delays), &
                    new_unittest("100 000 equations", test_stack)]
    end subroutine collect_dde_large
 
    !> Differences agree with the derivatives, and each evaluation is counted: by columns and delayed
-   !> values, and by diagonals where the Jacobian is banded.
+   !> values, by diagonals where the Jacobian is banded, and once for delayed values of other rows.
    subroutine test_differences(error)
       type(error_type), allocatable, intent(out) :: error
       integer, parameter :: n = 7
@@ -41,6 +48,7 @@ contains
       real(wp) :: known, y(n), z(n)
 
       problem = cells(n, diffusion=3.0_wp, delayed=.true.)
+      deallocate (problem%rows)
       tolerance = tolerance_type(n, 1.0e-6_wp, 1.0e-6_wp)
       y = [(1.0_wp + 0.1_wp*i, i=1, n)]
       z = 0.5_wp
@@ -49,11 +57,12 @@ contains
       call full%evaluate(problem, tolerance, work, 0.0_wp, y, z, .false., finite)
       call expect(error, work%evaluations == 2 + 3*n, &
                   "without the delayed ones: "//text(work%evaluations))
+      problem = cells(n, diffusion=3.0_wp, delayed=.true.)
       problem%lower = 1
       problem%upper = 1
       work = work_type(n)
-      call banded%evaluate(problem, tolerance, work, 0.0_wp, y, z, .false., finite)
-      call expect(error, work%evaluations == 4, "by diagonals: "//text(work%evaluations))
+      call banded%evaluate(problem, tolerance, work, 0.0_wp, y, z, .true., finite)
+      call expect(error, work%evaluations == 5, "by diagonals: "//text(work%evaluations))
       do j = 1, n
          do i = max(1, j - 1), min(n, j + 1)
             known = 3.0_wp
@@ -62,6 +71,7 @@ contains
             call expect_close(error, banded%by_y(2 + i - j, j), known, 1.0e-6_wp, "banded")
          end do
          call expect_close(error, full%by_z(j, j), -1.8_wp*y(j), 1.0e-6_wp, "by a delayed value")
+         call expect_close(error, banded%by_z(1, j), -1.8_wp*y(j), 1.0e-6_wp, "from its row on")
       end do
    end subroutine test_differences
 
@@ -89,6 +99,43 @@ contains
       end do
    end subroutine test_banded
 
+   !> Steps longer than 100 delays, whose matrix is full or a band of derivatives that the problem
+   !> gives, agree with the explicit method.
+   subroutine test_short_delays(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: n = 100
+      type(cells) :: problem
+      type(cells_with_derivatives) :: with_derivatives
+      type(integration_result) :: banded, explicit, full
+
+      problem = cells(n, diffusion=1.0_wp, delayed=.true.)
+      problem%lag = 0.01_wp
+      call run(error, problem, 0.0_wp, 1.0_wp, at_tolerance(1.0e-8_wp, "explicit"), explicit)
+      call run(error, problem, 0.0_wp, 1.0_wp, at_tolerance(1.0e-7_wp, "radau9"), full)
+      with_derivatives%cells = problem
+      with_derivatives%lower = 1
+      with_derivatives%upper = 1
+      call run(error, with_derivatives, 0.0_wp, 1.0_wp, at_tolerance(1.0e-7_wp, "radau9"), banded)
+      if (allocated(error)) return
+      call expect(error, full%accepted < 50, text(full%accepted)//" steps longer than the delays")
+      call expect_close(error, full%y, explicit%y, 1.0e-7_wp, "full")
+      call expect_close(error, banded%y, explicit%y, 1.0e-7_wp, "banded")
+      call expect(error, banded%evaluations < full%evaluations - n, "no differences")
+   end subroutine test_short_delays
+
+   !> Derivatives of the reaction with diffusion in a band of three diagonals.
+   pure subroutine three_diagonals(self, t, y, z, by_y, by_z)
+      class(cells_with_derivatives), intent(in) :: self
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
+      real(wp), intent(out) :: by_y(:, :), by_z(:, :)
+
+      by_y = self%diffusion
+      by_y(2, :) = 1.8_wp*(1.0_wp - z) - 2*self%diffusion
+      by_y(2, 1) = by_y(2, 1) + self%diffusion
+      by_y(2, self%n) = by_y(2, self%n) + self%diffusion
+      by_z(1, :) = -1.8_wp*y
+   end subroutine three_diagonals
+
    !> No array on the stack grows with the number of equations.
    subroutine test_stack(error)
       type(error_type), allocatable, intent(out) :: error
@@ -113,26 +160,25 @@ contains
       type(integration_result) :: auto, explicit, implicit
       type(cells) :: problem
       real(wp) :: price
-      integer :: banded, i, n
+      integer, parameter :: sizes(5) = [30, 300, 30, 300, 3000]
+      integer :: i, k
 
-      do banded = 0, 1
-         do n = 30, 150, 120
-            do i = 1, size(diffusion)
+      do k = 1, size(sizes)
+         do i = 1, size(diffusion)
+            associate (n => sizes(k))
                problem = cells(n, diffusion(i), delayed=.true.)
-               if (banded == 1) problem%lower = 1
-               if (banded == 1) problem%upper = 1
+               if (k > 2) problem%lower = 1
+               if (k > 2) problem%upper = 1
                call run(error, problem, 0.0_wp, 3.0_wp, at_tolerance(1.0e-5_wp, "explicit"), &
                         explicit)
                call run(error, problem, 0.0_wp, 3.0_wp, at_tolerance(1.0e-5_wp, "radau9"), implicit)
                call run(error, problem, 0.0_wp, 3.0_wp, at_tolerance(1.0e-5_wp, "auto"), auto)
                if (allocated(error)) return
-               associate (better => min(explicit%work, implicit%work))
-                  price = price_of_trial(problem, tolerance_type(n, 1.0e-5_wp, 1.0e-5_wp))
-                  call expect(error, auto%work <= 1.5_wp*better + 2*price, &
-                              text(auto%work)//" by auto, "//text(explicit%work) &
-                              //" by explicit, "//text(implicit%work)//" by radau9")
-               end associate
-            end do
+               price = price_of_trial(problem, tolerance_type(n, 1.0e-5_wp, 1.0e-5_wp))
+               call expect(error, auto%work <= 1.5_wp*min(explicit%work, implicit%work) + 2*price, &
+                           text(auto%work)//" by auto, "//text(explicit%work)//" by explicit, " &
+                           //text(implicit%work)//" by radau9, n = "//text(n))
+            end associate
          end do
       end do
    end subroutine test_auto

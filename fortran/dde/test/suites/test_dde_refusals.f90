@@ -74,6 +74,14 @@ contains
       problem = wille_baker()
       problem%lower = 1
       call refuse(error, "lower = 1, upper = -1; both >= 0 expected", problem)
+      problem%upper = 1
+      call refuse(error, "no rows; rows of each delayed value expected", problem)
+      problem%rows = reshape([1, 1], [2, 1])
+      call refuse(error, "rows has the shape (2, 1); (2, 2) expected", problem)
+      do i = 0, 4, 4
+         problem%rows = reshape([1, 3, i, 3], [2, 2])
+         call refuse(error, "rows(:, 2) = "//text(i)//", 3; ascending in 1..3 expected", problem)
+      end do
    end subroutine test_problems
 
    !> The first state is finite.

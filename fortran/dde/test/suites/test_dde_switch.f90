@@ -7,7 +7,6 @@ module test_dde_switch
    use dde_kinds, only: wp
    use dde_work, only: work_type
    use expectations, only: expect, expect_close
-   use lines_of_cells, only: cells
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use piecewise_problems, only: piecewise, switching_kinds
    use published_problems, only: enzyme, infection, mackey_glass
@@ -43,7 +42,7 @@ contains
       end do
    end subroutine test_oscillation
 
-   !> On problems that jump, change their stiffness or have many delays, and on published ones,
+   !> On problems that jump or change their stiffness, and on published ones,
    !> `auto` takes at most twice the work of the better method, and the work that earns a trial.
    !> Where the stiffness changes in each delay the average of five neighbouring tolerances counts:
    !> which trials fail there depends on rounding.
@@ -61,7 +60,6 @@ contains
       call compare_work(error, infection(), 40.0_wp, "infection")
       call compare_work(error, enzyme(), 160.0_wp, "enzyme")
       call compare_work(error, mackey_glass(), 200.0_wp, "mackey-glass")
-      call compare_work(error, cells(60, 100.0_wp, delayed=.true.), 5.0_wp, "cells")
    end subroutine test_cost
 
    !> The work of `auto` and of the methods that it chooses from.
