@@ -5,9 +5,9 @@
 !> Extend `dde_problem_type`, fill `n`, `lag` and `component`, and write the three deferred
 !> procedures. Without delays `lag` and `component` have size zero, and no past is kept.
 !>
-!> Optional are - for implicit methods: `jacobian`, `lower` and `upper` of a banded one, and `rows` of
-!> delayed values, - for the method `taylor`: `series` and `past_series`, with `analytic` true, - for long Taylor steps
-!> where fast components are in balance: `relaxation_rate` and `slow_series`.
+!> Optional are - for implicit methods: `jacobian`, `lower` and `upper` of a banded one, and `rows`
+!> of delayed values, - for the method `taylor`: `series` and `past_series`, with `analytic` true, -
+!> for long Taylor steps where fast components are in balance: `relaxation_rate` and `slow_series`.
 module dde_problem
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde_kinds, only: wp

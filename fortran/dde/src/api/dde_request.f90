@@ -122,8 +122,8 @@ contains
                     //text(problem%upper)//"; both >= 0 expected (a banded Jacobian), or neither")
       else if (problem%lower >= 0 .and. size(problem%lag) > 0 &
                .and. .not. allocated(problem%rows)) then
-         call raise(error, "integrate: lower = "//text(problem%lower)//" (a banded Jacobian) and no " &
-                    //"rows; rows of each delayed value expected")
+         call raise(error, "integrate: lower = "//text(problem%lower)//" (a banded Jacobian) and " &
+                    //"no rows; rows of each delayed value expected")
       end if
       if (allocated(error)) return
       do k = 1, size(problem%lag)

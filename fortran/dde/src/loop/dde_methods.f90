@@ -34,7 +34,8 @@ contains
 
       columns = problem%n
       if (problem%lower >= 0) columns = min(problem%n, 1 + problem%lower + problem%upper)
-      price = implicit_cost*(columns + least_trial*(usual_iterations*implicit_stages(tolerance) + 2))
+      price = implicit_cost*(columns &
+                             + least_trial*(usual_iterations*implicit_stages(tolerance) + 2))
    end function price_of_trial
 
    !> Bytes that a step of a method takes, at most, counted from its components. It is made as a

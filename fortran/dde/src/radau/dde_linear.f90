@@ -8,15 +8,15 @@ module dde_linear
    private
    public :: factorise, matrix_layout, solve
 
-   !> Where the elements of a matrix and of its factors are. Rows exchanged move the first element of
-   !> a column up by `lower` rows.
+   !> Where the elements of a matrix and of its factors are. Exchanges of rows move the first element
+   !> of a column up by at most `lower` rows.
    type :: matrix_layout
       !> Number of equations, diagonals below and above the main one
       integer :: n = 0, lower = 0, upper = 0
       !> Element (i, j) is number origin + i + j*stride: by columns, those of a band shifted
       integer(int64) :: origin = 0, stride = 0
-   contains
-      procedure :: length
+      !> Number of elements
+      integer(int64) :: length = 0
    end type matrix_layout
 
    interface matrix_layout
@@ -58,20 +58,14 @@ contains
       layout%stride = min(int(n, int64), 2_int64*layout%lower + layout%upper)
       layout%origin = -layout%stride
       if (layout%stride < n) layout%origin = -layout%lower
+      layout%length = layout%origin + n*(layout%stride + 1)
    end function new_layout
-
-   !> Number of elements.
-   pure integer(int64) function length(self) result(elements)
-      class(matrix_layout), intent(in) :: self
-
-      elements = self%origin + self%n*(self%stride + 1)
-   end function length
 
    !> Factors of a real matrix.
    pure subroutine factorise_real(layout, a, pivot, first, last, row_scale, operations, singular)
       type(matrix_layout), intent(in) :: layout
       !> Matrix, replaced by its factors
-      real(wp), intent(inout) :: a(*)
+      real(wp), intent(inout) :: a(layout%length)
       real(wp) :: moved
       include "factorise.inc"
    end subroutine factorise_real
@@ -80,7 +74,7 @@ contains
    pure subroutine factorise_complex(layout, a, pivot, first, last, row_scale, operations, &
                                      singular)
       type(matrix_layout), intent(in) :: layout
-      complex(wp), intent(inout) :: a(*)
+      complex(wp), intent(inout) :: a(layout%length)
       complex(wp) :: moved
       include "factorise.inc"
    end subroutine factorise_complex
@@ -88,7 +82,7 @@ contains
    !> Solution of a factorised real system.
    pure subroutine solve_real(layout, a, pivot, first, last, b)
       type(matrix_layout), intent(in) :: layout
-      real(wp), intent(in) :: a(*)
+      real(wp), intent(in) :: a(layout%length)
       !> Right-hand side, replaced by the solution
       real(wp), intent(inout) :: b(layout%n)
       real(wp) :: moved
@@ -98,7 +92,7 @@ contains
    !> Solution of a factorised complex system.
    pure subroutine solve_complex(layout, a, pivot, first, last, b)
       type(matrix_layout), intent(in) :: layout
-      complex(wp), intent(in) :: a(*)
+      complex(wp), intent(in) :: a(layout%length)
       complex(wp), intent(inout) :: b(layout%n)
       complex(wp) :: moved
       include "solve.inc"

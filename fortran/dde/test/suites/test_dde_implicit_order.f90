@@ -133,8 +133,8 @@ contains
       do k = 1, size(lower)
          a = reshape(uniform(6, n*n, -1.0_wp, 1.0_wp), [n, n])
          layout = matrix_layout(n, lower(k), upper(k))
-         allocate (factors(layout%length()), source=0.0_wp)
-         allocate (complex_factors(layout%length()), source=(0.0_wp, 0.0_wp))
+         allocate (factors(layout%length), source=0.0_wp)
+         allocate (complex_factors(layout%length), source=(0.0_wp, 0.0_wp))
          shifted = a
          do j = 1, n
             at = layout%origin + j*layout%stride

@@ -90,7 +90,7 @@ contains
       do i = 1, size(methods)
          do digits = 4, 8, 2
             call compare(error, copies(1), &
-                         copies(merge(50, 10000, index(methods(i), "radau") > 0)), methods(i), &
+                         copies(merge(1000, 10000, index(methods(i), "radau") > 0)), methods(i), &
                          10.0_wp**(-digits))
          end do
       end do
@@ -138,6 +138,9 @@ contains
       start = 1.0_wp
       start(1) = 1.5_wp
       call fill(problem, n, start, start, spread(1.0_wp, 1, n), [(i, i=1, n)])
+      problem%lower = 0
+      problem%upper = 0
+      problem%rows = reshape([(i, i, i=1, n)], [2, n])
       problem%analytic = .true.
    end function copies
 end module test_dde_sizes
