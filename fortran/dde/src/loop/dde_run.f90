@@ -28,8 +28,8 @@ module dde_run
    !> times.
    real(wp), parameter :: beside = 4.0_wp
 
-   !> An implicit step of a proposed length below this many times the shortest delay is no longer than
-   !> the delay: otherwise its delayed values couple its stages.
+   !> An implicit step of a proposed length below this many times the shortest delay is no longer
+   !> than the delay: otherwise its delayed values couple its stages.
    real(wp), parameter :: uncoupled = 2.0_wp
 
    !> The state of a run.

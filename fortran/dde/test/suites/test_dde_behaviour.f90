@@ -167,8 +167,8 @@ contains
       end do
    end subroutine test_first_step
 
-   !> Twelve evaluations a try, three more where a sample wants dense output, one at the start. With a delay each step needs dense output, and each breaking
-   !> point a new first slope.
+   !> Twelve evaluations a try, three more where a sample wants dense output, one at the start. With
+   !> a delay each step needs dense output, and each breaking point a new first slope.
    subroutine test_work(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure

@@ -195,7 +195,7 @@ contains
                if (estimate > 1.0_wp) cycle
                worst = max(worst, abs(step%y_new(1) - exp(-problem%rate))/tolerance)
             end do
-            call expect_between(error, worst, 1.0e-3_wp, 1.0_wp, "largest error of a step of " &
+            call expect_between(error, worst, 1.0e-4_wp, 1.0_wp, "largest error of a step of " &
                                 //pairs(j)//" that passes at tolerance "//text(tolerance))
          end do
       end do
