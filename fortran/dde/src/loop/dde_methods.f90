@@ -12,12 +12,7 @@ module dde_methods
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-<<<<<<< HEAD
-   public :: choose_method, longest_step, matching_method
-   public :: price_of_trial
-=======
    public :: choose_method, longest_step, matching_method, price_of_trial
->>>>>>> systems
 
    !> Tolerances from which on `explicit` is the pair 5(4), below that 8(5,3), and from which on
    !> `auto` takes Radau of order 5, below that 9, and at last 13.
@@ -35,7 +30,6 @@ contains
       class(dde_problem_type), intent(in) :: problem
       !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance
-<<<<<<< HEAD
       integer :: columns, stages
 
       stages = stages_of(matching_method(problem, tolerance, implicit=.true.))
@@ -43,14 +37,6 @@ contains
       if (problem%lower >= 0) columns = min(problem%n, 1 + problem%lower + problem%upper)
       price = implicit_cost*(columns &
                              + least_trial*(usual_iterations*stages + 2))
-=======
-      integer :: columns
-
-      columns = problem%n
-      if (problem%lower >= 0) columns = min(problem%n, 1 + problem%lower + problem%upper)
-      price = implicit_cost*(columns &
-                             + least_trial*(usual_iterations*implicit_stages(tolerance) + 2))
->>>>>>> systems
    end function price_of_trial
 
    !> Bytes that a step of a method takes, at most, counted from its components. It is made as a
@@ -65,12 +51,7 @@ contains
       delays = size(problem%lag)
       select case (method)
       case ("radau5", "radau9", "radau13")
-<<<<<<< HEAD
          stages = stages_of(method)
-=======
-         read (method(6:), *) stages
-         stages = (stages + 1)/2
->>>>>>> systems
          height = n
          below = n - 1
          above = n - 1
@@ -163,18 +144,6 @@ contains
       name = merge("bs5     ", "dop853  ", tolerance%level >= least_of_bs5)
    end function explicit_pair
 
-<<<<<<< HEAD
-=======
-   !> Number of stages of the implicit method of `auto`.
-   pure integer function implicit_stages(tolerance) result(stages)
-      type(tolerance_type), intent(in) :: tolerance
-
-      stages = 5
-      if (tolerance%level >= least_of_radau5) stages = 3
-      if (tolerance%level < least_of_radau9) stages = 7
-   end function implicit_stages
-
->>>>>>> systems
    !> The longest step allowed: an explicit one ends before its delayed values lie in it.
    pure function longest_step(problem, step, of_all) result(longest)
       !> The problem

@@ -8,13 +8,8 @@ module dde_linear
    private
    public :: factorise, matrix_layout, solve
 
-<<<<<<< HEAD
-   !> Where the elements of a matrix and of its factors are. Exchanges of rows move the first element
-   !> of a column up by at most `lower` rows.
-=======
    !> Where the elements of a matrix and of its factors are. Exchanges of rows move the first
    !> element of a column up by at most `lower` rows.
->>>>>>> systems
    type :: matrix_layout
       !> Number of equations, diagonals below and above the main one
       integer :: n = 0, lower = 0, upper = 0

@@ -157,12 +157,7 @@ contains
          end do
       end associate
       do k = 1, size(component)
-<<<<<<< HEAD
          call self%add_delayed(method, jacobian, component(k), k, own_place, own_weights)
-=======
-         call self%add_delayed(method, jacobian, component(k), k, own_place(k, :), &
-                               own_weights(:, k, :))
->>>>>>> systems
       end do
       call self%of_all%factorise(singular)
       call work%count_factors(self%of_all%factor_operations)
@@ -171,18 +166,13 @@ contains
       call work%count_factors(self%of_real%factor_operations)
    end subroutine couple
 
-<<<<<<< HEAD
    !> Add delayed value k, where it lies in the step, to the matrices of all stages and of the end.
-=======
-   !> Add a delayed value, where it lies in the step, to the matrices of all stages and of the end.
->>>>>>> systems
    pure subroutine add_delayed(self, method, jacobian, component, k, own_place, own_weights)
       class(stage_systems), intent(inout) :: self
       type(radau_tableau), intent(in) :: method
       type(jacobian_type), intent(in) :: jacobian
       !> Component that it is, and its number
       integer, intent(in) :: component, k
-<<<<<<< HEAD
       real(wp), intent(in) :: own_place(:, :), own_weights(:, :, :)
       !> W T, where row i of W has the weights at stage i; then a column of inverse(T) W T
       real(wp) :: by_stages(stage_lanes, stage_lanes), transforms(stage_lanes)
@@ -213,31 +203,6 @@ contains
             end do
          end do
          if (.not. own_place(k, s) > 0.0_wp) return
-=======
-      !> Its place at each stage
-      real(wp), intent(in) :: own_place(:)
-      !> Its weights, shape (stages, stages)
-      real(wp), intent(in) :: own_weights(:, :)
-      real(wp), dimension(method%stages, method%stages) :: by_stages, transforms, weights
-      integer(int64) :: at
-      integer :: i, j
-
-      if (.not. any(own_place > 0.0_wp)) return
-      associate (s => method%stages, first => jacobian%rows(1, k), last => jacobian%rows(2, k))
-         ! inverse(T) W T, where row i of W has the weights at stage i
-         weights = merge(own_weights, 0.0_wp, spread(own_place > 0.0_wp, 1, s))
-         call combine(s, s, self%t_inverse, weights, by_stages)
-         call combine(s, s, in_lanes(transpose(by_stages)), transpose(method%t), transforms)
-         do j = 1, s
-            at = self%of_all%column((component - 1)*s + j)
-            do i = first, last
-               associate (block => self%of_all%a(at + (i - 1)*s + 1:at + i*s))
-                  block = block - jacobian%by_z(1 + i - first, k)*transforms(j, :)
-               end associate
-            end do
-         end do
-         if (.not. own_place(s) > 0.0_wp) return
->>>>>>> systems
          at = self%of_real%column(component)
          do i = first, last
             self%of_real%a(at + i) = self%of_real%a(at + i) - jacobian%by_z(1 + i - first, k)
