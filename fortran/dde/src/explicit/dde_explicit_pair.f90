@@ -140,7 +140,9 @@ contains
       logical, intent(inout) :: finite
 
       stage = stage + weight*newest
-      call evaluate(context, t, stage, z, slope, finite)
+      if (.not. finite) return
+      call context%evaluate(t, stage, z, slope)
+      finite = all(ieee_is_finite(slope))
    end subroutine add
 
    !> Slope at time `t` in state `y`, unless an earlier slope of this step was not finite.

@@ -40,7 +40,8 @@ module dde_history
       integer, allocatable, private :: degree(:)
       !> Whether all Newton nodes are 0, so that the polynomial is in powers, per slot
       logical, allocatable, private :: powers(:)
-      !> Newton nodes, shape (highest degree, slot), unused ones last
+      !> Newton nodes, shape (highest degree, slot); those between the degree and the usual degree
+      !> are 0
       real(wp), allocatable, private :: nodes(:, :)
       !> Newton coefficients, shape (0:highest degree, kept component, slot); those between the
       !> degree and the usual degree are 0
@@ -75,7 +76,7 @@ contains
       allocate (past%start(first_capacity), past%length(first_capacity))
       allocate (past%valid_for(first_capacity), past%degree(first_capacity))
       allocate (past%powers(first_capacity))
-      allocate (past%nodes(highest_degree, first_capacity), source=0.0_wp)
+      allocate (past%nodes(highest_degree, first_capacity))
       allocate (past%coefficients(0:highest_degree, size(past%kept), first_capacity))
    end function new_history
 
@@ -238,6 +239,7 @@ contains
       self%degree(slot) = size(nodes)
       self%powers(slot) = powers
       self%nodes(:size(nodes), slot) = nodes
+      self%nodes(size(nodes) + 1:usual_degree, slot) = 0.0_wp
       self%coefficients(size(nodes) + 1:usual_degree, :, slot) = 0.0_wp
    end subroutine open_step
 
