@@ -106,18 +106,26 @@ contains
       type(kink_type), intent(in) :: points(:)
       type(instant), intent(in) :: now
       type(kink_type), allocatable :: new(:)
+      integer :: count, i
 
+      allocate (new(size(points)))
+      count = 0
       associate (finish => self%ahead(size(self%ahead))%at)
-         new = points
-         where (abs(elapsed(finish, new%at)) <= same_point*elapsed(self%origin, finish))
-            new%at%hi = finish%hi
-            new%at%lo = finish%lo
-         end where
-         new = pack(new, elapsed(new%at, finish) >= 0.0_wp &
-                    .and. elapsed(now, new%at) > same_point*elapsed(self%origin, new%at))
+         do i = 1, size(points)
+            associate (point => new(count + 1))
+               point = points(i)
+               if (abs(elapsed(finish, point%at)) <= same_point*elapsed(self%origin, finish)) then
+                  point%at = finish
+               end if
+               if (elapsed(point%at, finish) >= 0.0_wp &
+                   .and. elapsed(now, point%at) > same_point*elapsed(self%origin, point%at)) then
+                  count = count + 1
+               end if
+            end associate
+         end do
       end associate
-      if (size(new) == 0) return
-      self%ahead = merged(self%ahead(self%next:), new, self%origin)
+      if (count == 0) return
+      self%ahead = merged(self%ahead(self%next:), new(:count), self%origin)
       self%next = 1
    end subroutine add_ahead
 
@@ -230,7 +238,7 @@ contains
 
       if (size(self%met) == 0) return
       if (elapsed(self%met(1)%at, horizon) > 0.0_wp) then
-         self%met = pack(self%met, elapsed(self%met%at, horizon) <= 0.0_wp)
+         self%met = self%met(1 + count(elapsed(self%met%at, horizon) > 0.0_wp):)
       end if
    end subroutine forget
 end module dde_breaking_points

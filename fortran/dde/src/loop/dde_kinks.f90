@@ -59,7 +59,7 @@ contains
          count = count + 1
          points(count) = point
       end do
-      points = points(:count)
+      if (count < size(points)) points = points(:count)
    end function merged
 
    !> Points in ascending order, each once.
