@@ -26,7 +26,7 @@ module dde_implicit_step
    !> Below this value of step size times norm of the Jacobian the problem is not stiff.
    real(wp), parameter :: least_stiff = 8.0_wp
    !> Cost of an evaluation within this method over one within the explicit pair.
-   real(wp), parameter :: implicit_cost = 4.0_wp
+   real(wp), parameter :: implicit_cost = 3.0_wp
 
    !> Stages and factors of the current step.
    type, extends(step_type) :: implicit_step_type
