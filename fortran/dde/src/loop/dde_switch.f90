@@ -21,8 +21,6 @@ module dde_switch
    !> Steps of a trial, at least and at most; in between it ends where steps no longer grow. The
    !> pace of a settled implicit method is taken over the latter number of steps.
    integer, parameter :: least_trial = 3, longest_trial = 6
-   !> Steps no longer grow once the next is no longer than this times the step.
-   real(wp), parameter :: growing = 1.2_wp
    !> Proposed length, in units of the shortest delay, from which on the delay limits an explicit
    !> step.
    real(wp), parameter :: beyond_the_delay = 4.0_wp
@@ -115,8 +113,10 @@ contains
       pace = self%recent%pace()
       select case (self%state)
       case (on_trial)
-         pace_is_known = self%recent%steps == longest_trial .or. &
-                         self%recent%steps >= least_trial .and. h_next <= growing*step%h
+         associate (steps => self%recent%steps, kept => step%constants%largest_kept_ratio)
+            pace_is_known = steps == longest_trial .or. &
+                            steps >= least_trial .and. h_next <= kept*step%h
+         end associate
          ! steps of the present length may be faster than the first ones
          if (pace_is_known) pace = max(pace, step%h*self%recent%steps/self%recent%work)
          other = pace_is_known .and. pace < self%pace_of_other
