@@ -62,14 +62,14 @@ contains
    end subroutine reshape_complex
 
    !> The matrix shift - J, whose band may be wider than that of J.
-   pure subroutine fill_real(self, jacobian, shift, lower, upper)
+   pure subroutine fill_real(self, jacobian, shift)
       class(real_system), intent(inout) :: self
       real(wp), intent(in) :: shift
       include "fill_system.inc"
    end subroutine fill_real
 
    !> The matrix shift - J.
-   pure subroutine fill_complex(self, jacobian, shift, lower, upper)
+   pure subroutine fill_complex(self, jacobian, shift)
       class(complex_system), intent(inout) :: self
       complex(wp), intent(in) :: shift
       include "fill_system.inc"
@@ -92,7 +92,10 @@ contains
       real(wp), intent(in) :: shift
       logical, intent(out) :: singular
 
-      call self%fill(jacobian, shift, jacobian%lower, jacobian%upper)
+      if (.not. allocated(self%a)) then
+         call self%reshape(size(jacobian%by_y, 2), jacobian%lower, jacobian%upper)
+      end if
+      call self%fill(jacobian, shift)
       call self%factorise(singular)
    end subroutine prepare_real
 
@@ -103,7 +106,10 @@ contains
       complex(wp), intent(in) :: shift
       logical, intent(out) :: singular
 
-      call self%fill(jacobian, shift, jacobian%lower, jacobian%upper)
+      if (.not. allocated(self%a)) then
+         call self%reshape(size(jacobian%by_y, 2), jacobian%lower, jacobian%upper)
+      end if
+      call self%fill(jacobian, shift)
       call factorise(self%layout, self%a, self%pivot, self%first, self%last, self%row_scale, &
                      self%factor_operations, self%solve_operations, singular)
    end subroutine prepare_complex
