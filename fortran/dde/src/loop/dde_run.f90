@@ -243,7 +243,7 @@ contains
       self%h = min(self%h, longest)
       if (self%step%constants%implicit) then
          associate (lag => minval(self%context%problem%lag))
-            if (self%h > lag .and. self%h < uncoupled*lag) self%h = lag
+            if (self%h > lag .and. self%h/uncoupled < lag) self%h = lag
          end associate
       end if
       landing = stretch*self%h >= gap .and. gap <= longest
