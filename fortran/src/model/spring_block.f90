@@ -102,7 +102,7 @@ contains
    pure subroutine derivatives_of_4(self, t, y, z, by_y, by_z)
       class(spring_block_type), intent(in) :: self
       real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
-      real(wp), intent(out) :: by_y(:, :), by_z(:, :)
+      real(wp), contiguous, intent(out) :: by_y(:, :), by_z(:, :)
       real(wp) :: stiffness, v
 
       associate (p => self%parameters, theta => y(index_of_theta), u => y(index_of_u), &

@@ -44,7 +44,7 @@ contains
    pure subroutine jacobian(self, t, y, z, by_y, by_z)
       class(analytic_problem), intent(in) :: self
       real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
-      real(wp), intent(out) :: by_y(:, :), by_z(:, :)
+      real(wp), contiguous, intent(out) :: by_y(:, :), by_z(:, :)
       integer :: i, j
 
       do j = 1, self%n

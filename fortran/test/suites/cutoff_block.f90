@@ -106,7 +106,7 @@ contains
    pure subroutine derivatives(self, t, y, z, by_y, by_z)
       class(with_jacobian_type), intent(in) :: self
       real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
-      real(wp), intent(out) :: by_y(:, :), by_z(:, :)
+      real(wp), contiguous, intent(out) :: by_y(:, :), by_z(:, :)
       real(wp) :: dydt(3), v
 
       associate (p => self%parameters, c => self%cutoff, w => y(index_of_ln_v))

@@ -45,7 +45,7 @@ contains
    pure subroutine wille_baker_jacobian(self, t, y, z, by_y, by_z)
       class(smooth_wille_baker), intent(in) :: self
       real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
-      real(wp), intent(out) :: by_y(:, :), by_z(:, :)
+      real(wp), contiguous, intent(out) :: by_y(:, :), by_z(:, :)
 
       by_y = 0.0_wp
       by_y(3, 2) = 1.0_wp

@@ -100,10 +100,10 @@ contains
       real(wp), intent(in) :: z(size(self%lag))
       !> Derivatives by y: element (i, j) at (i, j), shape (n, n), or at (1 + upper + i - j, j)
       !> where it is banded, shape (1 + lower + upper, n). All elements are set.
-      real(wp), intent(out) :: by_y(:, :)
+      real(wp), contiguous, intent(out) :: by_y(:, :)
       !> Derivatives by z: those of equation i at (i, k), shape (n, size(lag)), or at
       !> (1 + i - rows(1, k), k), shape (most rows, size(lag)). All elements are set.
-      real(wp), intent(out) :: by_z(:, :)
+      real(wp), contiguous, intent(out) :: by_z(:, :)
 
       by_y = not_given
       by_z = not_given

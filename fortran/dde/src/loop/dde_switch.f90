@@ -106,8 +106,9 @@ contains
       logical :: limited, pace_is_known
       real(wp) :: pace, work
 
-      work = work_done%total() - self%work_done
+      work = -self%work_done
       self%work_done = work_done%total()
+      work = work + self%work_done
       call self%recent%add(step%h, work)
       call self%visit%add(step%h, work)
       pace = self%recent%pace()

@@ -53,28 +53,32 @@ contains
       integer, intent(in) :: upper
 
       layout%n = n
-      layout%lower = min(lower, n - 1)
-      layout%upper = min(upper, n - 1)
-      layout%stride = min(int(n, int64), 2_int64*layout%lower + layout%upper)
+      layout%lower = lower
+      layout%upper = upper
+      layout%stride = min(int(n, int64), 2_int64*lower + upper)
       layout%origin = -layout%stride
-      if (layout%stride < n) layout%origin = -layout%lower
+      if (layout%stride < n) layout%origin = -lower
       layout%length = layout%origin + n*(layout%stride + 1)
    end function new_layout
 
    !> Factors of a real matrix.
-   pure subroutine factorise_real(layout, a, pivot, first, last, row_scale, operations, singular)
+   pure subroutine factorise_real(layout, a, pivot, first, last, row_scale, factor_operations, &
+                                  solve_operations, singular)
       type(matrix_layout), intent(in) :: layout
       !> Matrix, replaced by its factors
       real(wp), intent(inout) :: a(layout%length)
+      !> Real additions and multiplications over two for one element
+      real(wp), parameter :: cost = 1.0_wp
       real(wp) :: moved
       include "factorise.inc"
    end subroutine factorise_real
 
    !> Factors of a complex matrix.
-   pure subroutine factorise_complex(layout, a, pivot, first, last, row_scale, operations, &
-                                     singular)
+   pure subroutine factorise_complex(layout, a, pivot, first, last, row_scale, &
+                                     factor_operations, solve_operations, singular)
       type(matrix_layout), intent(in) :: layout
       complex(wp), intent(inout) :: a(layout%length)
+      real(wp), parameter :: cost = 4.0_wp
       complex(wp) :: moved
       include "factorise.inc"
    end subroutine factorise_complex

@@ -136,10 +136,10 @@ contains
 
       below = max(0, maxval(jacobian%rows(2, :) - component))
       above = max(0, maxval(component - jacobian%rows(1, :)))
-      call self%of_real%fill(jacobian, method%real_eigenvalue/self%h, max(jacobian%lower, below), &
-                             max(jacobian%upper, above))
       blocks = blocks_of(method)/self%h
       associate (n => size(jacobian%by_y, 2), s => method%stages)
+         call self%of_real%reshape(n, max(jacobian%lower, below), max(jacobian%upper, above))
+         call self%of_real%fill(jacobian, method%real_eigenvalue/self%h)
          if (.not. allocated(self%of_all)) allocate (self%of_all, self%all_sides(s, n))
          call self%of_all%reshape(n*s, max(jacobian%lower*s, (below + 1)*s - 1), &
                                   max(jacobian%upper*s, (above + 1)*s - 1))

@@ -8,9 +8,6 @@ module dde_systems
    private
    public :: complex_system, real_system
 
-   !> Operations of a complex multiplication over those of a real one.
-   real(wp), parameter :: complex_over_real = 4.0_wp
-
    !> What real and complex systems have in common.
    type :: linear_system
       !> Where the elements are
@@ -24,8 +21,7 @@ module dde_systems
       !> Additions and multiplications of a factorisation and of a solution
       real(wp) :: factor_operations = 0.0_wp, solve_operations = 0.0_wp
    contains
-      procedure :: column
-      procedure, private :: count_operations
+      procedure, non_overridable :: column
    end type linear_system
 
    !> A system with a real shift.
@@ -33,11 +29,11 @@ module dde_systems
       !> Elements, then those of the factors
       real(wp), allocatable :: a(:)
    contains
-      procedure :: reshape => reshape_real
-      procedure :: fill => fill_real
-      procedure :: factorise => factorise_system
-      procedure :: prepare => prepare_real
-      procedure :: solve => solve_real
+      procedure, non_overridable :: reshape => reshape_real
+      procedure, non_overridable :: fill => fill_real
+      procedure, non_overridable :: factorise => factorise_system
+      procedure, non_overridable :: prepare => prepare_real
+      procedure, non_overridable :: solve => solve_real
    end type real_system
 
    !> A system with a complex shift.
@@ -45,10 +41,10 @@ module dde_systems
       !> Elements, then those of the factors
       complex(wp), allocatable, private :: a(:)
    contains
-      procedure, private :: reshape => reshape_complex
-      procedure, private :: fill => fill_complex
-      procedure :: prepare => prepare_complex
-      procedure :: solve => solve_complex
+      procedure, private, non_overridable :: reshape => reshape_complex
+      procedure, private, non_overridable :: fill => fill_complex
+      procedure, non_overridable :: prepare => prepare_complex
+      procedure, non_overridable :: solve => solve_complex
    end type complex_system
 
 contains
@@ -66,14 +62,14 @@ contains
    end subroutine reshape_complex
 
    !> The matrix shift - J, whose band may be wider than that of J.
-   pure subroutine fill_real(self, jacobian, shift, lower, upper)
+   pure subroutine fill_real(self, jacobian, shift)
       class(real_system), intent(inout) :: self
       real(wp), intent(in) :: shift
       include "fill_system.inc"
    end subroutine fill_real
 
    !> The matrix shift - J.
-   pure subroutine fill_complex(self, jacobian, shift, lower, upper)
+   pure subroutine fill_complex(self, jacobian, shift)
       class(complex_system), intent(inout) :: self
       complex(wp), intent(in) :: shift
       include "fill_system.inc"
@@ -84,11 +80,9 @@ contains
       class(real_system), intent(inout) :: self
       !> Whether a pivot vanished
       logical, intent(out) :: singular
-      integer(int64) :: operations(2)
 
       call factorise(self%layout, self%a, self%pivot, self%first, self%last, self%row_scale, &
-                     operations, singular)
-      call self%count_operations(operations, 1.0_wp)
+                     self%factor_operations, self%solve_operations, singular)
    end subroutine factorise_system
 
    !> Factorise shift - J.
@@ -98,7 +92,10 @@ contains
       real(wp), intent(in) :: shift
       logical, intent(out) :: singular
 
-      call self%fill(jacobian, shift, jacobian%lower, jacobian%upper)
+      if (.not. allocated(self%a)) then
+         call self%reshape(size(jacobian%by_y, 2), jacobian%lower, jacobian%upper)
+      end if
+      call self%fill(jacobian, shift)
       call self%factorise(singular)
    end subroutine prepare_real
 
@@ -108,12 +105,13 @@ contains
       type(jacobian_type), intent(in) :: jacobian
       complex(wp), intent(in) :: shift
       logical, intent(out) :: singular
-      integer(int64) :: operations(2)
 
-      call self%fill(jacobian, shift, jacobian%lower, jacobian%upper)
+      if (.not. allocated(self%a)) then
+         call self%reshape(size(jacobian%by_y, 2), jacobian%lower, jacobian%upper)
+      end if
+      call self%fill(jacobian, shift)
       call factorise(self%layout, self%a, self%pivot, self%first, self%last, self%row_scale, &
-                     operations, singular)
-      call self%count_operations(operations, complex_over_real)
+                     self%factor_operations, self%solve_operations, singular)
    end subroutine prepare_complex
 
    !> Replace a right-hand side by the solution.
@@ -140,16 +138,4 @@ contains
 
       at = self%layout%origin + j*self%layout%stride
    end function column
-
-   !> Additions and multiplications of a factorisation and of a solution, in real numbers.
-   pure subroutine count_operations(self, operations, cost)
-      class(linear_system), intent(inout) :: self
-      !> Elements, as `factorise` counts them
-      integer(int64), intent(in) :: operations(2)
-      !> Operations of a multiplication
-      real(wp), intent(in) :: cost
-
-      self%factor_operations = cost*2*operations(1)
-      self%solve_operations = cost*2*operations(2)
-   end subroutine count_operations
 end module dde_systems

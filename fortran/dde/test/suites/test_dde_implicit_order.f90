@@ -47,7 +47,7 @@ contains
       real(wp), allocatable :: a_inverse(:, :), b(:), factors(:), row_scale(:)
       integer, allocatable, dimension(:) :: first, last, pivot
       integer :: i, q
-      integer(int64) :: operations(2)
+      real(wp) :: operations(2)
       logical :: singular
 
       do i = 1, size(stages)
@@ -64,7 +64,7 @@ contains
             first = pivot
             last = pivot
             call factorise(matrix_layout(s, s, s), factors, pivot, first, last, row_scale, &
-                           operations, singular)
+                           operations(1), operations(2), singular)
             call solve(matrix_layout(s, s, s), factors, pivot, first, last, b)
             do q = 1, 2*s - 1
                call expect_close(error, sum(b*c**(q - 1)), 1.0_wp/q, 1.0e-13_wp, "B "//text(q))
@@ -126,7 +126,8 @@ contains
       real(wp), allocatable :: factors(:)
       integer, dimension(n) :: first, last, pivot
       integer :: i, j, k
-      integer(int64) :: at, operations(2)
+      integer(int64) :: at
+      real(wp) :: operations(2)
       logical :: singular
       type(matrix_layout) :: layout
 
@@ -151,13 +152,14 @@ contains
             end do
          end do
          x = side
-         call factorise(layout, factors, pivot, first, last, row_scale, operations, singular)
+         call factorise(layout, factors, pivot, first, last, row_scale, operations(1), &
+                        operations(2), singular)
          call solve(layout, factors, pivot, first, last, x)
          call expect(error, any(pivot /= [(i, i=1, n)]), "rows are exchanged")
          call expect_close(error, matmul(a, x), side, 1.0e-12_wp, "real")
          z = side
-         call factorise(layout, complex_factors, pivot, first, last, row_scale, operations, &
-                        singular)
+         call factorise(layout, complex_factors, pivot, first, last, row_scale, operations(1), &
+                        operations(2), singular)
          call solve(layout, complex_factors, pivot, first, last, z)
          z = matmul(shifted, z)
          call expect_close(error, real(z), side, 1.0e-12_wp, "complex")

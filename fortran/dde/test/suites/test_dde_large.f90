@@ -127,7 +127,7 @@ contains
    pure subroutine three_diagonals(self, t, y, z, by_y, by_z)
       class(cells_with_derivatives), intent(in) :: self
       real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
-      real(wp), intent(out) :: by_y(:, :), by_z(:, :)
+      real(wp), contiguous, intent(out) :: by_y(:, :), by_z(:, :)
 
       by_y = self%diffusion
       by_y(2, :) = 1.8_wp*(1.0_wp - z) - 2*self%diffusion

@@ -110,7 +110,7 @@ contains
    pure subroutine blocks_on_the_diagonal(self, t, y, z, by_y, by_z)
       class(tangent_problem_type), intent(in) :: self
       real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
-      real(wp), intent(out) :: by_y(:, :), by_z(:, :)
+      real(wp), contiguous, intent(out) :: by_y(:, :), by_z(:, :)
       integer :: j
 
       by_y = 0.0_wp
