@@ -273,6 +273,7 @@ contains
       length = self%length(slot)
       valid_for = self%valid_for(slot)
       nodes = self%nodes(:size(nodes), slot)
+      nodes(self%degree(slot) + 1:) = 0.0_wp
       coefficients = self%coefficients(0:size(nodes), :, slot)
       coefficients(self%degree(slot) + 1:, :) = 0.0_wp
    end subroutine recall

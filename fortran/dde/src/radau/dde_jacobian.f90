@@ -150,7 +150,7 @@ contains
    pure subroutine prepare(self, problem)
       class(jacobian_type), intent(inout) :: self
       class(dde_problem_type), intent(in) :: problem
-      integer :: k
+      integer :: k, most_rows
 
       if (allocated(self%by_y)) return
       associate (n => problem%n, delays => size(problem%lag))
@@ -166,7 +166,10 @@ contains
             self%rows = problem%rows
             call self%group_delays()
          end if
-         allocate (self%by_z(maxval([0, self%rows(2, :) - self%rows(1, :) + 1]), delays), &
+         ! without delays as high as a full one: the problem may fill n rows of no columns
+         most_rows = n
+         if (delays > 0) most_rows = maxval(self%rows(2, :) - self%rows(1, :)) + 1
+         allocate (self%by_z(most_rows, delays), &
                    source=0.0_wp)
          allocate (self%here(n), self%beside(n), self%moved_y(n), self%moved_z(delays))
       end associate
