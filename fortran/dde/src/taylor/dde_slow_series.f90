@@ -15,7 +15,7 @@ module dde_slow_series
    real(wp), parameter :: farthest = 1.0e15_wp
    !> The relaxation rate limits a series of the state whose reach exceeds this many times one over
    !> the rate.
-   real(wp), parameter :: limited = 2.0_wp
+   real(wp), parameter :: limited = 3.0_wp
    !> Least reach of a slow series in the same units: it is asymptotic.
    real(wp), parameter :: least_balance = 20.0_wp
    !> Largest distance of a state from the balance, in units of the tolerance.
