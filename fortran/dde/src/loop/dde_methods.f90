@@ -4,6 +4,7 @@ module dde_methods
    use dde_implicit_step, only: implicit_cost, implicit_step_type, stages_of
    use dde_interpolant, only: highest_degree
    use dde_memory, only: bytes_of, lacks
+   use dde_orders, only: explicit_pair, radau_method
    use dde_problem, only: dde_problem_type
    use dde_step, only: step_type
    use dde_switch, only: least_trial
@@ -14,10 +15,6 @@ module dde_methods
    private
    public :: choose_method, longest_step, matching_method, price_of_trial
 
-   !> Tolerances from which on `explicit` is the pair 5(4), below that 8(5,3), and from which on
-   !> `auto` takes Radau of order 5, below that 9, and at last 13.
-   real(wp), parameter :: least_of_bs5 = 3.0e-6_wp, least_of_radau5 = 3.0e-5_wp, &
-                          least_of_radau9 = 1.0e-11_wp
    !> Iterations of a usual implicit step.
    integer, parameter :: usual_iterations = 3
 
@@ -32,7 +29,7 @@ contains
       type(tolerance_type), intent(in) :: tolerance
       integer :: columns, stages
 
-      stages = stages_of(matching_method(problem, tolerance, implicit=.true.))
+      stages = stages_of(radau_method(tolerance%level))
       columns = problem%n
       if (problem%lower >= 0) columns = min(problem%n, 1 + problem%lower + problem%upper)
       price = implicit_cost*(columns &
@@ -95,7 +92,7 @@ contains
 
       name = method
       if (name == "auto") name = matching_method(problem, tolerance, implicit=.false.)
-      if (name == "explicit") name = explicit_pair(tolerance)
+      if (name == "explicit") name = explicit_pair(tolerance%level)
       lacking = memory_of(problem, name)
       if (lacks(lacking)) return
       lacking = 0.0_wp
@@ -128,21 +125,11 @@ contains
       character(len=8) :: method
 
       if (implicit) then
-         method = "radau9"
-         if (tolerance%level >= least_of_radau5) method = "radau5"
-         if (tolerance%level < least_of_radau9) method = "radau13"
+         method = radau_method(tolerance%level)
       else
-         method = merge("taylor  ", explicit_pair(tolerance), problem%analytic)
+         method = merge("taylor  ", explicit_pair(tolerance%level), problem%analytic)
       end if
    end function matching_method
-
-   !> The pair of `explicit`.
-   pure function explicit_pair(tolerance) result(name)
-      type(tolerance_type), intent(in) :: tolerance
-      character(len=8) :: name
-
-      name = merge("bs5     ", "dop853  ", tolerance%level >= least_of_bs5)
-   end function explicit_pair
 
    !> The longest step allowed: an explicit one ends before its delayed values lie in it.
    pure function longest_step(problem, step, of_all) result(longest)

@@ -6,7 +6,7 @@ module dde_taylor_step
    use dde_controller, only: controller_type
    use dde_errors, only: error_type
    use dde_method_constants, only: method_constants
-   use dde_interpolant, only: highest_degree
+   use dde_orders, only: taylor_degree
    use dde_problem, only: dde_problem_type
    use dde_series_check, only: check_coefficients, check_past
    use dde_step, only: step_type
@@ -17,13 +17,6 @@ module dde_taylor_step
    private
    public :: taylor_step_type
 
-   !> Degree = this - log10(tolerance), near the degree of least cost for an accuracy. Jorba and Zou
-   !> 2005, "A software package for the numerical integration of ODEs by means of high-order Taylor
-   !> methods", sec. 3.2, have 1 - ln(tolerance)/2. The degree here is higher since a step costs
-   !> three times its series.
-   real(wp), parameter :: degree_at_one = 7.0_wp
-   !> Lowest degree.
-   integer, parameter :: lowest_degree = 6
    !> The series is valid as the past for this many times the step size that it allows.
    real(wp), parameter :: beyond = 1.2_wp
    !> The unit of a series is the step size that the last series allowed, at most this many times
@@ -60,7 +53,7 @@ contains
       real(wp), intent(in) :: tolerance
       integer :: degree
 
-      degree = max(lowest_degree, min(highest_degree, nint(degree_at_one - log10(tolerance))))
+      degree = taylor_degree(tolerance)
       self%constants = method_constants(name="taylor", order=degree, error_order=degree, &
                                         evaluation_cost=cost_of_degree*degree)
       call self%allocate_state(problem)

@@ -12,6 +12,7 @@ module test_dde_switch
    use published_problems, only: enzyme, infection, mackey_glass
    use single_step, only: held_back
    use solving, only: at_tolerance, run
+   use stiff_problems, only: sdisc
    use test_problems, only: fill, sine
    use undelayed_problems, only: swing
    implicit none (type, external)
@@ -25,6 +26,7 @@ contains
 
       testsuite = [new_unittest("an oscillation", test_oscillation), &
                    new_unittest("cost of changes", test_cost), &
+                   new_unittest("layers after each delay", test_layers), &
                    new_unittest("work of three methods in turn", test_methods), &
                    new_unittest("work of a run", test_run)]
    end subroutine collect_dde_switch
@@ -61,6 +63,31 @@ contains
       call compare_work(error, enzyme(), 160.0_wp, "enzyme")
       call compare_work(error, mackey_glass(), 200.0_wp, "mackey-glass")
    end subroutine test_cost
+
+   !> Layers in which both methods are equally fast: explicit steps are out of the question
+   !> elsewhere. `auto` takes at most twice the work of the implicit method; both agree with the
+   !> method of order 13.
+   subroutine test_layers(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(integration_result) :: auto, implicit, reference
+      type(sdisc) :: problem
+      real(wp) :: price, tolerance
+      integer :: digits
+
+      problem = sdisc()
+      call run(error, problem, 0.0_wp, 20.5_wp, at_tolerance(1.0e-9_wp, "radau13"), reference)
+      do digits = 3, 6, 3
+         tolerance = 10.0_wp**(-digits)
+         call run(error, problem, 0.0_wp, 20.5_wp, at_tolerance(tolerance, "auto"), auto)
+         call run(error, problem, 0.0_wp, 20.5_wp, at_tolerance(tolerance, "radau9"), implicit)
+         if (allocated(error)) return
+         price = price_of_trial(problem, tolerance_type(1, tolerance, tolerance))
+         call expect(error, auto%work <= 2*implicit%work + 2*price, text(auto%work)//" by auto, " &
+                     //text(implicit%work)//" by radau9, "//text(auto%switches)//" changes")
+         call expect_close(error, auto%y, reference%y, 10*tolerance, "by auto")
+         call expect_close(error, implicit%y, reference%y, 10*tolerance, "by radau9")
+      end do
+   end subroutine test_layers
 
    !> The work of `auto` and of the methods that it chooses from.
    subroutine compare_work(error, problem, t_end, name, neighbours)

@@ -1,10 +1,10 @@
-!> Problems with exact solutions that ask for an implicit method.
+!> Problems that ask for an implicit method, all but `sdisc` with exact solutions.
 module stiff_problems
    use dde_kinds, only: wp
    use test_problems, only: constant_past, fill, linear
    implicit none (type, external)
    private
-   public :: exponential_decay, prothero_robinson
+   public :: exponential_decay, prothero_robinson, sdisc
 
    !> y_i' = rate (y_i - a_i cos t) - a_i sin t, y_i(0) = a_i: y_i = a_i cos t whatever the rate,
    !> far below 0 (Prothero and Robinson 1974), with a = 1, 0, 0, ....
@@ -20,6 +20,19 @@ module stiff_problems
    contains
       procedure :: history => earlier_decay
    end type exponential_decay
+
+   !> y' = 1/(1 + t^2) - rate (y + 0.8 y(t - 1) - 0.9 pi), rate 1e6, with the history arctan t: near
+   !> each multiple of the delay y changes within 1/rate. From the set of test problems of RADAR5
+   !> (Guglielmi and Hairer 2001, Computing 67, 1).
+   type, extends(constant_past) :: sdisc
+   contains
+      procedure :: rhs => sdisc_rhs
+      procedure :: history => arctangent
+   end type sdisc
+
+   interface sdisc
+      module procedure :: new_sdisc
+   end interface sdisc
 
    interface prothero_robinson
       module procedure :: new_prothero_robinson
@@ -55,6 +68,31 @@ contains
          end associate
       end do
    end function new_exponential_decay
+
+   !> One equation, from 0.
+   pure type(sdisc) function new_sdisc() result(problem)
+      call fill(problem, 1, first=[0.0_wp], lag=[1.0_wp], component=[1])
+      problem%rate = 1.0e6_wp
+   end function new_sdisc
+
+   !> It is in balance with y + 0.8 y(t - 1) = 0.9 pi.
+   pure subroutine sdisc_rhs(self, t, y, z, dydt)
+      class(sdisc), intent(in) :: self
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
+      real(wp), intent(out) :: dydt(self%n)
+
+      dydt = 1.0_wp/(1.0_wp + t*t) - self%rate*(y + 0.8_wp*z - 0.9_wp*acos(-1.0_wp))
+   end subroutine sdisc_rhs
+
+   !> arctan t.
+   pure function arctangent(self, t, component) result(value)
+      class(sdisc), intent(in) :: self
+      real(wp), intent(in) :: t
+      integer, intent(in) :: component
+      real(wp) :: value
+
+      value = atan(t)
+   end function arctangent
 
    !> rate (y - a cos t) - a sin t.
    pure subroutine relax_to_cosine(self, t, y, z, dydt)
