@@ -19,9 +19,10 @@ from scripts.tables.accuracy import Reference, distances, read_references
 HORIZONS = ROOT / "results" / "tables" / "trusted-horizons.tsv"
 START_LIMIT = 120.0
 """Seconds in which a worker must have started, which may include compilation."""
+OURS_BINARY = str(BUILD / "our_worker")
 DESOLVE = ["Rscript", "--vanilla", str(HERE / "desolve_worker.R"), str(BUILD / "block.so")]
 SOLVERS = {
-    "ours": [str(BUILD / "our_worker"), "auto"],
+    "ours": [OURS_BINARY, "auto"],
     "jitcdde": [str(HERE / ".venv" / "bin" / "python"), "-I", str(HERE / "jitcdde_worker.py")],
     "desolve": [*DESOLVE, "1"],
     "desolve_interpol_2": [*DESOLVE, "2"],

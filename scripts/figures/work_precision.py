@@ -35,8 +35,11 @@ def params(_config: dict) -> dict:
 
 
 def styles_of(solvers: list[str], others: list[str]) -> dict[str, dict]:
-    """Line and marker of each solver: other solvers are grey, dashed and hollow."""
-    styles = {name: {"color": f"C{i % 8}", "ls": "-"} for i, name in enumerate(solvers)}
+    """Line and marker of each solver: fixed steps are dotted, other solvers grey, dashed, hollow."""
+    styles = {
+        name: {"color": f"C{i % 8}", "ls": ":" if name.startswith("rk4") else "-"}
+        for i, name in enumerate(solvers)
+    }
     for i, name in enumerate(others):
         styles[name] = {"color": GREYS[i % len(GREYS)], "ls": "--", "mfc": "white"}
     for i, style in enumerate(styles.values()):
