@@ -35,7 +35,7 @@ def params(_config: dict) -> dict:
 
 
 def styles_of(solvers: list[str], others: list[str]) -> dict[str, dict]:
-    """Line and marker of each solver: fixed steps are dotted, other solvers grey, dashed, hollow."""
+    """Line and marker of each solver: fixed steps dotted, other solvers grey, dashed, hollow."""
     styles = {
         name: {"color": f"C{i % 8}", "ls": ":" if name.startswith("rk4") else "-"}
         for i, name in enumerate(solvers)
