@@ -20,7 +20,8 @@ contains
       character(len=:), allocatable, intent(out) :: failure
       integer, parameter :: points = 3
       integer :: band(2), delays, i, iwork(30), outcome, past_components(2), ipar(1)
-      real(wp) :: absolute(1), grid(points + 1), relative(1), rpar(1), step, t, t_last, work(30), y(n)
+      real(wp) :: absolute(1), grid(points + 1), relative(1), rpar(1), step, t, t_last, &
+                  work(30), y(n)
 
       t = 0.0_wp
       t_last = t_end
@@ -42,9 +43,9 @@ contains
       iwork(15) = 1
       next_sample = 0
       call radar5(n, right_side, history, delayed_time, t, y, t_last, step, relative, absolute, 0, &
-                  jacobian, 1, band(1), band(2), delayed_jacobian, delays, delays, 0, take_samples, &
-                  merge(1, 0, allocated(samples)), work, iwork, rpar, ipar, outcome, grid, &
-                  past_components, right_side, n, n)
+                  jacobian, 1, band(1), band(2), delayed_jacobian, delays, delays, 0, &
+                  take_samples, merge(1, 0, allocated(samples)), work, iwork, rpar, ipar, &
+                  outcome, grid, past_components, right_side, n, n)
       if (outcome /= 1) failure = "RADAR5 returned IDID = -"//achar(iachar("0") - outcome)
       ! its preparation costs time that grows with its storage: the next run gets what this one used
       stored = min(most_stored, iwork(17) + 10)
