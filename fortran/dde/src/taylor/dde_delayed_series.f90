@@ -60,7 +60,10 @@ contains
       valid_for = huge(1.0_wp)
       associate (past => context%past, cursor => context%cursor, problem => context%problem)
          do k = 1, size(self%first)
-            if (cursor%before_origin(k)) cycle
+            if (cursor%before_origin(k)) then
+               valid_for = min(valid_for, cursor%passes_origin(k))
+               cycle
+            end if
             call read_start(context, k)
             self%first(k) = cursor%step(k)
             if (skipping) call skip_short(context, k, thin*min(unit, cursor%h))
