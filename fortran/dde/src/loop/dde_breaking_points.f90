@@ -4,10 +4,10 @@
 !>
 !> The run lands on all points where the right-hand side or the slope jumps, and on those of the
 !> first generation if there are more delays than equations: the errors of kinks that one equation
-!> meets would add up. Another point can make a step shorter than half the proposed size. Only a limited
-!> number of such steps is taken; after that the run steps over these points. The error estimate
-!> covers the kink then: if the step is accepted, the kink is below the tolerance, and so are the
-!> smoother kinks that it would cause.
+!> meets would add up. Another point can make a step shorter than half the proposed size. Only a
+!> limited number of such steps is taken; after that the run steps over these points. The error
+!> estimate covers the kink then: if the step is accepted, the kink is below the tolerance, and so
+!> are the smoother kinks that it would cause.
 module dde_breaking_points
    use dde_kinks, only: kink_type, merged, same_point, sorted
    use dde_time, only: elapsed, instant, later
