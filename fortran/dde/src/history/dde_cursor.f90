@@ -34,7 +34,7 @@ module dde_cursor
       !> Whether the delayed value lies before the initial time
       logical, allocatable :: before_origin(:)
    contains
-      procedure, non_overridable :: set, inside, values, time_before, walk_to, read_from
+      procedure, non_overridable :: set, inside, values, look_up, time_before, walk_to, read_from
    end type cursor_type
 
    interface cursor_type
@@ -103,7 +103,7 @@ contains
                                          problem%component(k))
             end do
          else
-            call look_up(self, past, k, ahead, found)
+            call self%look_up(past, k, ahead, found)
             z(k, :) = found(:size(ahead))
          end if
       end do
@@ -124,7 +124,7 @@ contains
 
    !> One delayed value at several places, ascending: step by step of the past.
    pure subroutine look_up(self, past, k, ahead, z)
-      type(cursor_type), intent(inout) :: self
+      class(cursor_type), intent(inout) :: self
       type(history_type), intent(in) :: past
       integer, intent(in) :: k
       !> Times since the start of the step, ascending

@@ -110,6 +110,8 @@ contains
             call series%expand(context, cursor%inside(cursor%t), self%scale, self%y)
             possible = min(series%reach, past_valid_for, cursor%h)
             call series%delayed%confirm(context, series%unit, possible)
+            ! a step that ends at a breaking point is short for its sake, not for that of the series
+            if (possible >= cursor%h) possible = series%reach
             if (possible > 0.0_wp .or. .not. skipping) exit
             skipping = .false.
          end do
