@@ -40,24 +40,26 @@ contains
    !> Fits for series of a degree.
    pure type(past_fit) function new_fit(degree) result(self)
       integer, intent(in) :: degree
-      real(wp) :: angle
+      real(wp) :: chebyshev(0:most_nodes - 1), x
       integer :: i, n
 
       self%nodes = min(most_nodes, degree)
       do i = 1, self%nodes
-         angle = acos(-1.0_wp)*(2*i - 1)/(2*self%nodes)
-         self%places(i) = 0.5_wp*(1.0_wp - cos(angle))
-         self%to_chebyshev(i, 0) = 1.0_wp/self%nodes
-         do n = 1, self%nodes - 1
-            self%to_chebyshev(i, n) = (2.0_wp/self%nodes)*(-1)**n*cos(n*angle)
+         x = -cos(acos(-1.0_wp)*(2*i - 1)/(2*self%nodes))
+         self%places(i) = 0.5_wp*(1.0_wp + x)
+         chebyshev(:1) = [1.0_wp, x]
+         do n = 2, self%nodes - 1
+            chebyshev(n) = 2.0_wp*x*chebyshev(n - 1) - chebyshev(n - 2)
          end do
+         chebyshev(0) = 0.5_wp
+         self%to_chebyshev(i, :self%nodes - 1) = 2.0_wp/self%nodes*chebyshev(:self%nodes - 1)
       end do
       associate (t => self%to_powers)
          t(0, 0) = 1.0_wp
          t(:1, 1) = [-1.0_wp, 2.0_wp]
-         do n = 2, most_nodes - 1
-            t(:, n) = -2.0_wp*t(:, n - 1) - t(:, n - 2)
-            t(1:, n) = t(1:, n) + 4.0_wp*t(:most_nodes - 2, n - 1)
+         do n = 2, self%nodes - 1
+            t(:n, n) = -2.0_wp*t(:n, n - 1) - t(:n, n - 2)
+            t(1:n, n) = t(1:n, n) + 4.0_wp*t(:n - 1, n - 1)
          end do
       end associate
    end function new_fit

@@ -69,12 +69,11 @@ contains
       type(step_context), intent(inout) :: context
       real(wp), intent(in) :: h
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: valid_for
 
       if (.not. h > 0.0_wp) return
       associate (series => self%series, t => context%cursor%inside(context%cursor%t))
          series%unit = h
-         call series%delayed%read_past(context, .false., series%unit, valid_for)
+         call series%delayed%read_past(context, .false., series%unit)
          call check_past(context, series%unit, series%delayed%coefficients, error)
          if (allocated(error)) return
          call context%delayed_values([0.0_wp], self%z)
@@ -97,7 +96,7 @@ contains
       class(taylor_step_type), intent(inout) :: self
       type(step_context), intent(inout) :: context
       real(wp), intent(inout) :: h
-      real(wp) :: past_valid_for, possible, unit
+      real(wp) :: possible, unit
       logical :: skipping
 
       associate (series => self%series, cursor => context%cursor)
@@ -106,9 +105,9 @@ contains
          skipping = .true.
          do
             series%unit = unit
-            call series%delayed%read_past(context, skipping, series%unit, past_valid_for)
+            call series%delayed%read_past(context, skipping, series%unit)
             call series%expand(context, cursor%inside(cursor%t), self%scale, self%y)
-            possible = min(series%reach, past_valid_for, cursor%h)
+            possible = min(series%reach, cursor%h)
             call series%delayed%confirm(context, series%unit, possible)
             ! a step that ends at a breaking point is short for its sake, not for that of the series
             if (possible >= cursor%h) possible = series%reach

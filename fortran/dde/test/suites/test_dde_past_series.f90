@@ -163,23 +163,23 @@ contains
       type(delayed_series), intent(out) :: series
       !> Time for which it is valid, if that is known
       real(wp), intent(in), optional :: valid_for
-      real(wp) :: found_unit, found_valid_for
+      real(wp) :: found_unit
 
       series = delayed_series(degree=ubound(known, 1), delays=1)
       call context%go_to(instant(t + lag), h)
       found_unit = unit
-      call series%read_past(context, skipping, found_unit, found_valid_for)
+      call series%read_past(context, skipping, found_unit)
       call expect_close(error, series%coefficients(:, 1), known, 1.0e-15_wp, what)
-      call expect_close(error, found_unit, min(unit, found_valid_for), 0.0_wp, "unit, "//what)
+      call expect_close(error, found_unit, min(unit, series%valid_for), 0.0_wp, "unit, "//what)
       if (.not. present(valid_for)) return
-      call expect_close(error, found_valid_for, valid_for, 1.0e-15_wp, "validity, "//what)
+      call expect_close(error, series%valid_for, valid_for, 1.0e-15_wp, "validity, "//what)
    end subroutine expect_series
 
    !> Length of a step for which a series agrees with the past.
    subroutine expect_length(error, context, series, unit, tolerance, known)
       type(error_type), allocatable, intent(inout) :: error
       type(step_context), intent(inout) :: context
-      type(delayed_series), intent(in) :: series
+      type(delayed_series), intent(inout) :: series
       !> Its unit of time, and the length proposed
       real(wp), intent(in) :: unit
       real(wp), intent(in) :: tolerance, known
