@@ -37,7 +37,7 @@ module dde_taylor_step
       !> Time along the series of the present state; negative if its slope was evaluated instead
       real(wp), private :: place = -1.0_wp
    contains
-      procedure :: set_up, check_series, reset, propose, attempt, interpolant, stiff, next_length
+      procedure :: set_up, check_series, renew, reset, propose, attempt, interpolant, stiff, next_length
       procedure :: advance
       procedure :: slope_here
    end type taylor_step_type
@@ -82,6 +82,14 @@ contains
                                  series%coefficients(1, :), error)
       end associate
    end subroutine check_series
+
+   !> The series of the step gives its slope.
+   pure subroutine renew(self, context)
+      class(taylor_step_type), intent(inout) :: self
+      type(step_context), intent(inout) :: context
+
+      call self%series%slow%forget()
+   end subroutine renew
 
    !> The slope was evaluated: the last series no longer gives it.
    pure subroutine reset(self)

@@ -11,6 +11,14 @@ module chain_of_blocks
    private
    public :: chain
 
+   !> Blocks computed at a time, and the highest degree of their series.
+   integer, parameter :: lanes = 4, most_degree = 20
+
+   !> Coefficients of v, of theta + (1 + epsilon) w(t - lag) and of unit w' of some blocks.
+   type :: tile_type
+      real(wp), dimension(lanes, 0:most_degree) :: v, relaxing, rate
+   end type tile_type
+
    !> The chain.
    type, extends(constant_past) :: chain
       real(wp) :: epsilon = 0.5_wp, xi = 0.8_wp, gamma = 0.8_wp, kappa = 1.0_wp
@@ -70,43 +78,80 @@ contains
       end do
    end subroutine rhs_of_chain
 
-   !> v' = v w' is linear in the state; w' follows from it term by term.
+   !> v' = v w' is linear in the state; w' follows from it term by term. Blocks are computed some
+   !> at a time, since the recurrences of one wait for their own last terms. Coefficient k + 1 of
+   !> a tile of blocks needs coefficient k of its neighbours: coefficients of a few tiles are
+   !> computed in turn, from the last known to the first, and stay in the cache.
    pure subroutine series_of_chain(self, t, unit, degree, z, y)
       class(chain), intent(in) :: self
       real(wp), intent(in) :: t, unit
       integer, intent(in) :: degree
       real(wp), intent(in) :: z(0:degree, size(self%lag))
       real(wp), intent(inout) :: y(0:degree, self%n)
-      real(wp), allocatable, dimension(:, :) :: rate, relaxing, v
-      real(wp) :: force, total
-      integer :: i, j, k, m
+      type(tile_type) :: tiles(0:most_degree)
+      integer :: front, k, tile
 
-      associate (blocks => size(self%lag))
-         allocate (rate(0:degree, blocks), relaxing(0:degree, blocks), v(0:degree, blocks))
-         v(0, :) = exp(y(0, 3::3))
-         do k = 0, degree - 1
-            do j = 1, blocks
-               i = 3*(j - 1)
-               force = y(k, i + 2) + (y(k, i + 1) + y(k, i + 3))/self%xi
-               if (j > 1) force = force + self%kappa*(y(k, i + 2) - y(k, i - 1))
-               if (j < blocks) force = force + self%kappa*(y(k, i + 2) - y(k, i + 5))
-               force = -self%gamma**2*unit*force
-               relaxing(k, j) = y(k, i + 1) + (1.0_wp + self%epsilon)*z(k, j)
-               total = force
-               do m = 0, k - 1
-                  total = total - v(k - m, j)*rate(m, j)
-               end do
-               rate(k, j) = total/v(0, j)
-               total = 0.0_wp
-               do m = 0, k
-                  total = total + v(k - m, j)*relaxing(m, j)
-               end do
-               y(k + 1, i + 1) = -unit*total/(k + 1)
-               y(k + 1, i + 2) = unit*merge(v(0, j) - 1.0_wp, v(k, j), k == 0)/(k + 1)
-               y(k + 1, i + 3) = rate(k, j)/(k + 1)
-               v(k + 1, j) = force/(k + 1)
-            end do
+      do front = 0, (size(self%lag) - 1)/lanes + degree - 1
+         do k = max(0, front - (size(self%lag) - 1)/lanes), min(front, degree - 1)
+            tile = front - k
+            call take_up_coefficient(self, unit, degree, k, lanes*tile, z, y, &
+                                     tiles(modulo(tile, degree)))
          end do
-      end associate
+      end do
    end subroutine series_of_chain
+
+   !> Coefficients k + 1 of the blocks of one tile.
+   pure subroutine take_up_coefficient(self, unit, degree, k, first, z, y, tile)
+      class(chain), intent(in) :: self
+      real(wp), intent(in) :: unit
+      !> Degree; the coefficient known
+      integer, intent(in) :: degree, k
+      !> Blocks before those of the tile
+      integer, intent(in) :: first
+      real(wp), intent(in) :: z(0:degree, size(self%lag))
+      real(wp), intent(inout) :: y(0:degree, self%n)
+      type(tile_type), intent(inout) :: tile
+      real(wp), dimension(lanes) :: by_rate, by_relaxing, force, relaxing, u, w
+      integer :: i, j, lane, last, m
+
+      last = min(lanes, size(self%lag) - first)
+      force = 0.0_wp
+      relaxing = 0.0_wp
+      do lane = 1, last
+         j = first + lane
+         i = 3*(j - 1)
+         force(lane) = y(k, i + 2) + (y(k, i + 1) + y(k, i + 3))/self%xi
+         if (j > 1) force(lane) = force(lane) + self%kappa*(y(k, i + 2) - y(k, i - 1))
+         if (j < size(self%lag)) then
+            force(lane) = force(lane) + self%kappa*(y(k, i + 2) - y(k, i + 5))
+         end if
+         relaxing(lane) = y(k, i + 1) + (1.0_wp + self%epsilon)*z(k, j)
+      end do
+      if (k == 0) then
+         tile%v(:, 0) = 1.0_wp
+         do lane = 1, last
+            tile%v(lane, 0) = exp(y(0, 3*(first + lane)))
+         end do
+      end if
+      by_rate = 0.0_wp
+      by_relaxing = 0.0_wp
+      do m = 0, k - 1
+         by_rate = by_rate + tile%v(:, k - m)*tile%rate(:, m)
+         by_relaxing = by_relaxing + tile%v(:, k - m)*tile%relaxing(:, m)
+      end do
+      force = -self%gamma**2*unit*force
+      u = tile%v(:, k)
+      if (k == 0) u = u - 1.0_wp
+      w = (force - by_rate)/tile%v(:, 0)
+      by_relaxing = by_relaxing + tile%v(:, 0)*relaxing
+      tile%relaxing(:, k) = relaxing
+      tile%rate(:, k) = w
+      tile%v(:, k + 1) = force/(k + 1)
+      do lane = 1, last
+         i = 3*(first + lane - 1)
+         y(k + 1, i + 1) = -unit/(k + 1)*by_relaxing(lane)
+         y(k + 1, i + 2) = unit/(k + 1)*u(lane)
+         y(k + 1, i + 3) = w(lane)/(k + 1)
+      end do
+   end subroutine take_up_coefficient
 end module chain_of_blocks
