@@ -37,9 +37,8 @@ module dde_taylor_step
       !> Time along the series of the present state; negative if its slope was evaluated instead
       real(wp), private :: place = -1.0_wp
    contains
-      procedure :: set_up, check_series, renew, reset, propose, attempt, interpolant, stiff, next_length
-      procedure :: advance
-      procedure :: slope_here
+      procedure :: set_up, check_series, renew, reset, propose, attempt, interpolant, stiff
+      procedure :: next_length, advance, slope_here
    end type taylor_step_type
 
 contains

@@ -59,7 +59,7 @@ contains
       end do
    end subroutine test_many_delays
 
-   !> Blocks almost without mass in few steps, by the slow series of each, as by the implicit method.
+   !> Blocks almost without mass: slow series in few steps, and the implicit method.
    subroutine test_chain_in_balance(error)
       type(error_type), allocatable, intent(out) :: error
       type(chain) :: problem

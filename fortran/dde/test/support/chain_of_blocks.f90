@@ -92,12 +92,16 @@ contains
       call go_through_tiles(self, unit, degree, degree - 1, z, y, take_up_coefficient)
    end subroutine series_of_chain
 
-   !> The least of the rates at which w approaches the balance of its block.
+   !> The least of the rates at which blocks approach their balances; 0 where these differ much:
+   !> some blocks are then slow, and no step is in balance for long.
    pure real(wp) function relaxation_of_chain(self, t, y) result(rate)
       class(chain), intent(in) :: self
       real(wp), intent(in) :: t, y(self%n)
 
-      rate = self%gamma**2/self%xi*exp(-maxval(y(3::3)))
+      rate = 0.0_wp
+      associate (w => y(3::3))
+         if (maxval(w) - minval(w) < log(10.0_wp)) rate = self%gamma**2/self%xi*exp(-maxval(w))
+      end associate
    end function relaxation_of_chain
 
    !> w = -theta - xi (u - kappa (second difference of u)) - (xi/gamma^2) v' with v' as it was.
@@ -136,15 +140,15 @@ contains
    end subroutine go_through_tiles
 
    !> u - kappa (second difference of u) of block j, coefficient k.
-   pure real(wp) function pull(self, degree, k, j, y)
+   pure real(wp) function pull(self, degree, k, j, y) result(value)
       class(chain), intent(in) :: self
       integer, intent(in) :: degree, k, j
       real(wp), intent(in) :: y(0:degree, self%n)
 
       associate (u => y(k, 3*j - 1))
-         pull = u
-         if (j > 1) pull = pull + self%kappa*(u - y(k, 3*j - 4))
-         if (j < size(self%lag)) pull = pull + self%kappa*(u - y(k, 3*j + 2))
+         value = u
+         if (j > 1) value = value + self%kappa*(u - y(k, 3*j - 4))
+         if (j < size(self%lag)) value = value + self%kappa*(u - y(k, 3*j + 2))
       end associate
    end function pull
 
