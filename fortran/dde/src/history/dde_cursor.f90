@@ -38,7 +38,7 @@ module dde_cursor
       !> Time since the start of the step at which it passes the initial time; huge if it does not
       real(wp), allocatable :: passes_origin(:)
    contains
-      procedure, non_overridable :: set, inside, values, time_before, walk_to, read_from
+      procedure, non_overridable :: set, inside, values, look_up, time_before, walk_to, read_from
    end type cursor_type
 
    interface cursor_type
@@ -115,7 +115,7 @@ contains
             first = i
             call self%read_from(past, k, past%oldest)
          end if
-         call look_up(self, past, k, ahead(first:), found)
+         call self%look_up(past, k, ahead(first:), found)
          z(k, first:) = found(:size(ahead) - first + 1)
       end do
    end subroutine values
@@ -135,7 +135,7 @@ contains
 
    !> One delayed value at several places, ascending: step by step of the past.
    pure subroutine look_up(self, past, k, ahead, z)
-      type(cursor_type), intent(inout) :: self
+      class(cursor_type), intent(inout) :: self
       type(history_type), intent(in) :: past
       integer, intent(in) :: k
       !> Times since the start of the step, ascending

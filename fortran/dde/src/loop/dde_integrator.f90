@@ -92,7 +92,7 @@ contains
          outcome%reason = limit_met(outcome, error_estimate, options, h, &
                                     too_short(t_start, run%now%hi, t_end))
          if (outcome%reason /= reached_end) exit
-         if (run%fresh) call run%step%restart(run%context)
+         if (run%fresh) call run%step%renew(run%context)
          run%fresh = .false.
          call run%step%attempt(run%context, error_estimate)
          if (.not. accepted(error_estimate)) then

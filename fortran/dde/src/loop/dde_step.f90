@@ -38,7 +38,7 @@ module dde_step
       !> Time from the start of the step for which its polynomial is valid, if longer than the step
       real(wp) :: valid_for = 0.0_wp
    contains
-      procedure :: allocate_state, restart, reset, propose, complete, extend, next_length
+      procedure :: allocate_state, restart, renew, reset, propose, complete, extend, next_length
       procedure :: check_series, slope_here, stiff
       procedure(attempt_step), deferred :: attempt
       procedure(give_polynomial), deferred :: interpolant
@@ -110,6 +110,14 @@ contains
       call context%evaluate(context%cursor%inside(context%cursor%t), self%y, self%z, self%slope)
       call self%reset()
    end subroutine restart
+
+   !> Begin a step at a breaking point: its slope is not that of the end of the last step.
+   pure subroutine renew(self, context)
+      class(step_type), intent(inout) :: self
+      type(step_context), intent(inout) :: context
+
+      call self%restart(context)
+   end subroutine renew
 
    !> Forget what earlier steps have shown: nothing, unless a method says so.
    pure subroutine reset(self)

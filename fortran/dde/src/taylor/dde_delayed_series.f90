@@ -1,7 +1,9 @@
 !> The delayed values over one step as Taylor series: the polynomials of the past, shifted to the
-!> start of the step.
+!> start of the step. Where many delays would make many short steps, each polynomial is one over
+!> several steps of the past.
 module dde_delayed_series
    use dde_interpolant, only: series_value
+   use dde_past_fit, only: past_fit
    use dde_step_context, only: step_context
    use dde_time, only: elapsed
    use dde_kinds, only: int64, wp
@@ -16,15 +18,28 @@ module dde_delayed_series
    real(wp), parameter :: thin = 0.01_wp
    !> Largest difference between a series and the past that it stands for, over the tolerance.
    real(wp), parameter :: agreement = 0.5_wp
+   !> Delayed values are fitted, over the expected length of the step and a little more, after the
+   !> past made a step this many times shorter, for as long as fits make steps so much longer.
+   real(wp), parameter :: expected = 1.2_wp, worth_a_fit = 2.0_wp
+   !> The length of a fit is reduced by a power of its misfit, at most by the second factor.
+   real(wp), parameter :: reducing_power = 0.2_wp, most_reduced = 0.3_wp
 
    !> The series of all delayed values.
    type :: delayed_series
       !> Coefficients, shape (0:degree, delayed values)
       real(wp), allocatable :: coefficients(:, :)
+      !> Time from the start of the step for which all of them are valid
+      real(wp) :: valid_for = 0.0_wp
       !> Integral of the difference between the skipped past and the series, per delayed value
       real(wp), allocatable, private :: skipped(:)
       !> Number of the past step that each delayed value would read if none were skipped
       integer(int64), allocatable, private :: first(:)
+      !> Time over which each delayed value is fitted, 0 if it is not
+      real(wp), allocatable, private :: fitted(:)
+      !> Whether the past makes steps short, and whether delayed values are fitted in this one
+      logical, private :: cut = .false., fitting = .false.
+      !> How they are fitted
+      type(past_fit), allocatable, private :: fits
    contains
       procedure :: read_past, confirm, change_unit
    end type delayed_series
@@ -41,40 +56,36 @@ contains
       type(delayed_series) :: series
 
       allocate (series%coefficients(0:degree, delays))
-      allocate (series%skipped(delays), series%first(delays))
+      allocate (series%skipped(delays), series%first(delays), series%fitted(delays))
    end function new_series
 
    !> Series of the delayed values from the start of the step on.
-   pure subroutine read_past(self, context, skipping, unit, valid_for)
+   pure subroutine read_past(self, context, skipping, unit)
       class(delayed_series), intent(inout) :: self
       type(step_context), intent(inout) :: context
       !> Whether very short past steps may be skipped
       logical, intent(in) :: skipping
-      !> Unit of time of the powers. It is shortened to `valid_for`: powers of it over the length of
-      !> a very short step must not overflow.
+      !> Unit of time of the powers. It is shortened to the time for which all are valid: powers of
+      !> it over the length of a very short step must not overflow.
       real(wp), intent(inout) :: unit
-      !> Time from the start of the step for which all series are valid
-      real(wp), intent(out) :: valid_for
-      integer :: k
+      integer :: j, k
 
-      valid_for = huge(1.0_wp)
       associate (past => context%past, cursor => context%cursor, problem => context%problem)
-         do k = 1, size(self%first)
-            if (cursor%before_origin(k)) then
-               valid_for = min(valid_for, cursor%passes_origin(k))
-               cycle
-            end if
-            call read_start(context, k)
-            self%first(k) = cursor%step(k)
-            if (skipping) call skip_short(context, k, thin*min(unit, cursor%h))
-            valid_for = min(valid_for, past%validity_of(cursor%step(k)) - cursor%offset(k))
-         end do
-         unit = min(unit, valid_for)
+         self%fitting = .false.
+         if (self%cut) call fit_past(self, context, unit)
+         if (.not. self%fitting) then
+            call choose_steps(self, context, skipping, min(unit, cursor%h))
+         end if
+         unit = min(unit, self%valid_for)
          do k = 1, size(self%first)
             self%skipped(k) = 0.0_wp
             if (cursor%before_origin(k)) then
                call problem%past_series(cursor%time_before(past, problem%lag(k), 0.0_wp), &
                                         problem%component(k), unit, self%coefficients(:, k))
+            else if (self%fitting .and. self%fitted(k) > 0.0_wp) then
+               do j = 1, ubound(self%coefficients, 1)
+                  self%coefficients(j, k) = (unit/self%fitted(k))**j*self%coefficients(j, k)
+               end do
             else
                call past%series(cursor%step(k), k, cursor%offset(k), unit, self%coefficients(:, k))
                if (cursor%step(k) > self%first(k)) then
@@ -86,18 +97,90 @@ contains
       end associate
    end subroutine read_past
 
+   !> The past step that each delayed value reads.
+   pure subroutine choose_steps(self, context, skipping, h)
+      type(delayed_series), intent(inout) :: self
+      type(step_context), intent(inout) :: context
+      logical, intent(in) :: skipping
+      !> Expected length of the step
+      real(wp), intent(in) :: h
+      integer :: k
+
+      self%valid_for = huge(1.0_wp)
+      associate (past => context%past, cursor => context%cursor)
+         do k = 1, size(self%first)
+            if (cursor%before_origin(k)) then
+               self%valid_for = min(self%valid_for, cursor%passes_origin(k))
+               cycle
+            end if
+            call read_start(context, k)
+            self%first(k) = cursor%step(k)
+            if (skipping) call skip_short(context, k, thin*h)
+            self%valid_for = min(self%valid_for, &
+                                 past%validity_of(cursor%step(k)) - cursor%offset(k))
+         end do
+      end associate
+   end subroutine choose_steps
+
+   !> Fit the delayed values whose past steps end before the step, if that is worth it.
+   pure subroutine fit_past(self, context, unit)
+      type(delayed_series), intent(inout) :: self
+      type(step_context), intent(inout) :: context
+      !> Expected length of the step
+      real(wp), intent(in) :: unit
+      real(wp) :: h, misfit, nearest
+      integer :: k
+
+      if (.not. allocated(self%fits)) self%fits = past_fit(ubound(self%coefficients, 1))
+      call choose_steps(self, context, .false., unit)
+      associate (past => context%past, cursor => context%cursor, tolerance => context%tolerance, &
+                 component => context%problem%component)
+         nearest = unit
+         h = min(expected*unit, cursor%h)
+         do k = 1, size(self%first)
+            if (cursor%before_origin(k)) then
+               h = min(h, cursor%passes_origin(k))
+               cycle
+            end if
+            nearest = min(nearest, past%length_of(cursor%step(k)) - cursor%offset(k))
+         end do
+         self%cut = worth_a_fit*nearest < unit
+         self%fitted = 0.0_wp
+         do k = 1, size(self%first)
+            if (cursor%before_origin(k)) cycle
+            do
+               if (h < worth_a_fit*nearest) return
+               if (past%length_of(cursor%step(k)) - cursor%offset(k) >= h) exit
+               self%fitted(k) = h
+               call self%fits%fit(context, k, h, agreement*tolerance%of_component(component(k), &
+                                     past%value(cursor%step(k), k, cursor%offset(k))), &
+                                  self%coefficients(:, k), misfit)
+               if (misfit <= 1.0_wp) exit
+               self%fitted(k) = 0.0_wp
+               h = h*max(most_reduced, 0.9_wp*misfit**(-reducing_power))
+               call cursor%read_from(past, k, self%first(k))
+            end do
+         end do
+      end associate
+      self%fitting = .true.
+      self%valid_for = h
+   end subroutine fit_past
+
    !> Shorten a step to the length for which the series agree with the past. A step reads its past
    !> from one series, although the past may consist of several polynomials there. The length is 0
    !> if the skipped past differs by more than the tolerance.
    pure subroutine confirm(self, context, unit, h)
-      class(delayed_series), intent(in) :: self
+      class(delayed_series), intent(inout) :: self
       type(step_context), intent(inout) :: context
       real(wp), intent(in) :: unit
       !> Length of the step: proposed, then possible
       real(wp), intent(inout) :: h
-      real(wp) :: actual, difference, own
+      real(wp) :: actual, difference, own, wanted
       integer :: k
 
+      wanted = h
+      h = min(h, self%valid_for)
+      if (self%fitting) return
       associate (past => context%past, cursor => context%cursor, tolerance => context%tolerance, &
                  component => context%problem%component, z => self%coefficients)
          do k = 1, size(z, 2)
@@ -117,6 +200,7 @@ contains
             if (self%skipped(k) > actual*h) h = 0.0_wp
          end do
       end associate
+      if (h > 0.0_wp .and. worth_a_fit*h < wanted) self%cut = .true.
    end subroutine confirm
 
    !> Change the unit of time of the powers.

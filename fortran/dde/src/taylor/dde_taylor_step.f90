@@ -37,9 +37,8 @@ module dde_taylor_step
       !> Time along the series of the present state; negative if its slope was evaluated instead
       real(wp), private :: place = -1.0_wp
    contains
-      procedure :: set_up, check_series, reset, propose, attempt, interpolant, stiff, next_length
-      procedure :: advance
-      procedure :: slope_here
+      procedure :: set_up, check_series, renew, reset, propose, attempt, interpolant, stiff
+      procedure :: next_length, advance, slope_here
    end type taylor_step_type
 
 contains
@@ -69,12 +68,11 @@ contains
       type(step_context), intent(inout) :: context
       real(wp), intent(in) :: h
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: valid_for
 
       if (.not. h > 0.0_wp) return
       associate (series => self%series, t => context%cursor%inside(context%cursor%t))
          series%unit = h
-         call series%delayed%read_past(context, .false., series%unit, valid_for)
+         call series%delayed%read_past(context, .false., series%unit)
          call check_past(context, series%unit, series%delayed%coefficients, error)
          if (allocated(error)) return
          call context%delayed_values([0.0_wp], self%z)
@@ -83,6 +81,14 @@ contains
                                  series%coefficients(1, :), error)
       end associate
    end subroutine check_series
+
+   !> The series of the step gives its slope.
+   pure subroutine renew(self, context)
+      class(taylor_step_type), intent(inout) :: self
+      type(step_context), intent(inout) :: context
+
+      call self%series%slow%forget()
+   end subroutine renew
 
    !> The slope was evaluated: the last series no longer gives it.
    pure subroutine reset(self)
@@ -97,7 +103,7 @@ contains
       class(taylor_step_type), intent(inout) :: self
       type(step_context), intent(inout) :: context
       real(wp), intent(inout) :: h
-      real(wp) :: past_valid_for, possible, unit
+      real(wp) :: possible, unit
       logical :: skipping
 
       associate (series => self%series, cursor => context%cursor)
@@ -106,10 +112,12 @@ contains
          skipping = .true.
          do
             series%unit = unit
-            call series%delayed%read_past(context, skipping, series%unit, past_valid_for)
+            call series%delayed%read_past(context, skipping, series%unit)
             call series%expand(context, cursor%inside(cursor%t), self%scale, self%y)
-            possible = min(series%reach, past_valid_for, cursor%h)
+            possible = min(series%reach, cursor%h)
             call series%delayed%confirm(context, series%unit, possible)
+            ! a step that ends at a breaking point is short for its sake, not for that of the series
+            if (possible >= cursor%h) possible = series%reach
             if (possible > 0.0_wp .or. .not. skipping) exit
             skipping = .false.
          end do

@@ -5,7 +5,8 @@ module test_dde_past_series
    use dde_time, only: instant
    use dde_tolerance, only: tolerance_type
    use dde_errors, only: text
-   use expectations, only: expect_close
+   use dde_interpolant, only: series_value
+   use expectations, only: expect, expect_close
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use single_step, only: new_context
@@ -28,7 +29,8 @@ contains
                    new_unittest("a second node at 0", test_second_node), &
                    new_unittest("series of the next step", test_next), &
                    new_unittest("series beyond its step", test_disagreement), &
-                   new_unittest("series behind a layer", test_layer)]
+                   new_unittest("series behind a layer", test_layer), &
+                   new_unittest("series over many steps", test_fit)]
    end subroutine collect_dde_past_series
 
    !> One cubic has the same series wherever it is read. It is stored over three nodes in the first
@@ -148,6 +150,53 @@ contains
                          [1.1_wp, 0.0_wp, 0.0_wp], "before a short step", series)
    end subroutine test_layer
 
+   !> sin t in 40 cubics of 0.05: after a step that these have cut, one series of degree 12 over 1.2
+   !> units replaces them. It does not step over a kink, or over 0.1 more in one of the steps.
+   subroutine test_fit(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: degree = 12, steps = 40
+      real(wp), parameter :: length = 0.05_wp, tolerance = 1.0e-6_wp
+      type(delayed_series) :: series
+      type(step_context) :: context
+      type(wille_baker), target :: problem
+      real(wp) :: h, known, past(0:3), unit
+      integer :: change, i, place
+
+      problem = delayed()
+      do change = 0, 2
+         context = new_context(problem, 0.0_wp, 0.1_wp, 0.0_wp, tolerance)
+         do i = 0, steps - 1
+            associate (t => i*length, by => length**[0, 1, 2, 3])
+               past = by*[sin(t), cos(t), -0.5_wp*sin(t), -cos(t)/6]
+               if (change == 1 .and. t > 0.49_wp) past(:1) = past(:1) + by(:1)*[t - 0.5_wp, 1.0_wp]
+               if (change == 2 .and. i == 8) past(0) = past(0) + 0.1_wp
+               call append(context, t, length, past, length)
+            end associate
+         end do
+         series = delayed_series(degree, delays=1)
+         call context%go_to(instant(lag), 2.0_wp)
+         do i = 1, 2
+            unit = 1.0_wp
+            call series%read_past(context, .true., unit)
+            h = 2.0_wp
+            call series%confirm(context, unit, h)
+            if (i == 1) call expect_close(error, h, length, 1.0e-12_wp, "cut")
+         end do
+         call expect_close(error, h, series%valid_for, 0.0_wp, "as long as the series")
+         if (change > 0) then
+            call expect(error, h < 0.55_wp, "no fit over change "//text(change)//": "//text(h))
+            cycle
+         end if
+         call expect_close(error, h, 1.2_wp, 1.0e-12_wp, "a fit")
+         do place = 0, 10
+            known = sin(0.1_wp*place*h)
+            call expect_close(error, series_value(degree, series%coefficients(:, 1), &
+                                                  0.1_wp*place*h/unit), known, tolerance, &
+                              "place "//text(place))
+         end do
+      end do
+   end subroutine test_fit
+
    !> The series at a time is known.
    subroutine expect_series(error, context, t, h, unit, skipping, known, what, series, valid_for)
       type(error_type), allocatable, intent(inout) :: error
@@ -163,23 +212,23 @@ contains
       type(delayed_series), intent(out) :: series
       !> Time for which it is valid, if that is known
       real(wp), intent(in), optional :: valid_for
-      real(wp) :: found_unit, found_valid_for
+      real(wp) :: found_unit
 
       series = delayed_series(degree=ubound(known, 1), delays=1)
       call context%go_to(instant(t + lag), h)
       found_unit = unit
-      call series%read_past(context, skipping, found_unit, found_valid_for)
+      call series%read_past(context, skipping, found_unit)
       call expect_close(error, series%coefficients(:, 1), known, 1.0e-15_wp, what)
-      call expect_close(error, found_unit, min(unit, found_valid_for), 0.0_wp, "unit, "//what)
+      call expect_close(error, found_unit, min(unit, series%valid_for), 0.0_wp, "unit, "//what)
       if (.not. present(valid_for)) return
-      call expect_close(error, found_valid_for, valid_for, 1.0e-15_wp, "validity, "//what)
+      call expect_close(error, series%valid_for, valid_for, 1.0e-15_wp, "validity, "//what)
    end subroutine expect_series
 
    !> Length of a step for which a series agrees with the past.
    subroutine expect_length(error, context, series, unit, tolerance, known)
       type(error_type), allocatable, intent(inout) :: error
       type(step_context), intent(inout) :: context
-      type(delayed_series), intent(in) :: series
+      type(delayed_series), intent(inout) :: series
       !> Its unit of time, and the length proposed
       real(wp), intent(in) :: unit
       real(wp), intent(in) :: tolerance, known

@@ -1,0 +1,114 @@
+!> A delayed value over a step that spans several polynomials of the past, as one polynomial: a
+!> truncated Chebyshev series through its values at Chebyshev nodes of the step (Trefethen 2013,
+!> "Approximation Theory and Approximation Practice", ch. 3).
+module dde_past_fit
+   use dde_interpolant, only: series_value
+   use dde_step_context, only: step_context
+   use dde_time, only: elapsed
+   use dde_kinds, only: int64, wp
+   implicit none (type, external)
+   private
+   public :: past_fit
+
+   !> Most nodes.
+   integer, parameter :: most_nodes = 16
+   !> Last coefficients that must vanish: the others then hold the past.
+   integer, parameter :: vanishing = 2
+   !> Sum of the Chebyshev coefficients that are left out, over the largest difference allowed.
+   real(wp), parameter :: left_out = 0.2_wp
+
+   !> Nodes and transformations.
+   type :: past_fit
+      !> Number of nodes
+      integer :: nodes = 0
+      !> Nodes as shares of the step, ascending
+      real(wp), private :: places(most_nodes) = 0.0_wp
+      !> From values at the nodes to Chebyshev coefficients, and from these to powers of the share
+      !> of the step; one coefficient a column, and one polynomial a column
+      real(wp), private :: to_chebyshev(most_nodes, 0:most_nodes - 1) = 0.0_wp
+      real(wp), private :: to_powers(0:most_nodes - 1, 0:most_nodes - 1) = 0.0_wp
+   contains
+      procedure :: fit
+   end type past_fit
+
+   interface past_fit
+      module procedure :: new_fit
+   end interface past_fit
+
+contains
+
+   !> Fits for series of a degree.
+   pure type(past_fit) function new_fit(degree) result(self)
+      integer, intent(in) :: degree
+      real(wp) :: chebyshev(0:most_nodes - 1), x
+      integer :: i, n
+
+      self%nodes = min(most_nodes, degree)
+      do i = 1, self%nodes
+         x = -cos(acos(-1.0_wp)*(2*i - 1)/(2*self%nodes))
+         self%places(i) = 0.5_wp*(1.0_wp + x)
+         chebyshev(:1) = [1.0_wp, x]
+         do n = 2, self%nodes - 1
+            chebyshev(n) = 2.0_wp*x*chebyshev(n - 1) - chebyshev(n - 2)
+         end do
+         chebyshev(0) = 0.5_wp
+         self%to_chebyshev(i, :self%nodes - 1) = 2.0_wp/self%nodes*chebyshev(:self%nodes - 1)
+      end do
+      associate (t => self%to_powers)
+         t(0, 0) = 1.0_wp
+         t(:1, 1) = [-1.0_wp, 2.0_wp]
+         do n = 2, self%nodes - 1
+            t(:n, n) = -2.0_wp*t(:n, n - 1) - t(:n, n - 2)
+            t(1:n, n) = t(1:n, n) + 4.0_wp*t(:n - 1, n - 1)
+         end do
+      end associate
+   end function new_fit
+
+   !> Fit delayed value k over a step. It is compared with the past where polynomials of the past
+   !> begin: a transient has left short ones.
+   pure subroutine fit(self, context, k, h, allowed, coefficients, misfit)
+      class(past_fit), intent(in) :: self
+      type(step_context), intent(inout) :: context
+      integer, intent(in) :: k
+      !> Length of the step
+      real(wp), intent(in) :: h
+      !> Largest difference from the past
+      real(wp), intent(in) :: allowed
+      !> Coefficients of the powers of the share of the step
+      real(wp), contiguous, intent(out) :: coefficients(0:)
+      !> Largest difference that is seen, over `allowed`
+      real(wp), intent(out) :: misfit
+      real(wp) :: chebyshev(0:most_nodes - 1), place, tail, values(most_nodes)
+      integer(int64) :: step
+      integer :: degree, n
+
+      associate (nodes => self%nodes, past => context%past, cursor => context%cursor)
+         step = cursor%step(k) + 1
+         call cursor%look_up(past, k, h*self%places(:nodes), values)
+         do n = 0, nodes - 1
+            chebyshev(n) = dot_product(self%to_chebyshev(:nodes, n), values(:nodes))
+         end do
+         degree = nodes - 1
+         tail = 0.0_wp
+         do while (degree > 0)
+            if (tail + abs(chebyshev(degree)) > left_out*allowed) exit
+            tail = tail + abs(chebyshev(degree))
+            degree = degree - 1
+         end do
+         misfit = sum(abs(chebyshev(nodes - vanishing:nodes - 1)))/(left_out*allowed)
+         if (degree >= nodes - vanishing) return
+         misfit = 0.0_wp
+         coefficients = 0.0_wp
+         do n = 0, degree
+            coefficients(:n) = coefficients(:n) + chebyshev(n)*self%to_powers(:n, n)
+         end do
+         do while (step <= past%newest)
+            place = elapsed(cursor%delayed_start(k), past%start_of(step))/h
+            if (place >= 1.0_wp) exit
+            misfit = max(misfit, abs(series_value(degree, coefficients, place) &
+                                     - past%value(step, k, 0.0_wp))/allowed)
+            step = step + 1
+         end do
+      end associate
+   end subroutine fit
+end module dde_past_fit
