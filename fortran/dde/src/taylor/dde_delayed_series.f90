@@ -253,6 +253,7 @@ contains
          first = cursor%step(k)
          length = past%length_of(first)
          ahead = length - cursor%offset(k)
+         if (ahead >= cursor%h) return
          if (ahead > most) then
             if (ahead < cursor%offset(k) .and. past%validity_of(first) > length) then
                call cursor%read_from(past, k, first + 1)
