@@ -1,10 +1,11 @@
 !> The past of one integration: the polynomials of accepted steps, for the delayed components only.
-!> It is a ring of slots. It drops the oldest steps on request and doubles when it is full. Other
+!> It is a ring of slots. It drops the oldest steps on request and doubles when it is full. The
+!> coefficients of a step never move: a new step takes over those of a dropped one. Other
 !> modules ask it for values: steps have numbers, times in a step are counted from its start. Before
 !> the initial time the problem's own history holds.
 module dde_history
-   use dde_interpolant, only: highest_degree, newton_value, newton_values, taylor_coefficients, &
-                              usual_degree
+   use dde_interpolant, only: highest_degree, newton_value, newton_values, stored_degree, &
+                              taylor_coefficients, usual_degree
    use dde_memory, only: bytes_of, lacks
    use dde_problem, only: dde_problem_type
    use dde_time, only: elapsed, instant
@@ -15,8 +16,16 @@ module dde_history
 
    !> Slots of a new ring. It is a power of two, as are its doubles.
    integer, parameter :: first_capacity = 64
+   !> Real numbers of a slot beside its nodes and coefficients, at most.
+   integer, parameter :: slot_size = 20
    !> Share of a step that rounding may hide.
    real(wp), parameter :: hidden = 4.0_wp*epsilon(1.0_wp)
+
+   !> The polynomials of a step.
+   type :: polynomials
+      !> Newton coefficients, shape (0:stored degree, kept component)
+      real(wp), allocatable :: a(:, :)
+   end type polynomials
 
    !> Steps kept, number `oldest` to number `newest`.
    type :: history_type
@@ -30,6 +39,8 @@ module dde_history
       integer, allocatable :: row(:)
       !> Numbers of the oldest and the newest step kept
       integer(int64) :: oldest = 0, newest = -1
+      !> Steps from this number to the oldest are dropped, but their coefficients are allocated
+      integer(int64), private :: spare = 0
       !> Start of each step, per slot
       type(instant), allocatable, private :: start(:)
       !> Length of each step, per slot
@@ -43,14 +54,13 @@ module dde_history
       !> Newton nodes, shape (highest degree, slot); those between the degree and the usual degree
       !> are 0
       real(wp), allocatable, private :: nodes(:, :)
-      !> Newton coefficients, shape (0:highest degree, kept component, slot); those between the
-      !> degree and the usual degree are 0
-      real(wp), allocatable, private :: coefficients(:, :, :)
+      !> Polynomials, per slot
+      type(polynomials), allocatable, private :: of_step(:)
    contains
       procedure, non_overridable :: start_of, length_of, validity_of, value, values, series
       procedure, non_overridable :: append, open_step, fill, make_room, recall, forget
       procedure, non_overridable :: degree_in_use
-      procedure, non_overridable, private :: double_capacity, is_full, slot_of
+      procedure, non_overridable, private :: double_capacity, is_full, slot_of, take_over
    end type history_type
 
    interface history_type
@@ -77,7 +87,7 @@ contains
       allocate (past%valid_for(first_capacity), past%degree(first_capacity))
       allocate (past%powers(first_capacity))
       allocate (past%nodes(highest_degree, first_capacity))
-      allocate (past%coefficients(0:highest_degree, size(past%kept), first_capacity))
+      allocate (past%of_step(first_capacity))
    end function new_history
 
    !> Slot of step number `step`.
@@ -122,7 +132,7 @@ contains
 
       slot = self%slot_of(step)
       z = newton_value(self%degree(slot), self%nodes(:, slot), &
-                       self%coefficients(:, self%row(k), slot), time/self%length(slot))
+                       self%of_step(slot)%a(:, self%row(k)), time/self%length(slot))
    end function value
 
    !> Delayed value number k by the polynomial of a step, at ascending times up to a limit.
@@ -143,7 +153,7 @@ contains
 
       slot = self%slot_of(step)
       call newton_values(self%degree(slot), self%nodes(:, slot), &
-                         self%coefficients(:, self%row(k), slot), offset, self%length(slot), &
+                         self%of_step(slot)%a(:, self%row(k)), offset, self%length(slot), &
                          limit, size(ahead), ahead, first, z)
    end subroutine values
 
@@ -164,7 +174,7 @@ contains
       place = time/self%length(slot)
       if (abs(place) < hidden) place = 0.0_wp
       call taylor_coefficients(self%degree(slot), self%nodes(:, slot), self%powers(slot), &
-                               self%coefficients(:, self%row(k), slot), place, &
+                               self%of_step(slot)%a(:, self%row(k)), place, &
                                unit/self%length(slot), coefficients)
    end subroutine series
 
@@ -187,29 +197,38 @@ contains
       end do
    end subroutine append
 
-   !> Bytes of a ring of slots.
-   pure real(wp) function memory_of_past(slots, kept) result(bytes)
+   !> Bytes of a past.
+   pure real(wp) function memory_of_past(slots, steps, kept, degree) result(bytes)
       !> Number of slots; a smaller ring than the first one is not made
       integer, intent(in) :: slots
+      !> Number of steps whose polynomials are allocated
+      integer, intent(in) :: steps
       !> Number of components kept
       integer, intent(in) :: kept
+      !> Degree of the polynomials
+      integer, intent(in) :: degree
 
-      bytes = bytes_of(max(slots, first_capacity) &
-                       *(8.0_wp + highest_degree + (1.0_wp + highest_degree)*kept))
+      bytes = bytes_of(real(max(slots, first_capacity), wp)*(slot_size + highest_degree) &
+                       + real(steps, wp)*kept*(1 + stored_degree(degree)))
    end function memory_of_past
 
-   !> Double a full ring, if there is memory for it.
-   subroutine make_room(self, lacking)
+   !> Make room for a step, if there is memory for it.
+   subroutine make_room(self, degree, lacking)
       class(history_type), intent(inout) :: self
+      !> Degree of the polynomials of the step
+      integer, intent(in) :: degree
       !> Bytes that could not be allocated, or 0
       real(wp), intent(out) :: lacking
+      integer :: slots
 
       lacking = 0.0_wp
-      if (.not. self%is_full()) return
-      lacking = memory_of_past(2*size(self%start), size(self%kept))
+      if (self%spare < self%oldest) return
+      slots = 0
+      if (self%is_full()) slots = 2*size(self%start)
+      lacking = memory_of_past(slots, 1, size(self%kept), degree)
       if (lacks(lacking)) return
       lacking = 0.0_wp
-      call self%double_capacity()
+      if (slots > 0) call self%double_capacity()
    end subroutine make_room
 
    !> Whether no slot is free.
@@ -240,8 +259,27 @@ contains
       self%powers(slot) = powers
       self%nodes(:size(nodes), slot) = nodes
       self%nodes(size(nodes) + 1:usual_degree, slot) = 0.0_wp
-      self%coefficients(size(nodes) + 1:usual_degree, :, slot) = 0.0_wp
+      call self%take_over(slot)
+      associate (top => stored_degree(size(nodes)), here => self%of_step(slot))
+         if (allocated(here%a)) then
+            if (ubound(here%a, 1) /= top) deallocate (here%a)
+         end if
+         if (.not. allocated(here%a)) allocate (here%a(0:top, size(self%kept)))
+         if (size(nodes) < top) here%a(size(nodes) + 1:, :) = 0.0_wp
+      end associate
    end subroutine open_step
+
+   !> Let a slot take over the coefficients of a dropped step, if there is one.
+   pure subroutine take_over(self, slot)
+      class(history_type), intent(inout) :: self
+      integer, intent(in) :: slot
+      integer :: from
+
+      if (self%spare == self%oldest) return
+      from = self%slot_of(self%spare)
+      self%spare = self%spare + 1
+      if (from /= slot) call move_alloc(self%of_step(from)%a, self%of_step(slot)%a)
+   end subroutine take_over
 
    !> Fill in one polynomial of the newest step.
    pure subroutine fill(self, i, coefficients)
@@ -251,7 +289,7 @@ contains
       !> Newton coefficients, shape (0:degree)
       real(wp), contiguous, intent(in) :: coefficients(0:)
 
-      self%coefficients(:ubound(coefficients, 1), i, self%slot_of(self%newest)) = coefficients
+      self%of_step(self%slot_of(self%newest))%a(:ubound(coefficients, 1), i) = coefficients
    end subroutine fill
 
    !> Step number `step`, oldest..newest, as it was stored.
@@ -274,7 +312,7 @@ contains
       valid_for = self%valid_for(slot)
       nodes = self%nodes(:size(nodes), slot)
       nodes(self%degree(slot) + 1:) = 0.0_wp
-      coefficients = self%coefficients(0:size(nodes), :, slot)
+      coefficients(:self%degree(slot), :) = self%of_step(slot)%a(:self%degree(slot), :)
       coefficients(self%degree(slot) + 1:, :) = 0.0_wp
    end subroutine recall
 
@@ -303,11 +341,13 @@ contains
    end function degree_in_use
 
    !> Twice the slots of a full ring. Each step is in its old slot and, a copy, in the same slot of
-   !> the second half: its number gives one of these two.
+   !> the second half: its number gives one of these two. Its coefficients are in that one only.
    pure subroutine double_capacity(self)
       class(history_type), intent(inout) :: self
-      real(wp), allocatable :: coefficients(:, :, :), nodes(:, :)
-      integer :: slots
+      type(polynomials), allocatable :: of_step(:)
+      real(wp), allocatable :: nodes(:, :)
+      integer(int64) :: step
+      integer :: slot, slots
 
       slots = size(self%start)
       self%start = [self%start, self%start]
@@ -319,9 +359,11 @@ contains
       nodes(:, :slots) = self%nodes
       nodes(:, slots + 1:) = self%nodes
       call move_alloc(nodes, self%nodes)
-      allocate (coefficients(0:highest_degree, size(self%kept), 2*slots))
-      coefficients(:, :, :slots) = self%coefficients
-      coefficients(:, :, slots + 1:) = self%coefficients
-      call move_alloc(coefficients, self%coefficients)
+      allocate (of_step(2*slots))
+      do step = self%oldest, self%newest
+         slot = self%slot_of(step)
+         call move_alloc(self%of_step(1 + modulo(slot - 1, slots))%a, of_step(slot)%a)
+      end do
+      call move_alloc(of_step, self%of_step)
    end subroutine double_capacity
 end module dde_history
