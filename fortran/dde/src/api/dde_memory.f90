@@ -5,11 +5,11 @@ module dde_memory
    use, intrinsic :: iso_fortran_env, only: int8
    implicit none (type, external)
    private
-   public :: bytes_of, lacks
+   public :: bytes_of, lacks, small
 
    !> Bytes of a real number.
    integer, parameter :: bytes_of_real = storage_size(1.0_wp)/8
-   !> Smaller amounts are there.
+   !> Amounts up to this one are not asked for: that would take too long.
    real(wp), parameter :: small = 65536.0_wp
    !> Where Linux tells how many kilobytes a program can fill: it lets programs allocate more.
    character(len=*), parameter :: meminfo = "/proc/meminfo", name_there = "MemAvailable:"

@@ -6,7 +6,7 @@
 module dde_history
    use dde_interpolant, only: highest_degree, newton_value, newton_values, stored_degree, &
                               taylor_coefficients, usual_degree
-   use dde_memory, only: bytes_of, lacks
+   use dde_memory, only: bytes_of, lacks, small
    use dde_problem, only: dde_problem_type
    use dde_time, only: elapsed, instant
    use dde_kinds, only: int64, wp
@@ -219,13 +219,18 @@ contains
       integer, intent(in) :: degree
       !> Bytes that could not be allocated, or 0
       real(wp), intent(out) :: lacking
-      integer :: slots
+      integer :: slots, steps
 
       lacking = 0.0_wp
       if (self%spare < self%oldest) return
       slots = 0
-      if (self%is_full()) slots = 2*size(self%start)
-      lacking = memory_of_past(slots, 1, size(self%kept), degree)
+      steps = 1
+      if (self%is_full()) then
+         slots = 2*size(self%start)
+         ! small ones are asked for together
+         if (memory_of_past(0, 1, size(self%kept), degree) <= small) steps = size(self%start)
+      end if
+      lacking = memory_of_past(slots, steps, size(self%kept), degree)
       if (lacks(lacking)) return
       lacking = 0.0_wp
       if (slots > 0) call self%double_capacity()
