@@ -39,8 +39,10 @@ module dde_history
       integer, allocatable :: row(:)
       !> Numbers of the oldest and the newest step kept
       integer(int64) :: oldest = 0, newest = -1
-      !> Steps from this number to the oldest are dropped, but their coefficients are allocated
+      !> Steps from this number to the oldest are dropped, but still have their polynomials
       integer(int64), private :: spare = 0
+      !> Number of polynomials allocated
+      integer, private :: used = 0
       !> Start of each step, per slot
       type(instant), allocatable, private :: start(:)
       !> Length of each step, per slot
@@ -54,13 +56,14 @@ module dde_history
       !> Newton nodes, shape (highest degree, slot); those between the degree and the usual degree
       !> are 0
       real(wp), allocatable, private :: nodes(:, :)
-      !> Polynomials, per slot
-      type(polynomials), allocatable, private :: of_step(:)
+      !> Number of the polynomials of each step, per slot, and these
+      integer, allocatable, private :: place(:)
+      type(polynomials), allocatable, private :: stored(:)
    contains
       procedure, non_overridable :: start_of, length_of, validity_of, value, values, series
       procedure, non_overridable :: append, open_step, fill, make_room, recall, forget
       procedure, non_overridable :: degree_in_use
-      procedure, non_overridable, private :: double_capacity, is_full, slot_of, take_over
+      procedure, non_overridable, private :: double_capacity, is_full, slot_of
    end type history_type
 
    interface history_type
@@ -87,7 +90,7 @@ contains
       allocate (past%valid_for(first_capacity), past%degree(first_capacity))
       allocate (past%powers(first_capacity))
       allocate (past%nodes(highest_degree, first_capacity))
-      allocate (past%of_step(first_capacity))
+      allocate (past%place(first_capacity), past%stored(first_capacity))
    end function new_history
 
    !> Slot of step number `step`.
@@ -132,7 +135,7 @@ contains
 
       slot = self%slot_of(step)
       z = newton_value(self%degree(slot), self%nodes(:, slot), &
-                       self%of_step(slot)%a(:, self%row(k)), time/self%length(slot))
+                       self%stored(self%place(slot))%a(:, self%row(k)), time/self%length(slot))
    end function value
 
    !> Delayed value number k by the polynomial of a step, at ascending times up to a limit.
@@ -153,8 +156,8 @@ contains
 
       slot = self%slot_of(step)
       call newton_values(self%degree(slot), self%nodes(:, slot), &
-                         self%of_step(slot)%a(:, self%row(k)), offset, self%length(slot), &
-                         limit, size(ahead), ahead, first, z)
+                         self%stored(self%place(slot))%a(:, self%row(k)), offset, &
+                         self%length(slot), limit, size(ahead), ahead, first, z)
    end subroutine values
 
    !> Delayed value number k as a series in powers of a unit of time, by the polynomial of a step.
@@ -174,7 +177,7 @@ contains
       place = time/self%length(slot)
       if (abs(place) < hidden) place = 0.0_wp
       call taylor_coefficients(self%degree(slot), self%nodes(:, slot), self%powers(slot), &
-                               self%of_step(slot)%a(:, self%row(k)), place, &
+                               self%stored(self%place(slot))%a(:, self%row(k)), place, &
                                unit/self%length(slot), coefficients)
    end subroutine series
 
@@ -252,11 +255,25 @@ contains
       !> Whether all of them are 0
       logical, intent(in) :: powers
       real(wp), intent(in) :: valid_for
-      integer :: slot
+      integer :: from, place, slot
 
       if (self%is_full()) call self%double_capacity()
       self%newest = self%newest + 1
       slot = self%slot_of(self%newest)
+      if (self%spare < self%oldest) then
+         from = self%slot_of(self%spare)
+         self%spare = self%spare + 1
+         place = self%place(from)
+         if (self%degree(from) /= size(nodes)) deallocate (self%stored(place)%a)
+      else
+         self%used = self%used + 1
+         place = self%used
+      end if
+      if (.not. allocated(self%stored(place)%a)) then
+         allocate (self%stored(place)%a(0:stored_degree(size(nodes)), size(self%kept)), &
+                   source=0.0_wp)
+      end if
+      self%place(slot) = place
       self%start(slot) = start
       self%length(slot) = length
       self%valid_for(slot) = max(length, valid_for)
@@ -264,27 +281,7 @@ contains
       self%powers(slot) = powers
       self%nodes(:size(nodes), slot) = nodes
       self%nodes(size(nodes) + 1:usual_degree, slot) = 0.0_wp
-      call self%take_over(slot)
-      associate (top => stored_degree(size(nodes)), here => self%of_step(slot))
-         if (allocated(here%a)) then
-            if (ubound(here%a, 1) /= top) deallocate (here%a)
-         end if
-         if (.not. allocated(here%a)) allocate (here%a(0:top, size(self%kept)))
-         if (size(nodes) < top) here%a(size(nodes) + 1:, :) = 0.0_wp
-      end associate
    end subroutine open_step
-
-   !> Let a slot take over the coefficients of a dropped step, if there is one.
-   pure subroutine take_over(self, slot)
-      class(history_type), intent(inout) :: self
-      integer, intent(in) :: slot
-      integer :: from
-
-      if (self%spare == self%oldest) return
-      from = self%slot_of(self%spare)
-      self%spare = self%spare + 1
-      if (from /= slot) call move_alloc(self%of_step(from)%a, self%of_step(slot)%a)
-   end subroutine take_over
 
    !> Fill in one polynomial of the newest step.
    pure subroutine fill(self, i, coefficients)
@@ -294,7 +291,9 @@ contains
       !> Newton coefficients, shape (0:degree)
       real(wp), contiguous, intent(in) :: coefficients(0:)
 
-      self%of_step(self%slot_of(self%newest))%a(:ubound(coefficients, 1), i) = coefficients
+      associate (here => self%stored(self%place(self%slot_of(self%newest))))
+         here%a(:ubound(coefficients, 1), i) = coefficients
+      end associate
    end subroutine fill
 
    !> Step number `step`, oldest..newest, as it was stored.
@@ -317,7 +316,7 @@ contains
       valid_for = self%valid_for(slot)
       nodes = self%nodes(:size(nodes), slot)
       nodes(self%degree(slot) + 1:) = 0.0_wp
-      coefficients(:self%degree(slot), :) = self%of_step(slot)%a(:self%degree(slot), :)
+      coefficients(:self%degree(slot), :) = self%stored(self%place(slot))%a(:self%degree(slot), :)
       coefficients(self%degree(slot) + 1:, :) = 0.0_wp
    end subroutine recall
 
@@ -346,13 +345,12 @@ contains
    end function degree_in_use
 
    !> Twice the slots of a full ring. Each step is in its old slot and, a copy, in the same slot of
-   !> the second half: its number gives one of these two. Its coefficients are in that one only.
+   !> the second half: its number gives one of these two.
    pure subroutine double_capacity(self)
       class(history_type), intent(inout) :: self
-      type(polynomials), allocatable :: of_step(:)
+      type(polynomials), allocatable :: stored(:)
       real(wp), allocatable :: nodes(:, :)
-      integer(int64) :: step
-      integer :: slot, slots
+      integer :: i, slots
 
       slots = size(self%start)
       self%start = [self%start, self%start]
@@ -360,15 +358,15 @@ contains
       self%valid_for = [self%valid_for, self%valid_for]
       self%degree = [self%degree, self%degree]
       self%powers = [self%powers, self%powers]
+      self%place = [self%place, self%place]
       allocate (nodes(highest_degree, 2*slots))
       nodes(:, :slots) = self%nodes
       nodes(:, slots + 1:) = self%nodes
       call move_alloc(nodes, self%nodes)
-      allocate (of_step(2*slots))
-      do step = self%oldest, self%newest
-         slot = self%slot_of(step)
-         call move_alloc(self%of_step(1 + modulo(slot - 1, slots))%a, of_step(slot)%a)
+      allocate (stored(2*slots))
+      do i = 1, slots
+         call move_alloc(self%stored(i)%a, stored(i)%a)
       end do
-      call move_alloc(of_step, self%of_step)
+      call move_alloc(stored, self%stored)
    end subroutine double_capacity
 end module dde_history
