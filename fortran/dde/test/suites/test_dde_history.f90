@@ -49,7 +49,8 @@ contains
                    new_unittest("what is given back", test_recall), &
                    new_unittest("memory of an integration", test_memory_of_integration), &
                    new_unittest("no memory for matrices", test_matrices), &
-                   new_unittest("no memory for the past", test_past)]
+                   new_unittest("no memory for the past", test_past), &
+                   new_unittest("the memory of each degree", test_degree)]
    end subroutine collect_dde_history
 
    !> Three delays of two components over 2000 steps of different lengths, of which 50 at a time
@@ -278,4 +279,32 @@ contains
       call expect(error, outcome%reason == out_of_memory, "the reason")
       call expect(error, outcome%t > 0.0_wp .and. size(outcome%y) == n, "the last step")
    end subroutine test_past
+
+   !> 100 steps of 10 000 components and degree 7, then of degree 12, are 72 and 104 MB. The ring
+   !> doubles once; steps of the other degree take the place of those dropped.
+   subroutine test_degree(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: n = 10000
+      integer(c_long), parameter :: limit = 115*1000*1000_c_long
+      type(history_type) :: past
+      type(linear) :: problem
+      real(wp) :: lacking
+      integer :: degree, i
+
+      problem = linear(n=n, lag=spread(1.0_wp, 1, n), component=[(i, i=1, n)], &
+                       past=spread(0.0_wp, 1, n), first=spread(0.0_wp, 1, n))
+      past = history_type(problem, instant(0.0_wp))
+      if (limit_memory(limit) == 0) return
+      do degree = 7, 12, 5
+         do i = 0, 99
+            call past%make_room(degree, lacking)
+            if (lacking > 0.0_wp) exit
+            call past%open_step(instant(real(i, wp)), 1.0_wp, spread(0.0_wp, 1, degree), .true., &
+                                1.0_wp)
+            if (degree == 12) call past%forget(past%start_of(past%oldest + 1))
+         end do
+         call expect_close(error, lacking, 0.0_wp, 0.0_wp, "bytes lacking at "//text(degree))
+      end do
+      call expect(error, limit_memory(-1_c_long) == 1, "the limit is lifted")
+   end subroutine test_degree
 end module test_dde_history
