@@ -2,10 +2,12 @@
 module dde_methods
    use dde_explicit_step, only: explicit_step_type
    use dde_implicit_step, only: implicit_cost, implicit_step_type, stages_of
-   use dde_interpolant, only: highest_degree
+   use dde_history, only: memory_of_past
+   use dde_interpolant, only: highest_degree, usual_degree
    use dde_memory, only: bytes_of, lacks
-   use dde_orders, only: explicit_pair, radau_method
+   use dde_orders, only: explicit_pair, radau_method, taylor_degree
    use dde_problem, only: dde_problem_type
+   use dde_request, only: implicit_methods, integration_options
    use dde_step, only: step_type
    use dde_switch, only: least_trial
    use dde_taylor_step, only: taylor_step_type
@@ -13,7 +15,8 @@ module dde_methods
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: choose_method, longest_step, matching_method, price_of_trial
+   public :: choose_method, longest_step, matching_method, memory_needed, memory_of_state
+   public :: price_of_trial
 
    !> Iterations of a usual implicit step.
    integer, parameter :: usual_iterations = 3
@@ -35,6 +38,39 @@ contains
       price = implicit_cost*(columns &
                              + least_trial*(usual_iterations*stages + 2))
    end function price_of_trial
+
+   !> Bytes that a run needs for its state, its method and the least number of steps that the
+   !> longest delay holds. `auto` is counted as its explicit method.
+   pure real(wp) function memory_needed(problem, options) result(bytes)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Method and tolerances
+      type(integration_options), intent(in) :: options
+      type(tolerance_type) :: tolerance
+      character(len=8) :: name
+      integer :: degree, steps
+
+      tolerance = tolerance_type(problem%n, options%relative, options%absolute, &
+                                 options%each_relative, options%each_absolute)
+      name = name_of(problem, options%method, tolerance)
+      degree = usual_degree
+      if (name == "taylor") degree = taylor_degree(tolerance%level)
+      bytes = memory_of_state(problem) + memory_of(problem, name)
+      if (size(problem%lag) == 0) return
+      steps = 1
+      if (all(name /= implicit_methods)) then
+         steps = ceiling(min(maxval(problem%lag)/minval(problem%lag), 0.5_wp*huge(1)))
+      end if
+      bytes = bytes + memory_of_past(steps, steps, size(problem%lag), degree)
+   end function memory_needed
+
+   !> Bytes of the state and its tolerances.
+   pure real(wp) function memory_of_state(problem) result(bytes)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+
+      bytes = bytes_of(16.0_wp*problem%n)
+   end function memory_of_state
 
    !> Bytes that a step of a method takes, at most, counted from its components. It is made as a
    !> copy of another one.
@@ -90,9 +126,7 @@ contains
       real(wp), intent(out) :: lacking
       character(len=8) :: name
 
-      name = method
-      if (name == "auto") name = matching_method(problem, tolerance, implicit=.false.)
-      if (name == "explicit") name = explicit_pair(tolerance%level)
+      name = name_of(problem, method, tolerance)
       lacking = memory_of(problem, name)
       if (lacks(lacking)) return
       lacking = 0.0_wp
@@ -113,6 +147,19 @@ contains
          call step%set_up(problem, name)
       end select
    end subroutine choose_method
+
+   !> The method that a run begins with.
+   pure function name_of(problem, method, tolerance) result(name)
+      class(dde_problem_type), intent(in) :: problem
+      !> Method asked for
+      character(len=8), intent(in) :: method
+      type(tolerance_type), intent(in) :: tolerance
+      character(len=8) :: name
+
+      name = method
+      if (name == "auto") name = matching_method(problem, tolerance, implicit=.false.)
+      if (name == "explicit") name = explicit_pair(tolerance%level)
+   end function name_of
 
    !> The explicit or the implicit method of `auto`.
    pure function matching_method(problem, tolerance, implicit) result(method)

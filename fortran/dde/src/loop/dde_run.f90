@@ -10,8 +10,9 @@ module dde_run
    use dde_first_step, only: choose_first_step
    use dde_history, only: history_type, memory_of_past
    use dde_kinks, only: kink_type
-   use dde_memory, only: bytes_of, lacks
-   use dde_methods, only: choose_method, longest_step, matching_method
+   use dde_memory, only: lacks
+   use dde_methods, only: choose_method, longest_step, matching_method, &
+                          memory_of_state
    use dde_problem, only: dde_problem_type
    use dde_request, only: causes, implicit_methods, integration_options
    use dde_step, only: step_type
@@ -90,7 +91,7 @@ contains
          steps = size(continuation%step_length)
       end if
       ! the state and its tolerances, and a ring of up to twice as many slots as steps
-      lacking = bytes_of(16.0_wp*problem%n) &
+      lacking = memory_of_state(problem) &
                 + memory_of_past(2*steps, steps, size(problem%lag), degree)
       if (lacks(lacking)) return
       self%context%problem => problem

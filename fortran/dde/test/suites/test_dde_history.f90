@@ -2,7 +2,8 @@
 !> need more memory than there is, which end with an error.
 module test_dde_history
    use, intrinsic :: iso_c_binding, only: c_int, c_long
-   use dde, only: integrate, integration_options, integration_result, out_of_memory
+   use dde, only: integrate, integration_options, integration_result, memory_needed, &
+                  out_of_memory
    use dde_cursor, only: cursor_type
    use dde_history, only: history_type
    use dde_time, only: instant, later
@@ -21,6 +22,8 @@ module test_dde_history
    real(wp), parameter :: odd_nodes(1) = [1.0_wp], even_nodes(3) = [0.0_wp, 1.0_wp, 0.0_wp]
    !> Places of a step in an order that goes forth and back.
    real(wp), parameter :: places(5) = [0.0_wp, 0.05_wp, 0.3_wp, 0.9_wp, 1.0_wp]
+   !> Explicit pairs.
+   character(len=8), parameter :: pairs(2) = [character(len=8) :: "bs5", "dop853"]
    !> Memory that counts as growth, in kibibytes.
    integer(c_long), parameter :: growth = 4096_c_long
 
@@ -49,7 +52,9 @@ contains
                    new_unittest("what is given back", test_recall), &
                    new_unittest("memory of an integration", test_memory_of_integration), &
                    new_unittest("no memory for matrices", test_matrices), &
-                   new_unittest("no memory for the past", test_past)]
+                   new_unittest("no memory for the past", test_past), &
+                   new_unittest("the memory of each degree", test_degree), &
+                   new_unittest("memory known before", test_needed)]
    end subroutine collect_dde_history
 
    !> Three delays of two components over 2000 steps of different lengths, of which 50 at a time
@@ -278,4 +283,58 @@ contains
       call expect(error, outcome%reason == out_of_memory, "the reason")
       call expect(error, outcome%t > 0.0_wp .and. size(outcome%y) == n, "the last step")
    end subroutine test_past
+
+   !> 100 steps of 10 000 components and degree 7, then of degree 12, are 72 and 104 MB. The ring
+   !> doubles once; steps of the other degree take the place of those dropped.
+   subroutine test_degree(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: n = 10000
+      integer(c_long), parameter :: limit = 115*1000*1000_c_long
+      type(history_type) :: past
+      type(linear) :: problem
+      real(wp) :: lacking
+      integer :: degree, i
+
+      problem = linear(n=n, lag=spread(1.0_wp, 1, n), component=[(i, i=1, n)], &
+                       past=spread(0.0_wp, 1, n), first=spread(0.0_wp, 1, n))
+      past = history_type(problem, instant(0.0_wp))
+      if (limit_memory(limit) == 0) return
+      do degree = 7, 12, 5
+         do i = 0, 99
+            call past%make_room(degree, lacking)
+            if (lacking > 0.0_wp) exit
+            call past%open_step(instant(real(i, wp)), 1.0_wp, spread(0.0_wp, 1, degree), .true., &
+                                1.0_wp)
+            if (degree == 12) call past%forget(past%start_of(past%oldest + 1))
+         end do
+         call expect_close(error, lacking, 0.0_wp, 0.0_wp, "bytes lacking at "//text(degree))
+      end do
+      call expect(error, limit_memory(-1_c_long) == 1, "the limit is lifted")
+   end subroutine test_degree
+
+   !> A run of 300 000 delays that is given half the memory that it needs, and four times that.
+   subroutine test_needed(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: n = 300000
+      type(failure_type), allocatable :: failure
+      type(integration_options) :: options
+      type(integration_result) :: outcome
+      type(linear) :: problem
+      real(wp) :: needed
+      integer :: i, k
+
+      problem = linear(n=n, lag=spread(1.0_wp, 1, n), component=[(i, i=1, n)], &
+                       past=spread(1.0_wp, 1, n), first=spread(1.0_wp, 1, n))
+      do i = 1, size(pairs)
+         options = at_tolerance(1.0e-6_wp, pairs(i))
+         needed = memory_needed(problem, options)
+         do k = 1, 2
+            if (limit_memory(int(merge(0.5_wp, 4.0_wp, k == 1)*needed, c_long)) == 0) return
+            call integrate(problem, 0.0_wp, 3.0_wp, options, outcome, failure)
+            call expect(error, limit_memory(-1_c_long) == 1, "the limit is lifted")
+            call expect(error, (outcome%reason == out_of_memory) .eqv. k == 1, &
+                        pairs(i)//text(needed)//" bytes, run "//text(k))
+         end do
+      end do
+   end subroutine test_needed
 end module test_dde_history
