@@ -290,10 +290,10 @@ contains
       integer, intent(in) :: i
       !> Newton coefficients, shape (0:degree)
       real(wp), contiguous, intent(in) :: coefficients(0:)
+      integer :: place
 
-      associate (here => self%stored(self%place(self%slot_of(self%newest))))
-         here%a(:ubound(coefficients, 1), i) = coefficients
-      end associate
+      place = self%place(self%slot_of(self%newest))
+      self%stored(place)%a(:ubound(coefficients, 1), i) = coefficients
    end subroutine fill
 
    !> Step number `step`, oldest..newest, as it was stored.
