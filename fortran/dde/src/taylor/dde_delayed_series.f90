@@ -22,7 +22,7 @@ module dde_delayed_series
    !> past made a step this many times shorter, for as long as fits make steps so much longer.
    real(wp), parameter :: expected = 1.2_wp, worth_a_fit = 2.0_wp
    !> The length of a fit is reduced by a power of its misfit, at most by the second factor.
-   real(wp), parameter :: reducing_power = 0.2_wp, most_reduced = 0.3_wp
+   real(wp), parameter :: reducing_power = 0.33_wp, most_reduced = 0.3_wp
 
    !> The series of all delayed values.
    type :: delayed_series

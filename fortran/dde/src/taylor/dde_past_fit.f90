@@ -10,12 +10,12 @@ module dde_past_fit
    private
    public :: past_fit
 
-   !> Most nodes.
-   integer, parameter :: most_nodes = 16
+   !> Least and most nodes. Fewer than the degree suffice: the series converges faster than powers.
+   integer, parameter :: least_nodes = 7, most_nodes = 16
    !> Last coefficients that must vanish: the others then hold the past.
    integer, parameter :: vanishing = 2
    !> Sum of the Chebyshev coefficients that are left out, over the largest difference allowed.
-   real(wp), parameter :: left_out = 0.2_wp
+   real(wp), parameter :: left_out = 0.5_wp
 
    !> Nodes and transformations.
    type :: past_fit
@@ -43,7 +43,7 @@ contains
       real(wp) :: chebyshev(0:most_nodes - 1), x
       integer :: i, n
 
-      self%nodes = min(most_nodes, degree)
+      self%nodes = max(least_nodes, min(most_nodes, degree - 4))
       do i = 1, self%nodes
          x = -cos(acos(-1.0_wp)*(2*i - 1)/(2*self%nodes))
          self%places(i) = 0.5_wp*(1.0_wp + x)
