@@ -14,6 +14,8 @@ module dde_cursor
    real(wp), parameter :: overlap = 4.0_wp*epsilon(1.0_wp)
    !> Least overlap with the problem's history, in units of the spacing of times.
    real(wp), parameter :: spacings = 4.0_wp
+   !> Share of a step that may lie on the other side of the initial time without being read there.
+   real(wp), parameter :: beside = 1.0e-9_wp
    !> Most places that a method may read at once.
    integer, parameter :: most_places = 16
 
@@ -31,10 +33,13 @@ module dde_cursor
       type(instant), allocatable :: delayed_start(:)
       !> Start of the current step less the delay, measured from the start of the past step
       real(wp), allocatable :: offset(:)
-      !> Whether the delayed value lies before the initial time
+      !> Whether the delayed value lies before the initial time, at the start of the step at least
       logical, allocatable :: before_origin(:)
+      !> Time since the start of the step at which it passes the initial time; huge if it does not
+      real(wp), allocatable :: passes_origin(:)
    contains
-      procedure, non_overridable :: set, inside, values, look_up, time_before, walk_to, read_from
+      procedure, non_overridable :: set, inside, values, values_of, time_before
+      procedure, non_overridable :: walk_to, read_from
    end type cursor_type
 
    interface cursor_type
@@ -51,24 +56,27 @@ contains
       associate (terms => size(problem%lag))
          allocate (cursor%step(terms), source=0_int64)
          allocate (cursor%delayed_start(terms), cursor%offset(terms), cursor%before_origin(terms))
+         allocate (cursor%passes_origin(terms))
       end associate
    end function new_cursor
 
-   !> Go to the step from `start`, `length` long. Steps end at every time where a delayed time
-   !> passes the initial time, so that a delayed value lies on one side of it for the whole step.
+   !> Go to the step from `start`, `length` long.
    pure subroutine set(self, problem, past, start, length)
       class(cursor_type), intent(inout) :: self
       class(dde_problem_type), intent(in) :: problem
       type(history_type), intent(in) :: past
       type(instant), intent(in) :: start
       real(wp), intent(in) :: length
+      real(wp) :: ahead
       integer :: k
 
       self%t = start%hi
       self%h = length
       do k = 1, size(self%offset)
          self%delayed_start(k) = later(start, -problem%lag(k))
-         self%before_origin(k) = elapsed(past%origin, self%delayed_start(k)) < -0.5_wp*length
+         ahead = elapsed(self%delayed_start(k), past%origin)
+         self%before_origin(k) = ahead > beside*length
+         self%passes_origin(k) = merge(ahead, huge(1.0_wp), ahead < (1.0_wp - beside)*length)
          if (.not. self%before_origin(k)) then
             call self%read_from(past, k, max(self%step(k), past%oldest))
          end if
@@ -94,20 +102,39 @@ contains
       !> Delayed values, shape (size(problem%lag), size(ahead))
       real(wp), contiguous, intent(out) :: z(:, :)
       real(wp) :: found(most_places)
-      integer :: i, k
+      integer :: k
 
       do k = 1, size(z, 1)
-         if (self%before_origin(k)) then
-            do i = 1, size(ahead)
-               z(k, i) = problem%history(self%time_before(past, problem%lag(k), ahead(i)), &
-                                         problem%component(k))
-            end do
-         else
-            call self%look_up(past, k, ahead, found)
-            z(k, :) = found(:size(ahead))
-         end if
+         call self%values_of(problem, past, k, ahead, found)
+         z(k, :) = found(:size(ahead))
       end do
    end subroutine values
+
+   !> One delayed value at places of the step, each place after the one before.
+   pure subroutine values_of(self, problem, past, k, ahead, z)
+      class(cursor_type), intent(inout) :: self
+      class(dde_problem_type), intent(in) :: problem
+      type(history_type), intent(in) :: past
+      !> Number of the delayed value
+      integer, intent(in) :: k
+      !> Times since the start of the step, ascending, 0..length, at most `most_places`
+      real(wp), contiguous, intent(in) :: ahead(:)
+      !> The delayed value there
+      real(wp), intent(inout) :: z(most_places)
+      integer :: first
+
+      first = 1
+      if (self%before_origin(k)) then
+         do first = 1, size(ahead)
+            if (ahead(first) > self%passes_origin(k) .and. past%newest >= past%oldest) exit
+            z(first) = problem%history(self%time_before(past, problem%lag(k), ahead(first)), &
+                                       problem%component(k))
+         end do
+         if (first > size(ahead)) return
+         call self%read_from(past, k, past%oldest)
+      end if
+      call look_up(self, past, k, first, ahead, z)
+   end subroutine values_of
 
    !> A time in the problem's history. Where that may jump it lies between those of the step's ends.
    pure real(wp) function time_before(self, past, lag, ahead) result(time)
@@ -123,10 +150,12 @@ contains
    end function time_before
 
    !> One delayed value at several places, ascending: step by step of the past.
-   pure subroutine look_up(self, past, k, ahead, z)
-      class(cursor_type), intent(inout) :: self
+   pure subroutine look_up(self, past, k, from, ahead, z)
+      type(cursor_type), intent(inout) :: self
       type(history_type), intent(in) :: past
       integer, intent(in) :: k
+      !> The first place to read
+      integer, intent(in) :: from
       !> Times since the start of the step, ascending
       real(wp), contiguous, intent(in) :: ahead(:)
       !> The delayed value there
@@ -135,8 +164,8 @@ contains
       integer :: first
 
       margin = overlap*self%h
-      call self%walk_to(past, k, max(ahead(1), margin))
-      first = 1
+      call self%walk_to(past, k, max(ahead(from), margin))
+      first = from
       do
          limit = huge(1.0_wp)
          if (self%step(k) < past%newest) limit = past%length_of(self%step(k)) + margin

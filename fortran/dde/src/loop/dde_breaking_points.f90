@@ -2,10 +2,12 @@
 !> passage (Bellen and Zennaro 2003, "Numerical Methods for Delay Differential Equations", sec.
 !> 2.2). A point that the run lands on adds those of the next generation.
 !>
-!> The run lands on all points of the first generation. A later point can make a step shorter than
-!> half the proposed size. Only a limited number of such steps is taken; after that the run steps
-!> over these points. The error estimate covers the kink then: if the step is accepted, the kink is
-!> below the tolerance, and so are the smoother kinks that it would cause.
+!> The run lands on all points where the right-hand side or the slope jumps, and on those of the
+!> first generation if there are more delays than equations: the errors of kinks that one equation
+!> meets would add up. Another point can make a step shorter than half the proposed size. Only a
+!> limited number of such steps is taken; after that the run steps over these points. The error
+!> estimate covers the kink then: if the step is accepted, the kink is below the tolerance, and so
+!> are the smoother kinks that it would cause.
 module dde_breaking_points
    use dde_kinks, only: kink_type, merged, same_point, sorted
    use dde_time, only: elapsed, instant, later
@@ -37,6 +39,8 @@ module dde_breaking_points
       type(instant), private :: origin
       !> Passages after which a kink is too smooth for the order of the method
       integer, private :: most_passages = 0
+      !> Generation up to which points must be landed on
+      integer, private :: due_generation = 0
       !> Short steps that the run may still take, and the most
       integer, private :: credit = 0, most_credit = 0
    contains
@@ -48,12 +52,14 @@ module dde_breaking_points
 contains
 
    !> Begin a run.
-   pure subroutine begin(self, kinks, origin, now, finish, lag, most_passages)
+   pure subroutine begin(self, kinks, origin, now, finish, lag, equations, most_passages)
       class(breaking_points), intent(inout) :: self
       !> Kinks so far and to come, in any order
       type(kink_type), intent(in) :: kinks(:)
       type(instant), intent(in) :: origin, now, finish
       real(wp), intent(in) :: lag(:)
+      !> Number of equations
+      integer, intent(in) :: equations
       !> Passages after which a kink is too smooth for the order of the method
       integer, intent(in) :: most_passages
       type(kink_type), allocatable :: all_kinks(:)
@@ -61,6 +67,7 @@ contains
 
       self%origin = origin
       self%most_passages = most_passages
+      self%due_generation = merge(1, 0, size(lag) > equations)
       self%most_credit = 2*most_passages
       self%credit = self%most_credit
       self%lag = lag
@@ -134,7 +141,8 @@ contains
       class(breaking_points), intent(inout) :: self
 
       self%due = self%next
-      do while (self%ahead(self%due)%generation > 1 .and. self%due < size(self%ahead))
+      do while (self%ahead(self%due)%generation > self%due_generation &
+                .and. self%ahead(self%due)%passages > 0 .and. self%due < size(self%ahead))
          self%due = self%due + 1
       end do
    end subroutine find_due

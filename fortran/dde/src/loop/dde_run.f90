@@ -138,7 +138,7 @@ contains
             end associate
          end do
          call self%points%begin([first, causes(options, start)], start, start, finish, &
-                                problem%lag, self%step%constants%order - 1)
+                                problem%lag, problem%n, self%step%constants%order - 1)
       end associate
       call prepare_start(self, options)
       self%first_slope = self%step%slope
@@ -172,7 +172,7 @@ contains
          context%past = history_type(problem, origin)
          call continuation%restore(context%past, kinks)
          call self%points%begin([kinks, causes(options, origin)], origin, self%now, finish, &
-                                problem%lag, self%step%constants%order - 1)
+                                problem%lag, problem%n, self%step%constants%order - 1)
       end associate
       call prepare_start(self, options)
       if (size(self%first_slope) == 0) self%first_slope = self%step%slope
