@@ -141,7 +141,8 @@ contains
          do k = 1, size(self%first)
             nearest = min(nearest, end_of(context, k))
          end do
-         self%cut = worth_a_fit*nearest < unit
+         ! a step to a breaking point shows nothing of the past behind it
+         self%cut = worth_a_fit*nearest < unit .or. cursor%h < unit
          self%fitted = 0.0_wp
          h = min(expected*unit, cursor%h)
          do k = 1, size(self%first)
