@@ -134,7 +134,6 @@ contains
       real(wp) :: h, misfit, nearest
       integer :: k
 
-      if (.not. allocated(self%fits)) self%fits = past_fit(ubound(self%coefficients, 1))
       call choose_steps(self, context, .false., unit)
       associate (past => context%past, cursor => context%cursor)
          nearest = unit
@@ -145,9 +144,10 @@ contains
          self%cut = worth_a_fit*nearest < unit .or. cursor%h < unit
          self%fitted = 0.0_wp
          h = min(expected*unit, cursor%h)
+         if (h < worth_a_fit*nearest) return
+         if (.not. allocated(self%fits)) self%fits = past_fit(ubound(self%coefficients, 1))
          do k = 1, size(self%first)
             do
-               if (h < worth_a_fit*nearest) return
                if (end_of(context, k) >= h) exit
                self%fitted(k) = h
                call self%fits%fit(context, k, h, agreement*merge(unit/h, 1.0_wp, self%averaged), &
@@ -155,6 +155,8 @@ contains
                if (misfit <= 1.0_wp) exit
                self%fitted(k) = 0.0_wp
                h = h*max(most_reduced, 0.9_wp*misfit**(-reducing_power))
+               self%cut = h >= worth_a_fit*nearest
+               if (.not. self%cut) return
                if (.not. cursor%before_origin(k)) call cursor%read_from(past, k, self%first(k))
             end do
          end do
