@@ -1,11 +1,12 @@
 !> The past of one integration: the polynomials of accepted steps, for the delayed components only.
-!> It is a ring of slots. It drops the oldest steps on request and doubles when it is full. Other
+!> It is a ring of slots. It drops the oldest steps on request and doubles when it is full. The
+!> coefficients of a step never move: a new step takes over those of a dropped one. Other
 !> modules ask it for values: steps have numbers, times in a step are counted from its start. Before
 !> the initial time the problem's own history holds.
 module dde_history
-   use dde_interpolant, only: highest_degree, newton_value, newton_values, taylor_coefficients, &
-                              usual_degree
-   use dde_memory, only: bytes_of, lacks
+   use dde_interpolant, only: highest_degree, newton_value, newton_values, stored_degree, &
+                              taylor_coefficients, usual_degree
+   use dde_memory, only: bytes_of, lacks, small
    use dde_problem, only: dde_problem_type
    use dde_time, only: elapsed, instant
    use dde_kinds, only: int64, wp
@@ -15,8 +16,16 @@ module dde_history
 
    !> Slots of a new ring. It is a power of two, as are its doubles.
    integer, parameter :: first_capacity = 64
+   !> Real numbers of a slot beside its nodes and coefficients, at most.
+   integer, parameter :: slot_size = 20
    !> Share of a step that rounding may hide.
    real(wp), parameter :: hidden = 4.0_wp*epsilon(1.0_wp)
+
+   !> The polynomials of a step.
+   type :: polynomials
+      !> Newton coefficients, shape (0:stored degree, kept component)
+      real(wp), allocatable :: a(:, :)
+   end type polynomials
 
    !> Steps kept, number `oldest` to number `newest`.
    type :: history_type
@@ -30,6 +39,10 @@ module dde_history
       integer, allocatable :: row(:)
       !> Numbers of the oldest and the newest step kept
       integer(int64) :: oldest = 0, newest = -1
+      !> Steps from this number to the oldest are dropped, but still have their polynomials
+      integer(int64), private :: spare = 0
+      !> Number of polynomials allocated
+      integer, private :: used = 0
       !> Start of each step, per slot
       type(instant), allocatable, private :: start(:)
       !> Length of each step, per slot
@@ -43,9 +56,9 @@ module dde_history
       !> Newton nodes, shape (highest degree, slot); those between the degree and the usual degree
       !> are 0
       real(wp), allocatable, private :: nodes(:, :)
-      !> Newton coefficients, shape (0:highest degree, kept component, slot); those between the
-      !> degree and the usual degree are 0
-      real(wp), allocatable, private :: coefficients(:, :, :)
+      !> Number of the polynomials of each step, per slot, and these
+      integer, allocatable, private :: place(:)
+      type(polynomials), allocatable, private :: stored(:)
    contains
       procedure, non_overridable :: start_of, length_of, validity_of, value, values, series
       procedure, non_overridable :: append, open_step, fill, make_room, recall, forget
@@ -77,7 +90,7 @@ contains
       allocate (past%valid_for(first_capacity), past%degree(first_capacity))
       allocate (past%powers(first_capacity))
       allocate (past%nodes(highest_degree, first_capacity))
-      allocate (past%coefficients(0:highest_degree, size(past%kept), first_capacity))
+      allocate (past%place(first_capacity), past%stored(first_capacity))
    end function new_history
 
    !> Slot of step number `step`.
@@ -122,7 +135,7 @@ contains
 
       slot = self%slot_of(step)
       z = newton_value(self%degree(slot), self%nodes(:, slot), &
-                       self%coefficients(:, self%row(k), slot), time/self%length(slot))
+                       self%stored(self%place(slot))%a(:, self%row(k)), time/self%length(slot))
    end function value
 
    !> Delayed value number k by the polynomial of a step, at ascending times up to a limit.
@@ -143,8 +156,8 @@ contains
 
       slot = self%slot_of(step)
       call newton_values(self%degree(slot), self%nodes(:, slot), &
-                         self%coefficients(:, self%row(k), slot), offset, self%length(slot), &
-                         limit, size(ahead), ahead, first, z)
+                         self%stored(self%place(slot))%a(:, self%row(k)), offset, &
+                         self%length(slot), limit, size(ahead), ahead, first, z)
    end subroutine values
 
    !> Delayed value number k as a series in powers of a unit of time, by the polynomial of a step.
@@ -164,7 +177,7 @@ contains
       place = time/self%length(slot)
       if (abs(place) < hidden) place = 0.0_wp
       call taylor_coefficients(self%degree(slot), self%nodes(:, slot), self%powers(slot), &
-                               self%coefficients(:, self%row(k), slot), place, &
+                               self%stored(self%place(slot))%a(:, self%row(k)), place, &
                                unit/self%length(slot), coefficients)
    end subroutine series
 
@@ -187,29 +200,43 @@ contains
       end do
    end subroutine append
 
-   !> Bytes of a ring of slots.
-   pure real(wp) function memory_of_past(slots, kept) result(bytes)
+   !> Bytes of a past.
+   pure real(wp) function memory_of_past(slots, steps, kept, degree) result(bytes)
       !> Number of slots; a smaller ring than the first one is not made
       integer, intent(in) :: slots
+      !> Number of steps whose polynomials are allocated
+      integer, intent(in) :: steps
       !> Number of components kept
       integer, intent(in) :: kept
+      !> Degree of the polynomials
+      integer, intent(in) :: degree
 
-      bytes = bytes_of(max(slots, first_capacity) &
-                       *(8.0_wp + highest_degree + (1.0_wp + highest_degree)*kept))
+      bytes = bytes_of(real(max(slots, first_capacity), wp)*(slot_size + highest_degree) &
+                       + real(steps, wp)*kept*(1 + stored_degree(degree)))
    end function memory_of_past
 
-   !> Double a full ring, if there is memory for it.
-   subroutine make_room(self, lacking)
+   !> Make room for a step, if there is memory for it.
+   subroutine make_room(self, degree, lacking)
       class(history_type), intent(inout) :: self
+      !> Degree of the polynomials of the step
+      integer, intent(in) :: degree
       !> Bytes that could not be allocated, or 0
       real(wp), intent(out) :: lacking
+      integer :: slots, steps
 
       lacking = 0.0_wp
-      if (.not. self%is_full()) return
-      lacking = memory_of_past(2*size(self%start), size(self%kept))
+      if (self%spare < self%oldest) return
+      slots = 0
+      steps = 1
+      if (self%is_full()) then
+         slots = 2*size(self%start)
+         ! small ones are asked for together
+         if (memory_of_past(0, 1, size(self%kept), degree) <= small) steps = size(self%start)
+      end if
+      lacking = memory_of_past(slots, steps, size(self%kept), degree)
       if (lacks(lacking)) return
       lacking = 0.0_wp
-      call self%double_capacity()
+      if (slots > 0) call self%double_capacity()
    end subroutine make_room
 
    !> Whether no slot is free.
@@ -228,11 +255,25 @@ contains
       !> Whether all of them are 0
       logical, intent(in) :: powers
       real(wp), intent(in) :: valid_for
-      integer :: slot
+      integer :: from, place, slot
 
       if (self%is_full()) call self%double_capacity()
       self%newest = self%newest + 1
       slot = self%slot_of(self%newest)
+      if (self%spare < self%oldest) then
+         from = self%slot_of(self%spare)
+         self%spare = self%spare + 1
+         place = self%place(from)
+         if (self%degree(from) /= size(nodes)) deallocate (self%stored(place)%a)
+      else
+         self%used = self%used + 1
+         place = self%used
+      end if
+      if (.not. allocated(self%stored(place)%a)) then
+         allocate (self%stored(place)%a(0:stored_degree(size(nodes)), size(self%kept)), &
+                   source=0.0_wp)
+      end if
+      self%place(slot) = place
       self%start(slot) = start
       self%length(slot) = length
       self%valid_for(slot) = max(length, valid_for)
@@ -240,7 +281,6 @@ contains
       self%powers(slot) = powers
       self%nodes(:size(nodes), slot) = nodes
       self%nodes(size(nodes) + 1:usual_degree, slot) = 0.0_wp
-      self%coefficients(size(nodes) + 1:usual_degree, :, slot) = 0.0_wp
    end subroutine open_step
 
    !> Fill in one polynomial of the newest step.
@@ -251,7 +291,9 @@ contains
       !> Newton coefficients, shape (0:degree)
       real(wp), contiguous, intent(in) :: coefficients(0:)
 
-      self%coefficients(:ubound(coefficients, 1), i, self%slot_of(self%newest)) = coefficients
+      associate (here => self%stored(self%place(self%slot_of(self%newest))))
+         here%a(:ubound(coefficients, 1), i) = coefficients
+      end associate
    end subroutine fill
 
    !> Step number `step`, oldest..newest, as it was stored.
@@ -274,7 +316,7 @@ contains
       valid_for = self%valid_for(slot)
       nodes = self%nodes(:size(nodes), slot)
       nodes(self%degree(slot) + 1:) = 0.0_wp
-      coefficients = self%coefficients(0:size(nodes), :, slot)
+      coefficients(:self%degree(slot), :) = self%stored(self%place(slot))%a(:self%degree(slot), :)
       coefficients(self%degree(slot) + 1:, :) = 0.0_wp
    end subroutine recall
 
@@ -306,8 +348,9 @@ contains
    !> the second half: its number gives one of these two.
    pure subroutine double_capacity(self)
       class(history_type), intent(inout) :: self
-      real(wp), allocatable :: coefficients(:, :, :), nodes(:, :)
-      integer :: slots
+      type(polynomials), allocatable :: stored(:)
+      real(wp), allocatable :: nodes(:, :)
+      integer :: i, slots
 
       slots = size(self%start)
       self%start = [self%start, self%start]
@@ -315,13 +358,15 @@ contains
       self%valid_for = [self%valid_for, self%valid_for]
       self%degree = [self%degree, self%degree]
       self%powers = [self%powers, self%powers]
+      self%place = [self%place, self%place]
       allocate (nodes(highest_degree, 2*slots))
       nodes(:, :slots) = self%nodes
       nodes(:, slots + 1:) = self%nodes
       call move_alloc(nodes, self%nodes)
-      allocate (coefficients(0:highest_degree, size(self%kept), 2*slots))
-      coefficients(:, :, :slots) = self%coefficients
-      coefficients(:, :, slots + 1:) = self%coefficients
-      call move_alloc(coefficients, self%coefficients)
+      allocate (stored(2*slots))
+      do i = 1, slots
+         call move_alloc(self%stored(i)%a, stored(i)%a)
+      end do
+      call move_alloc(stored, self%stored)
    end subroutine double_capacity
 end module dde_history

@@ -8,12 +8,14 @@ module dde_interpolant
    implicit none (type, external)
    private
    public :: highest_degree, newton_state, newton_value, newton_values, series_value
-   public :: taylor_coefficients, usual_degree
+   public :: stored_degree, taylor_coefficients, usual_degree
 
    !> Highest degree of a polynomial.
    integer, parameter :: highest_degree = 20
    !> Highest degree of polynomials other than Taylor series.
    integer, parameter :: usual_degree = 8
+   !> Highest degree of short polynomials.
+   integer, parameter :: short_degree = 4
    !> Factorials, and one over them. All are exact. Compilers disagree on the values of `gamma`.
    real(wp), parameter :: factorial(0:highest_degree) = [ &
       1.0_wp, 1.0_wp, 2.0_wp, 6.0_wp, 24.0_wp, 120.0_wp, 720.0_wp, 5040.0_wp, 40320.0_wp, &
@@ -24,6 +26,15 @@ module dde_interpolant
    real(wp), parameter :: inverse_factorial(0:highest_degree) = 1.0_wp/factorial
 
 contains
+
+   !> Degree up to which coefficients are stored: those above the degree of p are 0.
+   pure integer function stored_degree(degree) result(stored)
+      !> Degree of p
+      integer, intent(in) :: degree
+
+      stored = short_degree
+      if (degree > short_degree) stored = max(degree, usual_degree)
+   end function stored_degree
 
    !> Value of p at s.
    pure function newton_value(degree, nodes, coefficients, s) result(value)
@@ -52,7 +63,7 @@ contains
       !> Nodes
       real(wp), intent(in) :: x(highest_degree)
       !> Coefficients, 0 above the degree of p
-      real(wp), intent(in) :: a(0:highest_degree)
+      real(wp), intent(in) :: a(0:stored_degree(degree))
       !> Time from the start of p's step to the origin of `ahead`
       real(wp), intent(in) :: offset
       !> Length of p's step
@@ -77,9 +88,12 @@ contains
          do j = degree, usual_degree + 1, -1
             rest = (s - x(j))*(a(j) + rest)
          end do
+         if (degree > short_degree) then
+            rest = (s - x(5))*(a(5) + (s - x(6))*(a(6) + (s - x(7))*(a(7) &
+                   + (s - x(8))*(a(8) + rest))))
+         end if
          values(i) = a(0) + (s - x(1))*(a(1) + (s - x(2))*(a(2) + (s - x(3))*(a(3) &
-                     + (s - x(4))*(a(4) + (s - x(5))*(a(5) + (s - x(6))*(a(6) &
-                     + (s - x(7))*(a(7) + (s - x(8))*(a(8) + rest))))))))
+                     + (s - x(4))*(a(4) + rest))))
       end do
       first = i
    end subroutine newton_values

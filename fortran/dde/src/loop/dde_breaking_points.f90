@@ -33,7 +33,7 @@ module dde_breaking_points
       type(kink_type), allocatable, private :: ahead(:)
       !> The next of them, and the next that must be landed on
       integer, private :: next = 1, due = 1
-      !> Delays
+      !> Delays, ascending, each once
       real(wp), allocatable, private :: lag(:)
       !> Initial time, from which rounding is measured
       type(instant), private :: origin
@@ -62,7 +62,7 @@ contains
       integer, intent(in) :: equations
       !> Passages after which a kink is too smooth for the order of the method
       integer, intent(in) :: most_passages
-      type(kink_type), allocatable :: all_kinks(:)
+      type(kink_type), allocatable :: all_kinks(:), returns(:)
       integer :: i
 
       self%origin = origin
@@ -70,7 +70,10 @@ contains
       self%due_generation = merge(1, 0, size(lag) > equations)
       self%most_credit = 2*most_passages
       self%credit = self%most_credit
-      self%lag = lag
+      allocate (returns(size(lag)))
+      returns%at%hi = lag
+      returns = sorted(returns, instant(0.0_wp))
+      self%lag = returns%at%hi
       self%ahead = [kink_type(finish, no_kink, no_kink)]
       all_kinks = sorted(kinks, origin)
       self%met = pack(all_kinks, elapsed(all_kinks%at, now) >= 0.0_wp)
@@ -104,7 +107,7 @@ contains
       children%at = later(kink%at, self%lag)
       children%passages = kink%passages + 1
       children%generation = kink%generation + 1
-      call self%add_ahead(sorted(children, self%origin), now)
+      call self%add_ahead(children, now)
    end subroutine add_returns
 
    !> Add points that lie after `now` and not after the end.

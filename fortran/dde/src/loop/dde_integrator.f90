@@ -83,7 +83,7 @@ contains
       outcome%reason = reached_end
       last = .not. run%points%time_to_end(run%now) > 0.0_wp
       do while (.not. last)
-         call run%context%past%make_room(lacking)
+         call run%context%past%make_room(size(run%step%nodes), lacking)
          if (lacking > 0.0_wp) then
             outcome%reason = out_of_memory
             exit

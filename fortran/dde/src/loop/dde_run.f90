@@ -79,14 +79,19 @@ contains
       !> Where an earlier run ended, if one did
       type(continuation_type), intent(in), optional :: continuation
       logical :: continued
-      integer :: steps
+      integer :: degree, steps
 
       continued = .false.
       if (present(continuation)) continued = allocated(continuation%y)
+      degree = 0
       steps = 0
-      if (continued) steps = size(continuation%step_length)
+      if (continued) then
+         degree = size(continuation%nodes, 1)
+         steps = size(continuation%step_length)
+      end if
       ! the state and its tolerances, and a ring of up to twice as many slots as steps
-      lacking = bytes_of(16.0_wp*problem%n) + memory_of_past(2*steps, size(problem%lag))
+      lacking = bytes_of(16.0_wp*problem%n) &
+                + memory_of_past(2*steps, steps, size(problem%lag), degree)
       if (lacks(lacking)) return
       self%context%problem => problem
       self%context%tolerance = tolerance_type(problem%n, options%relative, options%absolute, &

@@ -59,7 +59,8 @@ contains
       type(delayed_series) :: series
 
       allocate (series%coefficients(0:degree, delays))
-      allocate (series%skipped(delays), series%first(delays), series%fitted(delays))
+      allocate (series%skipped(delays), series%first(delays))
+      allocate (series%fitted(delays), source=0.0_wp)
    end function new_series
 
    !> Series of the delayed values from the start of the step on.

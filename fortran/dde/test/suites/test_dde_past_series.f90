@@ -168,7 +168,7 @@ contains
          do i = 0, steps - 1
             associate (t => i*length, by => length**[0, 1, 2, 3])
                past = by*[sin(t), cos(t), -0.5_wp*sin(t), -cos(t)/6]
-               if (change == 1 .and. t > 0.49_wp) past(:1) = past(:1) + by(:1)*[t - 0.5_wp, 1.0_wp]
+               if (change == 1 .and. t > 0.49_wp) past(:1) = past(:1) + by(:2)*[t - 0.5_wp, 1.0_wp]
                if (change == 2 .and. i == 8) past(0) = past(0) + 0.1_wp
                call append(context, t, length, past, length)
             end associate
