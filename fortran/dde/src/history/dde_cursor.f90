@@ -38,7 +38,8 @@ module dde_cursor
       !> Time since the start of the step at which it passes the initial time; huge if it does not
       real(wp), allocatable :: passes_origin(:)
    contains
-      procedure, non_overridable :: set, inside, values, look_up, time_before, walk_to, read_from
+      procedure, non_overridable :: set, inside, values, values_of, time_before
+      procedure, non_overridable :: walk_to, read_from
    end type cursor_type
 
    interface cursor_type
@@ -101,24 +102,39 @@ contains
       !> Delayed values, shape (size(problem%lag), size(ahead))
       real(wp), contiguous, intent(out) :: z(:, :)
       real(wp) :: found(most_places)
-      integer :: first, i, k
+      integer :: k
 
       do k = 1, size(z, 1)
-         first = 1
-         if (self%before_origin(k)) then
-            do i = 1, size(ahead)
-               if (ahead(i) > self%passes_origin(k) .and. past%newest >= past%oldest) exit
-               z(k, i) = problem%history(self%time_before(past, problem%lag(k), ahead(i)), &
-                                         problem%component(k))
-            end do
-            if (i > size(ahead)) cycle
-            first = i
-            call self%read_from(past, k, past%oldest)
-         end if
-         call self%look_up(past, k, ahead(first:), found)
-         z(k, first:) = found(:size(ahead) - first + 1)
+         call self%values_of(problem, past, k, ahead, found)
+         z(k, :) = found(:size(ahead))
       end do
    end subroutine values
+
+   !> One delayed value at places of the step, each place after the one before.
+   pure subroutine values_of(self, problem, past, k, ahead, z)
+      class(cursor_type), intent(inout) :: self
+      class(dde_problem_type), intent(in) :: problem
+      type(history_type), intent(in) :: past
+      !> Number of the delayed value
+      integer, intent(in) :: k
+      !> Times since the start of the step, ascending, 0..length, at most `most_places`
+      real(wp), contiguous, intent(in) :: ahead(:)
+      !> The delayed value there
+      real(wp), intent(inout) :: z(most_places)
+      integer :: first
+
+      first = 1
+      if (self%before_origin(k)) then
+         do first = 1, size(ahead)
+            if (ahead(first) > self%passes_origin(k) .and. past%newest >= past%oldest) exit
+            z(first) = problem%history(self%time_before(past, problem%lag(k), ahead(first)), &
+                                       problem%component(k))
+         end do
+         if (first > size(ahead)) return
+         call self%read_from(past, k, past%oldest)
+      end if
+      call look_up(self, past, k, first, ahead, z)
+   end subroutine values_of
 
    !> A time in the problem's history. Where that may jump it lies between those of the step's ends.
    pure real(wp) function time_before(self, past, lag, ahead) result(time)
@@ -134,10 +150,12 @@ contains
    end function time_before
 
    !> One delayed value at several places, ascending: step by step of the past.
-   pure subroutine look_up(self, past, k, ahead, z)
-      class(cursor_type), intent(inout) :: self
+   pure subroutine look_up(self, past, k, from, ahead, z)
+      type(cursor_type), intent(inout) :: self
       type(history_type), intent(in) :: past
       integer, intent(in) :: k
+      !> The first place to read
+      integer, intent(in) :: from
       !> Times since the start of the step, ascending
       real(wp), contiguous, intent(in) :: ahead(:)
       !> The delayed value there
@@ -146,8 +164,8 @@ contains
       integer :: first
 
       margin = overlap*self%h
-      call self%walk_to(past, k, max(ahead(1), margin))
-      first = 1
+      call self%walk_to(past, k, max(ahead(from), margin))
+      first = from
       do
          limit = huge(1.0_wp)
          if (self%step(k) < past%newest) limit = past%length_of(self%step(k)) + margin

@@ -22,7 +22,7 @@ module dde_delayed_series
    !> past made a step this many times shorter, for as long as fits make steps so much longer.
    real(wp), parameter :: expected = 1.2_wp, worth_a_fit = 2.0_wp
    !> The length of a fit is reduced by a power of its misfit, at most by the second factor.
-   real(wp), parameter :: reducing_power = 0.2_wp, most_reduced = 0.3_wp
+   real(wp), parameter :: reducing_power = 0.33_wp, most_reduced = 0.3_wp
 
    !> The series of all delayed values.
    type :: delayed_series
@@ -30,6 +30,9 @@ module dde_delayed_series
       real(wp), allocatable :: coefficients(:, :)
       !> Time from the start of the step for which all of them are valid
       real(wp) :: valid_for = 0.0_wp
+      !> Whether the solution takes averages of them over the expected step: in a shorter one they
+      !> may differ more from the past
+      logical :: averaged = .true.
       !> Integral of the difference between the skipped past and the series, per delayed value
       real(wp), allocatable, private :: skipped(:)
       !> Number of the past step that each delayed value would read if none were skipped
@@ -80,13 +83,13 @@ contains
          unit = min(unit, self%valid_for)
          do k = 1, size(self%first)
             self%skipped(k) = 0.0_wp
-            if (cursor%before_origin(k)) then
-               call problem%past_series(cursor%time_before(past, problem%lag(k), 0.0_wp), &
-                                        problem%component(k), unit, self%coefficients(:, k))
-            else if (self%fitting .and. self%fitted(k) > 0.0_wp) then
+            if (self%fitting .and. self%fitted(k) > 0.0_wp) then
                do j = 1, ubound(self%coefficients, 1)
                   self%coefficients(j, k) = (unit/self%fitted(k))**j*self%coefficients(j, k)
                end do
+            else if (cursor%before_origin(k)) then
+               call problem%past_series(cursor%time_before(past, problem%lag(k), 0.0_wp), &
+                                        problem%component(k), unit, self%coefficients(:, k))
             else
                call past%series(cursor%step(k), k, cursor%offset(k), unit, self%coefficients(:, k))
                if (cursor%step(k) > self%first(k)) then
@@ -132,40 +135,49 @@ contains
       real(wp) :: h, misfit, nearest
       integer :: k
 
-      if (.not. allocated(self%fits)) self%fits = past_fit(ubound(self%coefficients, 1))
       call choose_steps(self, context, .false., unit)
-      associate (past => context%past, cursor => context%cursor, tolerance => context%tolerance, &
-                 component => context%problem%component)
+      associate (past => context%past, cursor => context%cursor)
          nearest = unit
-         h = min(expected*unit, cursor%h)
          do k = 1, size(self%first)
-            if (cursor%before_origin(k)) then
-               h = min(h, cursor%passes_origin(k))
-               cycle
-            end if
-            nearest = min(nearest, past%length_of(cursor%step(k)) - cursor%offset(k))
+            nearest = min(nearest, end_of(context, k))
          end do
-         self%cut = worth_a_fit*nearest < unit
+         ! a step to a breaking point shows nothing of the past behind it
+         self%cut = worth_a_fit*nearest < unit .or. cursor%h < unit
          self%fitted = 0.0_wp
+         h = min(expected*unit, cursor%h)
+         if (h < worth_a_fit*nearest) return
+         if (.not. allocated(self%fits)) self%fits = past_fit(ubound(self%coefficients, 1))
          do k = 1, size(self%first)
-            if (cursor%before_origin(k)) cycle
             do
-               if (h < worth_a_fit*nearest) return
-               if (past%length_of(cursor%step(k)) - cursor%offset(k) >= h) exit
+               if (end_of(context, k) >= h) exit
                self%fitted(k) = h
-               call self%fits%fit(context, k, h, agreement*tolerance%of_component(component(k), &
-                                     past%value(cursor%step(k), k, cursor%offset(k))), &
+               call self%fits%fit(context, k, h, agreement*merge(unit/h, 1.0_wp, self%averaged), &
                                   self%coefficients(:, k), misfit)
                if (misfit <= 1.0_wp) exit
                self%fitted(k) = 0.0_wp
                h = h*max(most_reduced, 0.9_wp*misfit**(-reducing_power))
-               call cursor%read_from(past, k, self%first(k))
+               self%cut = h >= worth_a_fit*nearest
+               if (.not. self%cut) return
+               if (.not. cursor%before_origin(k)) call cursor%read_from(past, k, self%first(k))
             end do
          end do
       end associate
       self%fitting = .true.
       self%valid_for = h
    end subroutine fit_past
+
+   !> Time from the start of the step to the end of what delayed value k reads there.
+   pure real(wp) function end_of(context, k) result(time)
+      type(step_context), intent(in) :: context
+      integer, intent(in) :: k
+
+      associate (past => context%past, cursor => context%cursor)
+         time = cursor%passes_origin(k)
+         if (.not. cursor%before_origin(k)) then
+            time = past%length_of(cursor%step(k)) - cursor%offset(k)
+         end if
+      end associate
+   end function end_of
 
    !> Shorten a step to the length for which the series agree with the past. A step reads its past
    !> from one series, although the past may consist of several polynomials there. The length is 0

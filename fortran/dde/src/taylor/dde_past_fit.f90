@@ -10,19 +10,19 @@ module dde_past_fit
    private
    public :: past_fit
 
-   !> Most nodes.
-   integer, parameter :: most_nodes = 16
+   !> Least and most nodes. Fewer than the degree suffice: the series converges faster than powers.
+   integer, parameter :: least_nodes = 7, most_nodes = 14
    !> Last coefficients that must vanish: the others then hold the past.
    integer, parameter :: vanishing = 2
    !> Sum of the Chebyshev coefficients that are left out, over the largest difference allowed.
-   real(wp), parameter :: left_out = 0.2_wp
+   real(wp), parameter :: left_out = 0.5_wp
 
    !> Nodes and transformations.
    type :: past_fit
       !> Number of nodes
       integer :: nodes = 0
-      !> Nodes as shares of the step, ascending
-      real(wp), private :: places(most_nodes) = 0.0_wp
+      !> Start, nodes and end as shares of the step
+      real(wp), private :: places(0:most_nodes + 1) = 0.0_wp
       !> From values at the nodes to Chebyshev coefficients, and from these to powers of the share
       !> of the step; one coefficient a column, and one polynomial a column
       real(wp), private :: to_chebyshev(most_nodes, 0:most_nodes - 1) = 0.0_wp
@@ -43,7 +43,8 @@ contains
       real(wp) :: chebyshev(0:most_nodes - 1), x
       integer :: i, n
 
-      self%nodes = min(most_nodes, degree)
+      self%nodes = max(least_nodes, min(most_nodes, degree - 4))
+      self%places(self%nodes + 1) = 1.0_wp
       do i = 1, self%nodes
          x = -cos(acos(-1.0_wp)*(2*i - 1)/(2*self%nodes))
          self%places(i) = 0.5_wp*(1.0_wp + x)
@@ -64,29 +65,31 @@ contains
       end associate
    end function new_fit
 
-   !> Fit delayed value k over a step. It is compared with the past where polynomials of the past
-   !> begin: a transient has left short ones.
-   pure subroutine fit(self, context, k, h, allowed, coefficients, misfit)
+   !> Fit delayed value k over a step. It is compared with the past at the ends of the step, near
+   !> which it may bend, and where polynomials of the past begin: a transient has left short ones.
+   pure subroutine fit(self, context, k, h, agreement, coefficients, misfit)
       class(past_fit), intent(in) :: self
       type(step_context), intent(inout) :: context
       integer, intent(in) :: k
       !> Length of the step
       real(wp), intent(in) :: h
-      !> Largest difference from the past
-      real(wp), intent(in) :: allowed
+      !> Largest difference from the past, over the tolerance
+      real(wp), intent(in) :: agreement
       !> Coefficients of the powers of the share of the step
       real(wp), contiguous, intent(out) :: coefficients(0:)
-      !> Largest difference that is seen, over `allowed`
+      !> Largest difference that is seen, over the largest allowed
       real(wp), intent(out) :: misfit
-      real(wp) :: chebyshev(0:most_nodes - 1), place, tail, values(most_nodes)
+      real(wp) :: allowed, chebyshev(0:most_nodes - 1), place, tail, values(0:most_nodes + 1)
       integer(int64) :: step
       integer :: degree, n
 
       associate (nodes => self%nodes, past => context%past, cursor => context%cursor)
-         step = cursor%step(k) + 1
-         call cursor%look_up(past, k, h*self%places(:nodes), values)
+         step = past%oldest
+         if (.not. cursor%before_origin(k)) step = cursor%step(k) + 1
+         call cursor%values_of(context%problem, past, k, h*self%places(:nodes + 1), values)
+         allowed = agreement*context%tolerance%of_component(context%problem%component(k), values(0))
          do n = 0, nodes - 1
-            chebyshev(n) = dot_product(self%to_chebyshev(:nodes, n), values(:nodes))
+            chebyshev(n) = dot_product(self%to_chebyshev(:nodes, n), values(1:nodes))
          end do
          degree = nodes - 1
          tail = 0.0_wp
@@ -97,11 +100,12 @@ contains
          end do
          misfit = sum(abs(chebyshev(nodes - vanishing:nodes - 1)))/(left_out*allowed)
          if (degree >= nodes - vanishing) return
-         misfit = 0.0_wp
          coefficients = 0.0_wp
          do n = 0, degree
             coefficients(:n) = coefficients(:n) + chebyshev(n)*self%to_powers(:n, n)
          end do
+         misfit = max(abs(coefficients(0) - values(0)), &
+                      abs(sum(coefficients(:degree)) - values(nodes + 1)))/allowed
          do while (step <= past%newest)
             place = elapsed(cursor%delayed_start(k), past%start_of(step))/h
             if (place >= 1.0_wp) exit

@@ -22,6 +22,8 @@ module dde_taylor_step
    !> The unit of a series is the step size that the last series allowed, at most this many times
    !> the length of its step: powers of it must not overflow where a solution is a polynomial.
    real(wp), parameter :: growth = 1000.0_wp
+   !> A step of this share of the length to a breaking point ends there.
+   real(wp), parameter :: nearly = 1.0_wp - 1.0e-8_wp
    !> Cost of a series over that of a right-hand side, divided by its degree (measured in
    !> instructions and time on a spring-block model).
    real(wp), parameter :: cost_of_degree = 0.75_wp
@@ -109,6 +111,7 @@ contains
       associate (series => self%series, cursor => context%cursor)
          unit = merge(min(series%reach, growth*self%h), h, series%reach > 0.0_wp)
          call context%tolerance%scale(self%y, self%scale)
+         series%delayed%averaged = .not. series%slow%holds
          skipping = .true.
          do
             series%unit = unit
@@ -117,7 +120,7 @@ contains
             possible = min(series%reach, cursor%h)
             call series%delayed%confirm(context, series%unit, possible)
             ! a step that ends at a breaking point is short for its sake, not for that of the series
-            if (possible >= cursor%h) possible = series%reach
+            if (possible >= nearly*cursor%h) possible = series%reach
             if (possible > 0.0_wp .or. .not. skipping) exit
             skipping = .false.
          end do

@@ -150,11 +150,11 @@ contains
                          [1.1_wp, 0.0_wp, 0.0_wp], "before a short step", series)
    end subroutine test_layer
 
-   !> sin t in 40 cubics of 0.05: after a step that these have cut, one series of degree 12 over 1.2
+   !> sin t in 40 cubics of 0.05: after a step that these have cut, one series of degree 13 over 1.2
    !> units replaces them. It does not step over a kink, or over 0.1 more in one of the steps.
    subroutine test_fit(error)
       type(error_type), allocatable, intent(out) :: error
-      integer, parameter :: degree = 12, steps = 40
+      integer, parameter :: degree = 13, steps = 40
       real(wp), parameter :: length = 0.05_wp, tolerance = 1.0e-6_wp
       type(delayed_series) :: series
       type(step_context) :: context
