@@ -55,13 +55,18 @@ def error_of(worker: Worker, tolerance: float, reference: Reference, limit: floa
     return error
 
 
-def measure_errors(worker: Worker, reference: Reference, limit: float) -> list[dict]:
+def measure_errors(
+    worker: Worker,
+    reference: Reference,
+    limit: float,
+    tolerances: tuple[float, ...] = TOLERANCES,
+) -> list[dict]:
     """A row for each tolerance, with its error or why there is none.
 
     After a run that took too long no tighter tolerance is tried.
     """
     rows, too_long = [], None
-    for tolerance in TOLERANCES:
+    for tolerance in tolerances:
         row = {"tolerance": tolerance, "t_end": worker.scene.t_end, "status": "ok"}
         row |= {"error_max": None, "seconds": None}
         if too_long:

@@ -1,6 +1,7 @@
 """The benchmarks where they need no other solver: ratios, scenes, workers, tables."""
 
 import math
+import subprocess
 import sys
 
 import compare
@@ -148,3 +149,13 @@ def test_folder_without_biftool_is_refused(monkeypatch, tmp_path, capsys):
     with pytest.raises(SystemExit):
         cycles.main()
     assert f"{tmp_path}: a folder with ddebiftool/br_contn.m expected" in capsys.readouterr().err
+
+
+def test_folder_without_a_source_of_radar5_is_refused(tmp_path):
+    """In one line, before anything is set up."""
+    for name in ("radar5", "contr5", "decsol", "retard"):
+        (tmp_path / f"{name}.f").touch()
+    command = [solvers.HERE / "run", "peers", "--hairer", tmp_path]
+    run = subprocess.run(command, capture_output=True, text=True)
+    assert run.returncode == 1
+    assert run.stderr == f"benchmarks: {tmp_path}/dc_decdel.f is missing\n"
