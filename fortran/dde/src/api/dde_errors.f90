@@ -37,6 +37,7 @@ contains
    pure subroutine check_finite(name, values, error)
       !> Words before the number of a value
       character(len=*), intent(in) :: name
+      !> Values to look at
       real(wp), intent(in) :: values(:)
       !> The first value that is not finite
       type(error_type), allocatable, intent(out) :: error

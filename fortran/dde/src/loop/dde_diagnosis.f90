@@ -19,6 +19,7 @@ contains
       real(wp), intent(in) :: h
       !> Why the run ended
       integer, intent(in) :: reason
+      !> What is wrong, with its value
       character(len=:), allocatable, intent(out) :: words
 
       select case (reason)

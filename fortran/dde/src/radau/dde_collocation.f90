@@ -104,6 +104,7 @@ contains
       real(wp), intent(in) :: weights(stages)
       !> One vector a weight
       real(wp), intent(in) :: vectors(n, stages)
+      !> Divisor of the sum
       real(wp), intent(in) :: divisor
       !> The sum
       real(wp), intent(out) :: total(n)
