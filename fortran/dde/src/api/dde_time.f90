@@ -22,7 +22,7 @@ contains
    !> Length up to which a step is too short, between the start and the end of a run. The end may
    !> be far beyond the time that the run reaches.
    pure real(wp) function too_short(start, now, finish) result(length)
-      !> Times: start of the run, present, end of the run
+      !> The start of the run, the present, and the end of the run
       real(wp), intent(in) :: start, now, finish
 
       length = least_step*max(abs(start), abs(now), min(abs(finish), 1.0_wp))
