@@ -115,7 +115,6 @@ contains
       type(bogacki_shampine) :: pair
 
       pair%order = 5
-      pair%error_order = 5
       pair%stages = 7
       pair%limited_by_stability = 1.75_wp
       pair%places = [c2, c3, c4, c5, c6, 1.0_wp]

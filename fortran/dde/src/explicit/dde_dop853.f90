@@ -31,7 +31,6 @@ contains
       type(dop853) :: pair
 
       pair%order = 8
-      pair%error_order = 8
       pair%stages = 12
       pair%limited_by_stability = 2.5_wp
       pair%places = [c2, c3, c4, c7, c5, c8, c6, c10, c9, c11, 1.0_wp]

@@ -16,8 +16,8 @@ module dde_explicit_pair
 
    !> A pair.
    type, abstract :: explicit_pair
-      !> Order of the step; the error estimate is proportional to this power of its length
-      integer :: order = 0, error_order = 0
+      !> Order of the step; the error estimate is proportional to this power of its length, too
+      integer :: order = 0
       !> Stages of the step. The slope after them is that at the end.
       integer :: stages = 0
       !> Step size times rate of change of f above which stability limits steps
@@ -140,9 +140,7 @@ contains
       logical, intent(inout) :: finite
 
       stage = stage + weight*newest
-      if (.not. finite) return
-      call context%evaluate(t, stage, z, slope)
-      finite = all(ieee_is_finite(slope))
+      call evaluate(context, t, stage, z, slope, finite)
    end subroutine add
 
    !> Slope at time `t` in state `y`, unless an earlier slope of this step was not finite.

@@ -53,7 +53,7 @@ contains
          allocate (self%pair, source=dop853())
       end if
       self%constants = method_constants(name=name, order=self%pair%order, &
-                                        error_order=self%pair%error_order)
+                                        error_order=self%pair%order)
       call self%allocate_state(problem)
       self%nodes = self%pair%nodes
       blocks = (problem%n + lanes - 1)/lanes

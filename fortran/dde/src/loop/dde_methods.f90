@@ -5,7 +5,7 @@ module dde_methods
    use dde_history, only: memory_of_past
    use dde_interpolant, only: highest_degree, usual_degree
    use dde_memory, only: bytes_of, lacks
-   use dde_orders, only: explicit_pair, radau_method, taylor_degree
+   use dde_orders, only: explicit_method, radau_method, taylor_degree
    use dde_problem, only: dde_problem_type
    use dde_request, only: implicit_methods, integration_options
    use dde_step, only: step_type
@@ -35,8 +35,7 @@ contains
       stages = stages_of(radau_method(tolerance%level))
       columns = problem%n
       if (problem%lower >= 0) columns = min(problem%n, 1 + problem%lower + problem%upper)
-      price = implicit_cost*(columns &
-                             + least_trial*(usual_iterations*stages + 2))
+      price = implicit_cost*(columns + least_trial*(usual_iterations*stages + 2))
    end function price_of_trial
 
    !> Bytes that a run needs for its state, its method and the least number of steps that the
@@ -158,7 +157,7 @@ contains
 
       name = method
       if (name == "auto") name = matching_method(problem, tolerance, implicit=.false.)
-      if (name == "explicit") name = explicit_pair(tolerance%level)
+      if (name == "explicit") name = explicit_method(tolerance%level)
    end function name_of
 
    !> The explicit or the implicit method of `auto`.
@@ -174,7 +173,7 @@ contains
       if (implicit) then
          method = radau_method(tolerance%level)
       else
-         method = merge("taylor  ", explicit_pair(tolerance%level), problem%analytic)
+         method = merge("taylor  ", explicit_method(tolerance%level), problem%analytic)
       end if
    end function matching_method
 

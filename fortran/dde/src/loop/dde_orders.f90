@@ -5,7 +5,7 @@ module dde_orders
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: explicit_pair, radau_method, taylor_degree
+   public :: explicit_method, radau_method, taylor_degree
 
    !> Least tolerance of the pair 5(4); below it the pair is 8(5,3).
    real(wp), parameter :: least_of_bs5 = 3.0e-6_wp
@@ -22,13 +22,13 @@ module dde_orders
 contains
 
    !> The explicit pair.
-   pure function explicit_pair(tolerance) result(name)
+   pure function explicit_method(tolerance) result(name)
       !> Relative or absolute tolerance, the larger
       real(wp), intent(in) :: tolerance
       character(len=8) :: name
 
       name = merge("bs5     ", "dop853  ", tolerance >= least_of_bs5)
-   end function explicit_pair
+   end function explicit_method
 
    !> The Radau method of `auto`.
    pure function radau_method(tolerance) result(name)

@@ -108,11 +108,11 @@ contains
       real(wp), intent(in) :: left
       logical, intent(out) :: other
       logical :: limited, pace_is_known
-      real(wp) :: pace, work
+      real(wp) :: pace, total, work
 
-      work = -self%work_done
-      self%work_done = work_done%total()
-      work = work + self%work_done
+      total = work_done%total()
+      work = total - self%work_done
+      self%work_done = total
       call self%recent%add(step%h, work)
       call self%visit%add(step%h, work)
       pace = self%recent%pace()

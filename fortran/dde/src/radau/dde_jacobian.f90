@@ -169,8 +169,7 @@ contains
          ! without delays as high as a full one: the problem may fill n rows of no columns
          most_rows = n
          if (delays > 0) most_rows = maxval(self%rows(2, :) - self%rows(1, :)) + 1
-         allocate (self%by_z(most_rows, delays), &
-                   source=0.0_wp)
+         allocate (self%by_z(most_rows, delays), source=0.0_wp)
          allocate (self%here(n), self%beside(n), self%moved_y(n), self%moved_z(delays))
       end associate
    end subroutine prepare

@@ -38,7 +38,7 @@ program chain_costs
    call cpu_time(start)
    call integrate(problem, 0.0_wp, t_end, options, outcome, error)
    call cpu_time(finish)
-   if (allocated(error)) error stop "chain_costs: the run failed"
+   if (allocated(error)) error stop "chain_costs: "//error%message
    print "(a, f0.2, a, i0, a, i0, a)", "microseconds per unit of time and block: ", &
       1.0e6_wp*(finish - start)/(t_end*blocks), "; steps: ", outcome%accepted, ", ", &
       outcome%switches, " changes of method"
