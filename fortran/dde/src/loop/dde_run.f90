@@ -30,7 +30,9 @@ module dde_run
    real(wp), parameter :: beside = 4.0_wp
 
    !> An implicit step of a proposed length below this many times the shortest delay is no longer
-   !> than the delay: otherwise its delayed values couple its stages.
+   !> than the delay: otherwise its delayed values couple its stages. In one of three stiff chains
+   !> (`dde_chain_costs`) 1, 1.5 and 4 take 1.11, 1.03 and 0.92 times the instructions, and in the
+   !> others as many.
    real(wp), parameter :: uncoupled = 2.0_wp
 
    !> The state of a run.

@@ -19,9 +19,12 @@ module dde_delayed_series
    !> Largest difference between a series and the past that it stands for, over the tolerance.
    real(wp), parameter :: agreement = 0.5_wp
    !> Delayed values are fitted, over the expected length of the step and a little more, after the
-   !> past made a step this many times shorter, for as long as fits make steps so much longer.
+   !> past made a step this many times shorter, for as long as fits make steps so much longer. In
+   !> four chains of 10 to 100 blocks (`dde_chain_costs`) the values 1 and 1.5, and 1.3 and 4, take
+   !> 0.97 to 1.06 times the instructions.
    real(wp), parameter :: expected = 1.2_wp, worth_a_fit = 2.0_wp
-   !> The length of a fit is reduced by a power of its misfit, at most by the second factor.
+   !> The length of a fit is reduced by a power of its misfit, at most by the second factor. In the
+   !> same chains the values 0.2 and 0.5, and 0.15 and 0.6, take 0.97 to 1.04 times as many.
    real(wp), parameter :: reducing_power = 0.33_wp, most_reduced = 0.3_wp
 
    !> The series of all delayed values.
