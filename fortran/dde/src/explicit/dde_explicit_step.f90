@@ -115,22 +115,25 @@ contains
    pure logical function stiff(self) result(value)
       class(explicit_step_type), intent(in) :: self
       real(wp) :: distance, rise
-      integer :: block, i, lane
 
-      distance = 0.0_wp
-      rise = 0.0_wp
-      associate (last => self%pair%stages)
-         do i = 1, size(self%scale)
-            lane = 1 + modulo(i - 1, lanes)
-            block = 1 + (i - 1)/lanes
-            rise = max(rise, abs(self%k(lane, block, last + 1) - self%k(lane, block, last)) &
-                             /self%scale(i))
-            distance = max(distance, abs(self%finish(lane, block) - self%stage(lane, block)) &
-                                     /self%scale(i))
-         end do
+      associate (last => self%pair%stages, n => size(self%scale))
+         rise = largest_difference(n, self%k(:, :, last), self%k(:, :, last + 1), self%scale)
+         distance = largest_difference(n, self%stage, self%finish, self%scale)
       end associate
       value = self%h*rise > self%pair%limited_by_stability*distance
    end function stiff
+
+   !> Largest difference of n numbers, in units of a scale.
+   pure real(wp) function largest_difference(n, a, b, scale) result(largest)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: a(n), b(n), scale(n)
+      integer :: i
+
+      largest = 0.0_wp
+      do i = 1, n
+         largest = max(largest, abs(b(i) - a(i))/scale(i))
+      end do
+   end function largest_difference
 
    !> The end becomes the start of the next step, and its slope the first one.
    pure subroutine advance(self)

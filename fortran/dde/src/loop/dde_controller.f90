@@ -23,12 +23,12 @@ module dde_controller
 
    !> Step control of one integration.
    type :: controller_type
-      !> Error of the last accepted step, 0 before the first
-      real(wp) :: last_error = 0.0_wp
-      !> Length of the last accepted step
-      real(wp) :: last_h = 0.0_wp
+      !> Logarithm of the error of the last accepted step, or of the least
+      real(wp), private :: last_log_error = log(least_error)
+      !> Length of the last accepted step, 0 before the first
+      real(wp), private :: last_h = 0.0_wp
       !> Whether the last step was rejected
-      logical :: rejected = .false.
+      logical, private :: rejected = .false.
       !> Error of the last step, if rejected, 0 where that was not finite, and its length
       real(wp), private :: rejected_error = 0.0_wp, rejected_h = 0.0_wp
    contains
@@ -47,25 +47,25 @@ contains
       real(wp), intent(inout) :: h
       !> Error of the step in units of the tolerance, 0..1
       real(wp), intent(in) :: error
-      real(wp) :: power, ratio, taken
+      real(wp) :: log_error, power, ratio, taken
 
       taken = h
       ratio = most_ratio
       power = 1.0_wp/method%error_order
-      if (error > 0.0_wp) then
-         if (method%predictive) then
-            ratio = safety*error**(-power)
-            if (self%last_error > 0.0_wp) then
-               ratio = min(ratio, ratio*h/self%last_h*(self%last_error/error)**power)
-            end if
-         else
-            ratio = safety*max(self%last_error, least_error)**beta*error**(0.2_wp*beta - power)
+      log_error = log(max(error, tiny(1.0_wp)))
+      if (method%predictive) then
+         ratio = exp(-power*log_error)
+         if (self%last_h > 0.0_wp) then
+            ratio = ratio*min(1.0_wp, h/self%last_h*exp(power*(self%last_log_error - log_error)))
          end if
-         ratio = min(most_ratio, max(least_ratio, ratio))
+      else
+         ratio = exp(beta*self%last_log_error + (0.2_wp*beta - power)*log_error)
       end if
+      ratio = min(most_ratio, max(least_ratio, safety*ratio))
       if (self%rejected) ratio = min(ratio, 1.0_wp)
       if (ratio < 1.0_wp .or. ratio > method%largest_kept_ratio) h = h*ratio
-      self%last_error = max(error, merge(least_predicted, least_error, method%predictive))
+      self%last_log_error = max(log_error, log(merge(least_predicted, least_error, &
+                                                     method%predictive)))
       self%last_h = taken
       self%rejected = .false.
    end subroutine accept
