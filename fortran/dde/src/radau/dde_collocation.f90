@@ -160,8 +160,12 @@ contains
       integer :: i, j
 
       do i = 1, ubound(x, 1)
-         factors(i) = 1.0_wp/product([(x(i) - x(j), j=0, i - 1), &
-                                      (x(i) - x(j), j=i + 1, ubound(x, 1))])
+         ! one by one: compilers differ in the product of an array
+         factors(i) = 1.0_wp
+         do j = 0, ubound(x, 1)
+            if (j /= i) factors(i) = factors(i)*(x(i) - x(j))
+         end do
+         factors(i) = 1.0_wp/factors(i)
       end do
    end function lagrange_factors
 

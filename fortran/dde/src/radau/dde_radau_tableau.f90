@@ -36,6 +36,7 @@ contains
       !> Number of stages
       integer, intent(in) :: stages
       type(radau_tableau) :: method
+      real(wp) :: inside(32)
       integer :: i
 
       select case (stages)
@@ -47,7 +48,11 @@ contains
          method = seven_stages()
       end select
       associate (x => [(i/32.0_wp, i=1, 32)], c => method%c(:stages - 1))
-         method%bulge = maxval(x*[(abs(product(x(i) - c)), i=1, size(x))])
+         inside = x
+         do i = 1, size(c)
+            inside = inside*abs(x - c(i))
+         end do
+         method%bulge = maxval(inside)
       end associate
    end function radau_iia
 
