@@ -18,13 +18,14 @@ module dde_controller
    real(wp), parameter :: least_order = 0.5_wp, least_ratio_again = 1.0e-4_wp
    !> Ratio after an evaluation that was not finite.
    real(wp), parameter :: ratio_after_failure = 0.1_wp
-   !> Lower bounds on accepted errors in proportional and in predictive control.
-   real(wp), parameter :: least_error = 1.0e-4_wp, least_predicted = 1.0e-2_wp
+   !> Lower bounds on the logarithms of accepted errors in proportional and in predictive control:
+   !> errors of 1e-4 and 1e-2.
+   real(wp), parameter :: least_log_error = -9.2_wp, least_log_predicted = -4.6_wp
 
    !> Step control of one integration.
    type :: controller_type
       !> Logarithm of the error of the last accepted step, or of the least
-      real(wp), private :: last_log_error = log(least_error)
+      real(wp), private :: last_log_error = least_log_error
       !> Length of the last accepted step, 0 before the first
       real(wp), private :: last_h = 0.0_wp
       !> Whether the last step was rejected
@@ -64,8 +65,8 @@ contains
       ratio = min(most_ratio, max(least_ratio, safety*ratio))
       if (self%rejected) ratio = min(ratio, 1.0_wp)
       if (ratio < 1.0_wp .or. ratio > method%largest_kept_ratio) h = h*ratio
-      self%last_log_error = max(log_error, log(merge(least_predicted, least_error, &
-                                                     method%predictive)))
+      self%last_log_error = max(log_error, merge(least_log_predicted, least_log_error, &
+                                                 method%predictive))
       self%last_h = taken
       self%rejected = .false.
    end subroutine accept

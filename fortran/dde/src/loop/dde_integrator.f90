@@ -121,8 +121,7 @@ contains
             ! a run that may be continued has no end yet
             left = huge(1.0_wp)
             if (.not. present(continuation)) left = run%points%time_to_end(step_end)
-            call switch%judge(problem, run%step, run%context%work, run%h, h, left, &
-                              other)
+            call switch%judge(problem, run%step, run%context%work, h, left, other)
          end if
          call run%step%advance()
          last = landing .and. run%points%is_end(goal)

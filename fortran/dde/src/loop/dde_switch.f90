@@ -25,10 +25,6 @@ module dde_switch
    !> step.
    real(wp), parameter :: beyond_the_delay = 4.0_wp
 
-   !> A breaking point has shortened a step that is below this share of its proposed length: it does
-   !> not show what else limits it.
-   real(wp), parameter :: landed = 0.4_wp
-
    !> States of the choice.
    integer, parameter :: settled = 1, on_trial = 2
 
@@ -96,14 +92,14 @@ contains
    end function pace
 
    !> Take in an accepted step, and see whether the other method takes over.
-   pure subroutine judge(self, problem, step, work_done, proposed, h_next, left, other)
+   pure subroutine judge(self, problem, step, work_done, h_next, left, other)
       class(switch_type), intent(inout) :: self
       class(dde_problem_type), intent(in) :: problem
       class(step_type), intent(in) :: step
       !> Work of the run so far
       type(work_type), intent(in) :: work_done
-      !> Length that was proposed for the step, and that is for the next one
-      real(wp), intent(in) :: proposed, h_next
+      !> Length proposed for the next step
+      real(wp), intent(in) :: h_next
       !> Time left to the end of the run, as far as there is one
       real(wp), intent(in) :: left
       logical, intent(out) :: other
@@ -134,7 +130,7 @@ contains
             end if
          end if
       case default
-         limited = is_limited(problem, step, proposed, h_next)
+         limited = is_limited(problem, step, h_next)
          pace_is_known = .not. limited
          if (step%constants%implicit) then
             pace_is_known = self%recent%steps == longest_trial
@@ -166,10 +162,10 @@ contains
 
    !> Whether something else than the change of the solution limits a step: of the explicit method
    !> stability or a delay; of the implicit one nothing, where an explicit step could be as long.
-   pure logical function is_limited(problem, step, proposed, h_next) result(limited)
+   pure logical function is_limited(problem, step, h_next) result(limited)
       class(dde_problem_type), intent(in) :: problem
       class(step_type), intent(in) :: step
-      real(wp), intent(in) :: proposed, h_next
+      real(wp), intent(in) :: h_next
       logical :: delay_limits
 
       delay_limits = h_next/beyond_the_delay > minval(problem%lag)
@@ -177,7 +173,7 @@ contains
          limited = (.not. step%stiff() .or. in_balance(problem, step)) &
                    .and. .not. delay_limits
       else
-         limited = step%stiff() .and. step%h > landed*proposed .or. delay_limits
+         limited = step%stiff() .or. delay_limits
       end if
    end function is_limited
 
