@@ -179,7 +179,7 @@ contains
                                         coefficient, disturbed, failure)
             call expect_success(error, failure)
             expected = family%coefficient(orbit%parameters)
-            call expect_close(error, coefficient, expected, 1.0e-8_wp, "coefficient "//text(i))
+            call expect_close(error, coefficient, expected, 2.0e-9_wp, "coefficient "//text(i))
             call expect(error, (expected < 0.0_wp) .eqv. i == 1, "one stable, one unstable torus")
             if (.not. family%delayed) cycle
             ! q = (kappa x2, 0, 1 + sigma kappa x2^2, -i) Re z2 along the cycle, where |x2| is 0, 1,

@@ -33,13 +33,14 @@ module torus_expansion
       procedure, private :: least_size
    end type torus_expansion_type
 
-   !> Derivatives are differences with three sizes of z, each twice the one before. With the first,
-   !> 2 |z q| is at most this share of the amplitude of the orbit.
-   real(wp), parameter :: share = 1.0e-3_wp
-   integer, parameter :: sizes = 3
-   !> p(0) and p'(0) by p(1), p(4), p(16) for polynomials p of degree 2
-   real(wp), parameter :: at_zero(sizes) = [64.0_wp, -20.0_wp, 1.0_wp]/45.0_wp, &
-                          slope_at_zero(sizes) = [-16.0_wp, 17.0_wp, -1.0_wp]/36.0_wp
+   !> Derivatives are differences with four sizes of z, in proportion 1, 2, 3, 4. With the first,
+   !> 2 |z q| is at most this share of the amplitude of the orbit. Third derivatives have rounding
+   !> errors of order 1/z^3, and truncation errors of order z^6.
+   real(wp), parameter :: share = 3.0e-3_wp
+   integer, parameter :: sizes = 4
+   !> p(0) and p'(0) by p(1), p(4), p(9), p(16) for polynomials p of degree 3
+   real(wp), parameter :: at_zero(sizes) = [56.0_wp, -28.0_wp, 8.0_wp, -1.0_wp]/35.0_wp, &
+                          slope_at_zero(sizes) = [-122.0_wp, 169.0_wp, -54.0_wp, 7.0_wp]/180.0_wp
    !> Phases of z in a Fourier sum
    integer, parameter :: phases = 8
 
@@ -121,8 +122,8 @@ contains
                s = mesh(i) + (mesh(i + 1) - mesh(i))*point(k)
                undisturbed = self%components(s, 0.0_wp)
                do j = 1, sizes
-                  parts = self%components(s, z*2**(j - 1)) - undisturbed
-                  parts = at_zero(j)*parts/(z*2**(j - 1))**2
+                  parts = self%components(s, z*j) - undisturbed
+                  parts = at_zero(j)*parts/(z*j)**2
                   forcing(:, k, i, 1) = forcing(:, k, i, 1) + real(parts(:, 2))
                   forcing(:, k, i, 2) = forcing(:, k, i, 2) + aimag(parts(:, 2))
                   forcing(:, k, i, 3) = forcing(:, k, i, 3) + real(parts(:, 0))
@@ -154,8 +155,8 @@ contains
                        /(mesh(i + 1) - mesh(i))
                cubic = -self%a*slope
                do j = 1, sizes
-                  parts = self%components(s, z*2**(j - 1))
-                  cubic = cubic + slope_at_zero(j)*parts(:, 1)/(z*2**(j - 1))/z**2
+                  parts = self%components(s, z*j)
+                  cubic = cubic + slope_at_zero(j)*parts(:, 1)/(z*j)/z**2
                end do
                do j = 1, size(lag)
                   terms = self%terms_at(s - lag(j)/self%orbit%period)
