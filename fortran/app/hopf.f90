@@ -24,7 +24,7 @@ program hopf
    call stop_on(error)
    call find_hopf_points(plane, points, special, error)
    call stop_on(error)
-   call write_curves(output_path, settings, points, special, &
+   call write_curves(output_path, settings, plane, points, special, &
                      unstable_pairs(plane, settings%cells), error)
    call stop_on(error)
 end program hopf

@@ -4,6 +4,7 @@ module attractors_files
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use attractor_points, only: finding_type, point_type
    use attractors, only: attractor_settings_type, most_with_zeros
+   use block_attributes, only: put_law
    use block_parameters, only: absent_history, block_history_type, parameter_meanings
    use dde, only: integration_options
    use dde_errors, only: error_type, text
@@ -88,6 +89,7 @@ contains
 
       call file%create(path, "Attractors of the spring block with delayed friction")
       call file%attribute("name", trim(points%name))
+      call put_law(file, list(1)%parameters)
       call file%attribute("sweep", trim(points%sweep))
       call file%attribute("refinements", int(points%refinements, int64))
       call file%attribute("method", trim(options%method))

@@ -1,16 +1,42 @@
 !> Parameters of the block and scenes in files.
 module block_attributes
-   use block_parameters, only: block_parameters_type, history_names, parameter_names, vector_of
+   use block_parameters, only: block_parameters_type, describe_law, history_names, &
+                               parameter_names, vector_of
    use dde_kinds, only: wp
+   use model_problem, only: description_type
    use netcdf_output, only: output_file_type
    use scene_input, only: scene_type
    implicit none (type, external)
    private
-   public :: put_parameters, put_scene
+   public :: put_law, put_parameters, put_scene
 
 contains
 
-   !> Write the parameters as attributes.
+   !> Write name, source, equations and own parameters of the law as attributes.
+   subroutine put_law(file, parameters)
+      !> The file
+      type(output_file_type), intent(inout) :: file
+      !> Parameters with their law
+      type(block_parameters_type), intent(in) :: parameters
+      type(description_type) :: law
+      character(len=:), allocatable :: equations
+      integer :: i
+
+      call describe_law(parameters%law, law)
+      call file%attribute("law", trim(parameters%law))
+      call file%attribute("law_source", trim(law%source))
+      equations = trim(law%equations(1))
+      do i = 2, size(law%equations)
+         equations = equations//"; "//trim(law%equations(i))
+      end do
+      call file%attribute("law_equations", equations)
+      do i = size(parameter_names) + 1, size(law%parameters)
+         call file%attribute(trim(law%parameters(i)%name), &
+                             parameters%own(i - size(parameter_names)))
+      end do
+   end subroutine put_law
+
+   !> Write the parameters and their law as attributes.
    subroutine put_parameters(file, parameters, but)
       !> The file
       type(output_file_type), intent(inout) :: file
@@ -21,6 +47,7 @@ contains
       real(wp) :: vector(size(parameter_names))
       integer :: i
 
+      call put_law(file, parameters)
       vector = vector_of(parameters)
       do i = 1, size(vector)
          if (present(but)) then

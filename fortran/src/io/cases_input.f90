@@ -17,7 +17,7 @@ module cases_input
 contains
 
    !> Refuse cases without a meaning; keep an earlier error.
-   pure subroutine check_cases(path, cases, error)
+   subroutine check_cases(path, cases, error)
       !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> The cases

@@ -5,7 +5,7 @@ module cycles_files
    use block_attributes, only: put_parameters
    use block_cycles, only: cycle_settings_type, cycles_type, left_out_type
    use block_parameters, only: block_parameters_type, missing_parameters, parameter_names, &
-                               parameters_of, vector_of
+                               vector_of, with_vector
    use cycle_curves, only: cycle_curve_type
    use cycle_lines, only: cycle_line_type, hopf_start_type
    use dde_errors, only: error_type
@@ -68,7 +68,7 @@ contains
       ! the value of the parameter along the line is not used
       vector = vector_of(cycles%parameters)
       where (parameter_names == cycles%along) vector = cycles%window(1)
-      cycles%parameters = parameters_of(vector)
+      cycles%parameters = with_vector(cycles%parameters, vector)
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
       call check_choice(error, path, "along", cycles%along, parameter_names)

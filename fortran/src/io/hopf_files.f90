@@ -1,8 +1,10 @@
 !> What the program `hopf` reads and writes: the plane and window of Hopf curves; these curves.
 module hopf_files
+   use block_attributes, only: put_law
    use block_family, only: along_tau, along_xi
-   use block_parameters, only: check_quantity, parameter_meanings
+   use block_parameters, only: most_own, paper_law, parameter_meanings
    use dde_errors, only: error_type, text
+   use hopf_condition, only: find_hopf_condition
    use dde_kinds, only: wp
    use double_hopf, only: letters => word_length
    use hopf_curves, only: curve_point_type
@@ -24,6 +26,9 @@ module hopf_files
       real(wp) :: fixed = missing
       !> Frequency of the block
       real(wp) :: gamma = missing
+      !> Law of friction and its own parameters
+      character(len=word_length) :: law = ""
+      real(wp) :: own(most_own) = missing
       !> Window on epsilon
       real(wp) :: epsilon_window(2) = missing
       !> Window on the ordinate
@@ -53,7 +58,8 @@ contains
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
       call check_choice(error, path, "ordinate", hopf_curves%ordinate, ["tau", "xi "])
-      call check_quantity(error, path, "gamma", hopf_curves%gamma)
+      plane%fixed%law = hopf_curves%law
+      plane%fixed%own = hopf_curves%own
       plane%epsilon_window = hopf_curves%epsilon_window
       plane%ordinate_window = hopf_curves%ordinate_window
       plane%fixed%gamma = hopf_curves%gamma
@@ -64,14 +70,18 @@ contains
          plane%along = along_xi
          plane%fixed%tau = hopf_curves%fixed
       end if
+      call plane%fixed%check(path, error)
+      if (allocated(error)) return
+      call find_hopf_condition(plane%fixed, plane%condition, error)
    end subroutine read_plane
 
    !> Write all points of all curves, piece by piece, the special points and the map.
-   subroutine write_curves(path, settings, points, special, pairs, error)
+   subroutine write_curves(path, settings, plane, points, special, pairs, error)
       !> Path of the file
       character(len=*), intent(in) :: path
-      !> The plane
+      !> The plane, as the namelist gives it and as it is drawn
       type(hopf_settings_type), intent(in) :: settings
+      type(curve_plane_type), intent(in) :: plane
       !> Points
       type(curve_point_type), intent(in) :: points(:)
       !> Special points
@@ -93,14 +103,18 @@ contains
       call file%column(rows, "omega", points%omega, "angular frequency of the pair")
       call file%column(rows, "branch", points%branch, "branch k of equation (10)")
       call file%column(rows, "piece", points%piece, "number of the unbroken piece of curve")
-      call file%column(rows, "residual", points%residual, "residual of (5) over its largest term")
+      call file%column(rows, "residual", points%residual, &
+                       "residual of the characteristic function over its largest term")
       call file%column(rows, "crossing", points%crossing, "sign of d Re(lambda)/d tau")
-      call file%column(rows, "printed_tau", points%printed_tau, "delay by (10) as printed")
-      call file%column(rows, "printed_residual", points%printed_residual, &
-                       "residual of (5) there over its largest term")
+      if (settings%law == paper_law) then
+         call file%column(rows, "printed_tau", points%printed_tau, "delay by (10) as printed")
+         call file%column(rows, "printed_residual", points%printed_residual, &
+                          "residual of (5) there over its largest term")
+      end if
       call file%column(rows, "l1", points%l1, "first Lyapunov coefficient")
       call file%column(rows, "unstable_pairs", points%unstable_pairs, &
                        "unstable pairs beside this one")
+      call put_law(file, plane%fixed)
       call file%attribute("ordinate", trim(settings%ordinate))
       call file%attribute("gamma", settings%gamma)
       call file%attribute(trim(merge("xi ", "tau", settings%ordinate == "tau")), settings%fixed)

@@ -123,6 +123,7 @@ contains
       call file%words(run, "reason", reasons, "the same in the solver's words")
       call file%column(run, "setting", runs%setting, &
                        "tolerance, or length of the steps of rk4 methods")
+      call file%words(run, "law", cases%parameters%law, "law of friction")
       call file%column(run, "tau", cases%parameters%tau, trim(parameter_meanings(1)))
       call file%column(run, "epsilon", cases%parameters%epsilon, trim(parameter_meanings(2)))
       call file%column(run, "xi", cases%parameters%xi, trim(parameter_meanings(3)))

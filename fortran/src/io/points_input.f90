@@ -2,7 +2,7 @@
 !> four parameters of the block and a list of histories, or a sweep along one parameter.
 module points_input
    use attractor_points, only: point_type
-   use block_parameters, only: block_history_type, block_parameters_type
+   use block_parameters, only: block_history_type, block_parameters_type, most_own
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use namelist_input, only: word_length
@@ -27,6 +27,9 @@ module points_input
       character(len=word_length) :: name = ""
       !> Values of the parameters
       type(axis_type) :: epsilon, tau, xi, gamma
+      !> Law of friction and its own parameters
+      character(len=word_length) :: law = ""
+      real(wp) :: own(most_own) = missing
       !> Whether each point starts where the one before ended: "none", "up" or "down"
       character(len=word_length) :: sweep = ""
       !> Every 2**refinements-th line in epsilon and tau is computed in full
@@ -42,7 +45,7 @@ module points_input
 contains
 
    !> Refuse parameters and histories without a meaning; keep an earlier error.
-   pure subroutine check_points(self, place, histories, error)
+   subroutine check_points(self, place, histories, error)
       class(points_settings_type), intent(in) :: self
       !> File and section, for messages
       character(len=*), intent(in) :: place
@@ -53,7 +56,8 @@ contains
 
       do i = 1, 2
          corner = block_parameters_type(epsilon=self%epsilon%window(i), tau=self%tau%window(i), &
-                                        xi=self%xi%window(i), gamma=self%gamma%window(i))
+                                        xi=self%xi%window(i), gamma=self%gamma%window(i), &
+                                        law=self%law, own=self%own)
          call corner%check(place, error)
       end do
       call check_choice(error, place, "sweep", self%sweep, ["none", "up  ", "down"])
@@ -84,7 +88,8 @@ contains
       xi = values_on(self%xi)
       gamma = values_on(self%gamma)
       points = [(((((point_type(block_parameters_type(epsilon=epsilon(i), tau=tau(j), xi=xi(x), &
-                                                      gamma=gamma(g)), histories(k)), &
+                                                      gamma=gamma(g), law=self%law, &
+                                                      own=self%own), histories(k)), &
                      i=1, size(epsilon)), j=1, size(tau)), x=1, size(xi)), g=1, size(gamma)), &
                  k=1, size(histories))]
       if (self%sweep == "down") points = points(size(points):1:-1)

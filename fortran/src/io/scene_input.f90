@@ -57,7 +57,7 @@ contains
    end subroutine read_scene
 
    !> Refuse parameters and a history without a meaning; keep an earlier error.
-   pure subroutine check_scene(path, scene, error)
+   subroutine check_scene(path, scene, error)
       !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> The scene

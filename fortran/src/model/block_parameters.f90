@@ -1,16 +1,23 @@
-!> The four parameters of the block and its history before t = 0, with the ranges in which the
-!> equations have a meaning. All quantities are nondimensional; the defaults are steady sliding.
+!> The parameters of the block, its law of friction, and its history before t = 0. The ranges are
+!> those of the law's definition. All quantities are nondimensional; the defaults are steady sliding
+!> by the paper's law.
 module block_parameters
    use dde_errors, only: error_type
    use dde_kinds, only: wp
-   use value_checks, only: absent, check_number, missing
+   use model_problem, only: description_type, model_type, unbounded, word_length
+   use model_registry, only: make_model, model_names
+   use value_checks, only: absent, check_choice, check_number, missing
    implicit none (type, external)
    private
-   public :: absent_history, block_history_type, block_parameters_type, &
-             check_quantity, history_names, missing_history, missing_parameters, &
-             parameter_meanings, parameter_names, parameters_of, vector_of
+   public :: absent_history, block_history_type, block_parameters_type, describe_law, &
+             history_names, law_parameters, missing_history, missing_parameters, &
+             most_own, paper_law, parameter_meanings, parameter_names, with_vector, vector_of
 
-   !> Names of the parameters, in the order of their numbers.
+   !> The law of equation (4).
+   character(len=*), parameter :: paper_law = "slip_delayed_logarithm"
+   !> Most parameters that a law has beside the block's.
+   integer, parameter :: most_own = 8
+   !> Names of the block's parameters, the first of every law, in the order of their numbers.
    character(len=*), parameter :: parameter_names(4) = ["tau    ", "epsilon", "xi     ", "gamma  "]
    !> Descriptions of the parameters, in the same order.
    character(len=*), parameter :: parameter_meanings(4) = [ &
@@ -31,6 +38,10 @@ module block_parameters
       real(wp) :: xi = 1.0_wp
       !> Frequency, sqrt(k/M) L/v0
       real(wp) :: gamma = 1.0_wp
+      !> Name of the law of friction
+      character(len=word_length) :: law = paper_law
+      !> The law's own parameters, in the order of its definition
+      real(wp) :: own(most_own) = 0.0_wp
    contains
       !> Refuse a parameter out of range
       procedure :: check => check_parameters
@@ -51,7 +62,8 @@ module block_parameters
 
    !> Parameters and a history that must be given.
    type(block_parameters_type), parameter :: &
-      missing_parameters = block_parameters_type(missing, missing, missing, missing)
+      missing_parameters = block_parameters_type(missing, missing, missing, missing, law="", &
+                                                 own=missing)
    type(block_history_type), parameter :: missing_history = &
                                           block_history_type(missing, missing, missing)
    !> A history beyond the last of a list.
@@ -60,7 +72,7 @@ module block_parameters
 
 contains
 
-   !> Parameters by number.
+   !> The block's parameters by number.
    pure function vector_of(parameters) result(vector)
       !> Parameters by name
       class(block_parameters_type), intent(in) :: parameters
@@ -69,26 +81,68 @@ contains
       vector = [parameters%tau, parameters%epsilon, parameters%xi, parameters%gamma]
    end function vector_of
 
-   !> Parameters by name.
-   pure type(block_parameters_type) function parameters_of(vector) result(parameters)
-      !> Parameters in the order of `parameter_names`
+   !> Parameters of the same law with these values.
+   pure type(block_parameters_type) function with_vector(parameters, vector) result(changed)
+      !> The law and its own parameters
+      type(block_parameters_type), intent(in) :: parameters
+      !> The block's parameters in the order of `parameter_names`
       real(wp), intent(in) :: vector(:)
 
-      parameters = block_parameters_type(tau=vector(1), epsilon=vector(2), xi=vector(3), &
-                                         gamma=vector(4))
-   end function parameters_of
+      changed = parameters
+      changed%tau = vector(1)
+      changed%epsilon = vector(2)
+      changed%xi = vector(3)
+      changed%gamma = vector(4)
+   end function with_vector
 
-   !> Refuse a parameter out of range; keep an earlier error.
-   pure subroutine check_parameters(self, place, error)
+   !> All parameters in the order of the law's definition.
+   function law_parameters(parameters, model) result(vector)
+      !> Parameters by name
+      type(block_parameters_type), intent(in) :: parameters
+      !> The model of the law
+      class(model_type), intent(in) :: model
+      real(wp), allocatable :: vector(:)
+      type(description_type) :: law
+
+      law = model%describe()
+      vector = [vector_of(parameters), parameters%own]
+      vector = vector(:size(law%parameters))
+   end function law_parameters
+
+   !> What the definition of a law says.
+   subroutine describe_law(law, description)
+      !> Name of a law that there is
+      character(len=*), intent(in) :: law
+      type(description_type), intent(out) :: description
+      class(model_type), allocatable :: model
+
+      call make_model(trim(law), model)
+      description = model%describe()
+   end subroutine describe_law
+
+   !> Refuse a law that there is not, and parameters out of its ranges; keep an earlier error.
+   subroutine check_parameters(self, place, error)
       class(block_parameters_type), intent(in) :: self
       character(len=*), intent(in) :: place
       type(error_type), allocatable, intent(inout) :: error
-      real(wp) :: vector(size(parameter_names))
+      real(wp), allocatable :: vector(:)
+      type(description_type) :: law
       integer :: i
 
-      vector = vector_of(self)
-      do i = 1, size(vector)
-         call check_quantity(error, place, trim(parameter_names(i)), vector(i))
+      call check_choice(error, place, "law", self%law, model_names)
+      if (allocated(error)) return
+      call describe_law(self%law, law)
+      vector = [vector_of(self), self%own]
+      do i = 1, size(law%parameters)
+         associate (one => law%parameters(i))
+            if (one%at_least > unbounded) then
+               call check_number(error, place, trim(one%name), vector(i), at_least=one%at_least)
+            else if (one%above > unbounded) then
+               call check_number(error, place, trim(one%name), vector(i), above=one%above)
+            else
+               call check_number(error, place, trim(one%name), vector(i))
+            end if
+         end associate
       end do
    end subroutine check_parameters
 
@@ -97,38 +151,9 @@ contains
       class(block_history_type), intent(in) :: self
       character(len=*), intent(in) :: place
       type(error_type), allocatable, intent(inout) :: error
-      real(wp) :: values(size(history_names))
-      integer :: i
 
-      values = [self%theta, self%u, self%v]
-      do i = 1, size(values)
-         call check_quantity(error, place, trim(history_names(i)), values(i))
-      end do
+      call check_number(error, place, trim(history_names(1)), self%theta)
+      call check_number(error, place, trim(history_names(2)), self%u)
+      call check_number(error, place, trim(history_names(3)), self%v, above=0.0_wp)
    end subroutine check_history
-
-   !> Refuse a value of a parameter or of the history out of range; keep an earlier error.
-   pure subroutine check_quantity(error, place, quantity, value, key)
-      !> First error met
-      type(error_type), allocatable, intent(inout) :: error
-      !> File and what it describes, for the message; name of its component
-      character(len=*), intent(in) :: place, quantity
-      !> Value of the component
-      real(wp), intent(in) :: value
-      !> Key for the message, where it is not that name
-      character(len=*), intent(in), optional :: key
-      character(len=:), allocatable :: shown
-
-      shown = quantity
-      if (present(key)) shown = key
-      select case (quantity)
-      case ("tau")
-         call check_number(error, place, shown, value, at_least=0.0_wp)
-      case ("epsilon")
-         call check_number(error, place, shown, value, above=-1.0_wp)
-      case ("xi", "gamma", "v")
-         call check_number(error, place, shown, value, above=0.0_wp)
-      case default
-         call check_number(error, place, shown, value)
-      end select
-   end subroutine check_quantity
 end module block_parameters

@@ -1,107 +1,322 @@
-!> Where a pair of characteristic roots lies at s = i omega: equations (6) to (10) of the paper,
-!> corrected where docs/method.md, "What was corrected", says so. With
+!> Where a pair of characteristic roots of a law lies at s = i omega. In the characteristic function
 !>
-!>     X sin(omega tau) = -[omega^2 (gamma^2/xi + 1) - gamma^2]
-!>     X cos(omega tau) = -[omega^3 - omega gamma^2 (1 + xi)/xi],
-!>     X = omega (1 + epsilon) gamma^2/xi.
+!>     Delta(s) = P(s) + Q(s) exp(-s tau)
 !>
-!> All quantities are nondimensional.
+!> of the block, P and Q are polynomials in s whose coefficients have no power above the first of
+!> d = 1 + epsilon, x = 1/xi and g = gamma^2, for any law of friction of which epsilon enters the
+!> linear part in this way. On the Hopf set |P| = |Q| and exp(i omega tau) = -Q/P. For the paper's
+!> law these are (7) to (10), corrected where docs/method.md, "What was corrected", says so; the
+!> tests compare them. All quantities are nondimensional.
 module hopf_condition
+   use block_parameters, only: block_parameters_type
+   use characteristic_function, only: characteristic_of, characteristic_type
+   use dde_errors, only: error_type, raise
    use dde_kinds, only: wp
+   use spring_block, only: model_of
    implicit none (type, external)
    private
-   public :: frequency_condition, hopf_epsilon, hopf_gamma, hopf_tau, hopf_xi, largest_omega, &
-             partner_omega, printed_tau, two_pi
+   public :: find_hopf_condition, hopf_condition_type, printed_tau, two_pi
 
    real(wp), parameter :: two_pi = 2.0_wp*acos(-1.0_wp)
+   !> xi that stands for 1/xi = 0.
+   real(wp), parameter :: infinite = huge(1.0_wp)
+   !> Where the coefficients are compared: d, x, g.
+   real(wp), parameter :: probe(3) = [1.7_wp, 2.3_wp, 0.6_wp]
+   !> Largest difference there, relative to the largest coefficient.
+   real(wp), parameter :: affine_error = 1.0e-12_wp
+
+   !> P and Q of a law.
+   type :: hopf_condition_type
+      !> Degree of P
+      integer :: n = 0
+      !> Coefficients of d**a x**b g**c in those of P and Q, shape (0:n, 2, a: 0:1, b: 0:1, c: 0:1)
+      real(wp), allocatable :: term(:, :, :, :, :)
+   contains
+      procedure :: polynomials
+      procedure :: epsilon_at
+      procedure :: largest_omega
+      procedure :: xi_at
+      procedure :: miss_along_xi
+      procedure :: gamma_at
+      procedure :: miss_along_gamma
+      procedure :: tau_at
+      procedure :: partner_omega
+   end type hopf_condition_type
 
 contains
 
-   !> X sin(omega tau), which does not depend on epsilon and tau.
-   elemental real(wp) function sine_part(omega, xi, gamma) result(value)
-      real(wp), intent(in) :: omega, xi, gamma
+   !> P and Q of a law with its parameters, from the corners of the cube 0 <= d, x, g <= 1.
+   subroutine find_hopf_condition(parameters, condition, error)
+      !> Law and its own parameters; tau, epsilon, xi and gamma do not matter
+      type(block_parameters_type), intent(in) :: parameters
+      !> P and Q
+      type(hopf_condition_type), intent(out) :: condition
+      !> The law is outside of this form
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), allocatable :: expected(:, :), met(:, :)
+      integer :: a, b, c
 
-      value = -(omega**2*(gamma**2/xi + 1.0_wp) - gamma**2)
-   end function sine_part
+      condition%n = size(coefficients(parameters, 1.0_wp, 1.0_wp, 1.0_wp), 1) - 1
+      allocate (condition%term(0:condition%n, 2, 0:1, 0:1, 0:1))
+      do c = 0, 1
+         do b = 0, 1
+            do a = 0, 1
+               met = coefficients(parameters, real(a, wp), real(b, wp), real(c, wp))
+               if (size(met, 2) /= 2) then
+                  call raise(error, "find_hopf_condition: the law '"//trim(parameters%law) &
+                             //"' has several delays in its characteristic function; expected one")
+                  return
+               end if
+               condition%term(:, :, a, b, c) = met
+            end do
+         end do
+      end do
+      associate (t => condition%term)
+         t(:, :, 1, :, :) = t(:, :, 1, :, :) - t(:, :, 0, :, :)
+         t(:, :, :, 1, :) = t(:, :, :, 1, :) - t(:, :, :, 0, :)
+         t(:, :, :, :, 1) = t(:, :, :, :, 1) - t(:, :, :, :, 0)
+      end associate
+      expected = condition%polynomials(probe(1), probe(2), probe(3))
+      met = coefficients(parameters, probe(1), probe(2), probe(3))
+      if (any(abs(met - expected) > affine_error*maxval(abs(expected)))) then
+         call raise(error, "find_hopf_condition: in the law '"//trim(parameters%law) &
+                    //"' epsilon has powers or functions in the linear part; expected its first " &
+                    //"power alone")
+      end if
+   end subroutine find_hopf_condition
 
-   !> X cos(omega tau), which does not depend on epsilon and tau.
-   elemental real(wp) function cosine_part(omega, xi, gamma) result(value)
-      real(wp), intent(in) :: omega, xi, gamma
+   !> Coefficients of P and Q at d = 1 + epsilon, x = 1/xi, g = gamma^2.
+   function coefficients(parameters, d, x, g) result(values)
+      type(block_parameters_type), intent(in) :: parameters
+      real(wp), intent(in) :: d, x, g
+      real(wp), allocatable :: values(:, :)
+      type(block_parameters_type) :: there
+      type(characteristic_type) :: c
 
-      value = -(omega**3 - omega*gamma**2*(1.0_wp + xi)/xi)
-   end function cosine_part
+      there = parameters
+      there%tau = 1.0_wp
+      there%epsilon = d - 1.0_wp
+      there%xi = infinite
+      if (x > 0.0_wp) there%xi = 1.0_wp/x
+      there%gamma = sqrt(g)
+      c = characteristic_of(model_of(there))
+      values = c%coefficient
+   end function coefficients
 
-   !> Equations (7) and (8), with gamma^2 where (8) prints gamma^1: the epsilon of a pair i omega.
-   elemental real(wp) function hopf_epsilon(omega, xi, gamma) result(epsilon)
+   !> Coefficients of P and Q, shape (0:n, 2).
+   pure function polynomials(self, d, x, g) result(values)
+      class(hopf_condition_type), intent(in) :: self
+      !> 1 + epsilon, 1/xi, gamma^2
+      real(wp), intent(in) :: d, x, g
+      real(wp) :: values(0:self%n, 2)
+      real(wp) :: plane(0:self%n, 2, 0:1, 0:1), line(0:self%n, 2, 0:1)
+
+      plane = self%term(:, :, :, :, 0) + g*self%term(:, :, :, :, 1)
+      line = plane(:, :, :, 0) + x*plane(:, :, :, 1)
+      values = line(:, :, 0) + d*line(:, :, 1)
+   end function polynomials
+
+   !> Value of a polynomial with real coefficients at i omega.
+   pure complex(wp) function on_axis(coefficient, omega) result(value)
+      real(wp), intent(in) :: coefficient(0:), omega
+      integer :: k
+
+      value = 0.0_wp
+      do k = ubound(coefficient, 1), 0, -1
+         value = value*cmplx(0.0_wp, omega, kind=wp) + coefficient(k)
+      end do
+   end function on_axis
+
+   !> The epsilon of a pair i omega, by |P| = |Q|; (7) and (8) for the paper's law, with gamma^2
+   !> where (8) prints gamma^1. Not a number above -1 where there is none.
+   pure real(wp) function epsilon_at(self, omega, xi, gamma) result(epsilon)
+      class(hopf_condition_type), intent(in) :: self
       !> Frequency of the pair, > 0; spring constant; frequency of the block
       real(wp), intent(in) :: omega, xi, gamma
+      complex(wp) :: p, p_by_d, q, q_by_d
+      real(wp) :: at_0(0:self%n, 2), middle, square, rest, by_d(0:self%n, 2)
 
-      epsilon = -1.0_wp + hypot(cosine_part(omega, xi, gamma), sine_part(omega, xi, gamma)) &
-                /(omega*gamma**2/xi)
-   end function hopf_epsilon
+      at_0 = self%polynomials(0.0_wp, 1.0_wp/xi, gamma**2)
+      by_d = self%polynomials(1.0_wp, 1.0_wp/xi, gamma**2) - at_0
+      p = on_axis(at_0(:, 1), omega)
+      q = on_axis(at_0(:, 2), omega)
+      p_by_d = on_axis(by_d(:, 1), omega)
+      q_by_d = on_axis(by_d(:, 2), omega)
+      ! square d^2 - 2 middle d - rest = 0
+      square = size_of(q_by_d) - size_of(p_by_d)
+      middle = real(p*conjg(p_by_d)) - real(q*conjg(q_by_d))
+      rest = size_of(p) - size_of(q)
+      epsilon = -1.0_wp + larger_root(square, middle, rest)
+   end function epsilon_at
 
-   !> Largest frequency of a pair i omega at this epsilon or a smaller one: by (7) and (8)
-   !> 1 + epsilon >= sqrt(1 + omega^2).
-   elemental real(wp) function largest_omega(epsilon) result(omega)
+   !> |z|^2.
+   pure real(wp) function size_of(z) result(value)
+      complex(wp), intent(in) :: z
+
+      value = real(z)**2 + aimag(z)**2
+   end function size_of
+
+   !> The larger root of square d^2 - 2 middle d - rest = 0; 0 where there is none.
+   pure real(wp) function larger_root(square, middle, rest) result(d)
+      real(wp), intent(in) :: square, middle, rest
+      real(wp) :: half
+
+      d = 0.0_wp
+      half = middle**2 + square*rest
+      if (half < 0.0_wp) return
+      half = sqrt(half)
+      if (abs(square) <= tiny(1.0_wp)) then
+         if (abs(middle) > 0.0_wp) d = -0.5_wp*rest/middle
+      else if (middle >= 0.0_wp .eqv. square > 0.0_wp) then
+         d = (middle + sign(half, square))/square
+      else
+         ! the other root is (middle - half)/square, and their product -rest/square
+         d = -rest/(middle - sign(half, square))
+      end if
+   end function larger_root
+
+   !> Largest frequency of a pair i omega at this epsilon or a smaller one: a pair needs the least
+   !> epsilon where gamma = omega, and the spring then does not matter. For the paper's law this is
+   !> 1 + epsilon = sqrt(1 + omega^2).
+   pure real(wp) function largest_omega(self, epsilon) result(omega)
+      class(hopf_condition_type), intent(in) :: self
       !> Sensitivity of the velocity relaxation
       real(wp), intent(in) :: epsilon
+      real(wp) :: above, middle
+      integer :: i
 
-      omega = sqrt(max((1.0_wp + epsilon)**2 - 1.0_wp, 0.0_wp))
+      omega = 0.0_wp
+      above = 1.0_wp
+      do while (self%epsilon_at(above, 1.0_wp, above) <= epsilon .and. above < infinite/4.0_wp)
+         omega = above
+         above = 2.0_wp*above
+      end do
+      ! to the last digit
+      do i = 1, 2*digits(1.0_wp)
+         middle = 0.5_wp*(omega + above)
+         if (middle <= omega .or. middle >= above) exit
+         if (self%epsilon_at(middle, 1.0_wp, middle) <= epsilon) then
+            omega = middle
+         else
+            above = middle
+         end if
+      end do
    end function largest_omega
 
-   !> Equation (9): the xi of a pair i omega at delay tau; it holds where hopf_tau gives tau back.
-   elemental real(wp) function hopf_xi(omega, tau, gamma) result(xi)
+   !> The xi of a pair i omega at delay tau, whatever its epsilon; (9) for the paper's law. It
+   !> holds where `tau_at` gives tau back. Not above 0 where there is none.
+   !>
+   !> Delta = a + d b is 0 for a real d where the imaginary part of a conjg(b) is 0.
+   pure real(wp) function xi_at(self, omega, tau, gamma) result(xi)
+      class(hopf_condition_type), intent(in) :: self
       !> Frequency of the pair, > 0; delay; frequency of the block
       real(wp), intent(in) :: omega, tau, gamma
+      complex(wp) :: a(0:1), b(0:1)
+      real(wp) :: x
+      integer :: i
 
-      xi = (omega*gamma**2*sin(omega*tau) + omega**2*gamma**2*cos(omega*tau)) &
-           /((omega**3 - omega*gamma**2)*sin(omega*tau) + (gamma**2 - omega**2)*cos(omega*tau))
-   end function hopf_xi
+      do i = 0, 1
+         a(i) = delta_at(self, omega, 0.0_wp, real(i, wp), gamma**2, tau)
+         b(i) = delta_at(self, omega, 1.0_wp, real(i, wp), gamma**2, tau) - a(i)
+      end do
+      ! parts without x and with x
+      a(1) = a(1) - a(0)
+      b(1) = b(1) - b(0)
+      if (size_of(b(0)) <= 0.0_wp) then
+         x = -aimag(a(0)*conjg(b(1)))/aimag(a(1)*conjg(b(1)))
+      else
+         x = larger_root(aimag(a(1)*conjg(b(1))), &
+                         -0.5_wp*(aimag(a(0)*conjg(b(1))) + aimag(a(1)*conjg(b(0)))), &
+                         -aimag(a(0)*conjg(b(0))))
+      end if
+      xi = 1.0_wp/x
+   end function xi_at
 
-   !> What is left of (6) when xi and gamma are eliminated: 0 at the frequencies of pairs i omega at
-   !> this epsilon and delay.
-   elemental real(wp) function frequency_condition(omega, epsilon, tau) result(value)
-      !> Frequency of the pair, sensitivity of the velocity relaxation; delay
-      real(wp), intent(in) :: omega, epsilon, tau
+   !> Delta(i omega).
+   pure complex(wp) function delta_at(self, omega, d, x, g, tau) result(value)
+      class(hopf_condition_type), intent(in) :: self
+      real(wp), intent(in) :: omega, d, x, g, tau
+      real(wp) :: c(0:self%n, 2)
 
-      value = 1.0_wp + omega**2 &
-              + (1.0_wp + epsilon)*(omega*sin(omega*tau) - cos(omega*tau))
-   end function frequency_condition
+      c = self%polynomials(d, x, g)
+      value = on_axis(c(:, 1), omega) &
+              + on_axis(c(:, 2), omega)*exp(cmplx(0.0_wp, -omega*tau, kind=wp))
+   end function delta_at
 
-   !> The gamma of a pair i omega by the sine part of (6), where frequency_condition is 0; -1 where
-   !> there is none.
-   elemental real(wp) function hopf_gamma(omega, epsilon, tau, xi) result(gamma)
+   !> 0 at the frequencies of pairs i omega at this epsilon, delay and gamma, whatever xi: Delta =
+   !> a + x b.
+   pure real(wp) function miss_along_xi(self, omega, epsilon, tau, gamma) result(miss)
+      class(hopf_condition_type), intent(in) :: self
+      real(wp), intent(in) :: omega, epsilon, tau, gamma
+      complex(wp) :: a, b
+
+      a = delta_at(self, omega, 1.0_wp + epsilon, 0.0_wp, gamma**2, tau)
+      b = delta_at(self, omega, 1.0_wp + epsilon, 1.0_wp, gamma**2, tau) - a
+      miss = aimag(a*conjg(b))/(abs(a)*abs(b) + tiny(1.0_wp))
+   end function miss_along_xi
+
+   !> 0 at the frequencies of pairs i omega at this epsilon, delay and xi, whatever gamma: Delta =
+   !> a + g b.
+   pure real(wp) function miss_along_gamma(self, omega, epsilon, tau, xi) result(miss)
+      class(hopf_condition_type), intent(in) :: self
+      real(wp), intent(in) :: omega, epsilon, tau, xi
+      complex(wp) :: a, b
+
+      a = delta_at(self, omega, 1.0_wp + epsilon, 1.0_wp/xi, 0.0_wp, tau)
+      b = delta_at(self, omega, 1.0_wp + epsilon, 1.0_wp/xi, 1.0_wp, tau) - a
+      miss = aimag(a*conjg(b))/(abs(a)*abs(b) + tiny(1.0_wp))
+   end function miss_along_gamma
+
+   !> The gamma of a pair i omega where `miss_along_gamma` is 0; -1 where there is none.
+   pure real(wp) function gamma_at(self, omega, epsilon, tau, xi) result(gamma)
+      class(hopf_condition_type), intent(in) :: self
       !> Frequency of the pair, > 0; sensitivity of the velocity relaxation; delay; spring constant
       real(wp), intent(in) :: omega, epsilon, tau, xi
+      complex(wp) :: a, b
       real(wp) :: square
 
-      ! omega^2/gamma^2
-      square = 1.0_wp - omega*(omega + (1.0_wp + epsilon)*sin(omega*tau))/xi
+      a = delta_at(self, omega, 1.0_wp + epsilon, 1.0_wp/xi, 0.0_wp, tau)
+      b = delta_at(self, omega, 1.0_wp + epsilon, 1.0_wp/xi, 1.0_wp, tau) - a
+      square = -real(a*conjg(b))
       gamma = -1.0_wp
-      if (square > 0.0_wp) gamma = omega/sqrt(square)
-   end function hopf_gamma
+      if (square > 0.0_wp .and. size_of(b) > 0.0_wp) gamma = sqrt(square/size_of(b))
+   end function gamma_at
 
-   !> Equation (10) with its full numerator and the arctangent of two arguments: the delay of a pair
-   !> i omega on branch k. The angle is continuous in omega, so each branch is one smooth curve.
-   elemental real(wp) function hopf_tau(omega, xi, gamma, k) result(tau)
-      !> Frequency of the pair, > 0; spring constant; frequency of the block
-      real(wp), intent(in) :: omega, xi, gamma
+   !> The delay of a pair i omega on branch k, by exp(i omega tau) = -Q/P; (10) for the paper's law,
+   !> with its full numerator and the arctangent of two arguments. There the angle is continuous in
+   !> omega, so each branch is one smooth curve.
+   pure real(wp) function tau_at(self, omega, epsilon, xi, gamma, k) result(tau)
+      class(hopf_condition_type), intent(in) :: self
+      !> Frequency of the pair, > 0; its epsilon; spring constant; frequency of the block
+      real(wp), intent(in) :: omega, epsilon, xi, gamma
       !> Branch
       integer, intent(in) :: k
+      complex(wp) :: turn
+      real(wp) :: c(0:self%n, 2)
 
-      tau = (atan2(sine_part(omega, xi, gamma), cosine_part(omega, xi, gamma)) + two_pi*k)/omega
-   end function hopf_tau
+      c = self%polynomials(1.0_wp + epsilon, 1.0_wp/xi, gamma**2)
+      turn = -on_axis(c(:, 2), omega)/on_axis(c(:, 1), omega)
+      tau = (atan2(aimag(turn), real(turn)) + two_pi*k)/omega
+   end function tau_at
 
-   !> The other frequency at which (7) and (8) give the same epsilon, or omega again where epsilon
-   !> is least. In omega^2 they are a cubic whose roots have the sum 2 gamma^2 - 1 - gamma^4/xi^2
-   !> and the product -gamma^4; one root is negative.
-   elemental real(wp) function partner_omega(omega, xi, gamma) result(partner)
-      !> Frequency of a pair, > 0; spring constant; frequency of the block
-      real(wp), intent(in) :: omega, xi, gamma
-      real(wp) :: half_sum, product, root
+   !> The other frequency at which |P| = |Q|, or omega again where epsilon is least. |P|^2 - |Q|^2
+   !> is a polynomial in omega^2 of degree n; with n = 3 its other roots are a pair whose product is
+   !> known to be negative.
+   pure real(wp) function partner_omega(self, omega, epsilon, xi, gamma) result(partner)
+      class(hopf_condition_type), intent(in) :: self
+      !> Frequency of a pair, > 0; its epsilon; spring constant; frequency of the block
+      real(wp), intent(in) :: omega, epsilon, xi, gamma
+      real(wp) :: c(0:self%n, 2), half_sum, product, root, second_highest
 
-      half_sum = 0.5_wp*(2.0_wp*gamma**2 - 1.0_wp - gamma**4/xi**2 - omega**2)
-      product = gamma**4/omega**2
+      c = self%polynomials(1.0_wp + epsilon, 1.0_wp/xi, gamma**2)
+      c = c/c(self%n, 1)
+      product = (c(0, 1)**2 - c(0, 2)**2)/omega**2
+      if (self%n == 2) then
+         partner = sqrt(max(product, 0.0_wp))
+         return
+      end if
+      second_highest = c(2, 1)**2 - 2.0_wp*c(1, 1) - c(2, 2)**2
+      half_sum = -0.5_wp*(second_highest + omega**2)
       root = sqrt(half_sum**2 + product)
       if (half_sum > 0.0_wp) then
          partner = sqrt(half_sum + root)

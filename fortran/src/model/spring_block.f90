@@ -1,34 +1,33 @@
-!> The spring block with delayed friction, equations (3) and (4) of the paper as corrected (see
-!> docs/method.md, "What was corrected"). All quantities are nondimensional.
+!> The spring block with delayed friction: the model of its law (spring_block.yaml and laws/ in this
+!> folder), by the names of its parameters. All quantities are nondimensional.
 module spring_block
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use block_parameters, only: block_history_type, block_parameters_type
-   use block_series, only: series_of_block, slow_series_of_block
-   use block_tangent_series, only: slow_tangent_series_of_block, tangent_series_of_block
-   use block_state, only: index_of_ln_v, index_of_theta, index_of_u, largest_ln_v, least_ln_v
+   use block_parameters, only: block_history_type, block_parameters_type, law_parameters
+   use block_state, only: index_of_ln_v, index_of_theta, index_of_u
    use dde, only: problem_with_tangents
    use dde_kinds, only: wp
+   use model_problem, only: model_type
+   use model_registry, only: make_model
    implicit none (type, external)
    private
-   public :: index_of_ln_v, index_of_theta, index_of_u, spring_block_type
+   public :: index_of_ln_v, index_of_theta, index_of_u, model_of, spring_block_type
 
-   !> The block with its parameters; all nondimensional.
+   !> The block with its parameters.
    type, extends(problem_with_tangents) :: spring_block_type
-      !> Parameters of the block
+      !> Parameters of the block and name of its law
       type(block_parameters_type) :: parameters
-      !> State theta, u, ln v for t <= 0
-      real(wp) :: past(3) = 0.0_wp
+      !> The equations of the law
+      class(model_type), allocatable :: model
    contains
-      procedure :: initial => state_at_zero
-      procedure :: history => constant_history
-      procedure :: rhs => equation_4
-      procedure :: jacobian => derivatives_of_4
-      procedure :: series => series_of_4
-      procedure :: past_series => constant_series
-      procedure :: relaxation_rate => relaxation_of_w
-      procedure :: slow_series => slow_series_of_4
-      procedure :: tangent_series => tangent_series_of_4
-      procedure :: slow_tangent_series => slow_tangent_series_of_4
+      procedure :: initial
+      procedure :: history
+      procedure :: rhs
+      procedure :: jacobian
+      procedure :: series
+      procedure :: past_series
+      procedure :: relaxation_rate
+      procedure :: slow_series
+      procedure :: tangent_series
+      procedure :: slow_tangent_series
    end type spring_block_type
 
    interface spring_block_type
@@ -37,134 +36,102 @@ module spring_block
 
 contains
 
-   !> A block from its parameters and history; without delay it is equation (3).
-   pure function new_spring_block(parameters, history) result(block)
+   !> A block from its parameters, which were checked, and its history; without delay it is
+   !> equation (3).
+   function new_spring_block(parameters, history, keep_delays) result(block)
       type(block_parameters_type), intent(in) :: parameters
       type(block_history_type), intent(in) :: history
+      !> Whether a delay of 0 is a delayed value, too; .false. unless given
+      logical, intent(in), optional :: keep_delays
       type(spring_block_type) :: block
 
-      block%n = 3
-      block%analytic = .true.
-      block%analytic_tangents = .true.
-      associate (tau => parameters%tau)
-         allocate (block%lag, source=pack([tau], tau > 0.0_wp))
-         allocate (block%component, source=pack([index_of_ln_v], tau > 0.0_wp))
-      end associate
       block%parameters = parameters
-      block%past = [history%theta, history%u, log(history%v)]
+      block%model = model_of(parameters, history, keep_delays)
+      block%n = block%model%n
+      block%lag = block%model%lag
+      block%component = block%model%component
+      block%analytic = block%model%analytic
+      block%analytic_tangents = block%model%analytic_tangents
    end function new_spring_block
 
-   !> The constant history holds up to t = 0.
-   pure subroutine state_at_zero(self, y)
+   !> The model of a law with its parameters; from steady sliding unless a history is given.
+   function model_of(parameters, history, keep_delays) result(model)
+      !> Parameters, with the name of a law that there is
+      type(block_parameters_type), intent(in) :: parameters
+      type(block_history_type), intent(in), optional :: history
+      !> Whether a delay of 0 is a delayed value, too; .false. unless given
+      logical, intent(in), optional :: keep_delays
+      class(model_type), allocatable :: model
+      type(block_history_type) :: past
+
+      if (present(history)) past = history
+      call make_model(trim(parameters%law), model)
+      if (.not. allocated(model)) error stop "model_of: no such law"
+      call model%set(law_parameters(parameters, model), [past%theta, past%u, log(past%v)], &
+                     keep_delays)
+   end function model_of
+
+   !> State at the initial time.
+   pure subroutine initial(self, y)
       class(spring_block_type), intent(in) :: self
       real(wp), intent(out) :: y(self%n)
 
-      y = self%past
-   end subroutine state_at_zero
+      call self%model%initial(y)
+   end subroutine initial
 
-   !> Constant history.
-   pure function constant_history(self, t, component) result(value)
-      class(spring_block_type), intent(in) :: self
-      real(wp), intent(in) :: t
-      integer, intent(in) :: component
-      real(wp) :: value
-
-      value = self%past(component)
-   end function constant_history
-
-   !> Equation (4), and (3) where there is no delay, with w = ln v:
-   !>
-   !>     theta' = -v [theta + (1 + epsilon) w(t - tau)]
-   !>     u'     =  v - 1
-   !>     w'     = -(gamma^2/v) [u + (theta + w)/xi]
-   pure subroutine equation_4(self, t, y, z, dydt)
+   !> The law's equations.
+   pure subroutine rhs(self, t, y, z, dydt)
       class(spring_block_type), intent(in) :: self
       real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
-      real(wp) :: delayed_w, v
 
-      associate (p => self%parameters, theta => y(index_of_theta), u => y(index_of_u), &
-                 w => y(index_of_ln_v))
-         if (w < least_ln_v .or. w > largest_ln_v) then
-            dydt = ieee_value(1.0_wp, ieee_quiet_nan)
-            return
-         end if
-         delayed_w = w
-         if (size(z) > 0) delayed_w = z(1)
-         v = exp(w)
-         dydt(index_of_theta) = -v*(theta + (1.0_wp + p%epsilon)*delayed_w)
-         dydt(index_of_u) = v - 1.0_wp
-         dydt(index_of_ln_v) = -p%gamma**2/v*(u + (theta + w)/p%xi)
-      end associate
-   end subroutine equation_4
+      call self%model%rhs(t, y, z, dydt)
+   end subroutine rhs
 
-   !> Derivatives of (4) by theta, u, w and by w(t - tau).
-   pure subroutine derivatives_of_4(self, t, y, z, by_y, by_z)
+   !> Their derivatives by theta, u, w and by the delayed values.
+   pure subroutine jacobian(self, t, y, z, by_y, by_z)
       class(spring_block_type), intent(in) :: self
       real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), contiguous, intent(out) :: by_y(:, :), by_z(:, :)
-      real(wp) :: stiffness, v
 
-      associate (p => self%parameters, theta => y(index_of_theta), u => y(index_of_u), &
-                 w => y(index_of_ln_v))
-         if (w < least_ln_v .or. w > largest_ln_v) then
-            by_y = ieee_value(1.0_wp, ieee_quiet_nan)
-            by_z = by_y(1, 1)
-            return
-         end if
-         v = exp(w)
-         stiffness = p%gamma**2/v
-         by_y = 0.0_wp
-         by_y(index_of_theta, index_of_theta) = -v
-         by_y(index_of_u, index_of_ln_v) = v
-         by_y(index_of_ln_v, index_of_theta) = -stiffness/p%xi
-         by_y(index_of_ln_v, index_of_u) = -stiffness
-         by_y(index_of_ln_v, index_of_ln_v) = stiffness*(u + (theta + w - 1.0_wp)/p%xi)
-         if (size(z) > 0) then
-            by_y(index_of_theta, index_of_ln_v) = -v*(theta + (1.0_wp + p%epsilon)*z(1))
-            by_z = 0.0_wp
-            by_z(index_of_theta, 1) = -v*(1.0_wp + p%epsilon)
-         else
-            by_y(index_of_theta, index_of_ln_v) = -v*(theta + (1.0_wp + p%epsilon)*(w + 1.0_wp))
-         end if
-      end associate
-   end subroutine derivatives_of_4
+      call self%model%jacobian(t, y, z, by_y, by_z)
+   end subroutine jacobian
 
-   !> Taylor series of the solution of (4).
-   pure subroutine series_of_4(self, t, unit, degree, z, y)
+   !> Taylor series of the solution.
+   pure subroutine series(self, t, unit, degree, z, y)
       class(spring_block_type), intent(in) :: self
       real(wp), intent(in) :: t, unit
       integer, intent(in) :: degree
       real(wp), intent(in) :: z(0:degree, size(self%lag))
       real(wp), intent(inout) :: y(0:degree, self%n)
 
-      call series_of_block(self%parameters, unit, degree, size(z, 2), z, y)
-   end subroutine series_of_4
+      call self%model%series(t, unit, degree, z, y)
+   end subroutine series
 
-   !> Rate at which w approaches -theta - xi u, by (4).
-   pure function relaxation_of_w(self, t, y) result(rate)
+   !> Taylor series of the history.
+   pure subroutine past_series(self, t, component, unit, y)
       class(spring_block_type), intent(in) :: self
-      real(wp), intent(in) :: t, y(self%n)
-      real(wp) :: rate
+      real(wp), intent(in) :: t
+      integer, intent(in) :: component
+      real(wp), intent(in) :: unit
+      real(wp), intent(out) :: y(0:)
 
-      associate (p => self%parameters)
-         rate = p%gamma**2/p%xi*exp(-max(least_ln_v, y(index_of_ln_v)))
-      end associate
-   end function relaxation_of_w
+      call self%model%past_series(t, component, unit, y)
+   end subroutine past_series
 
-   !> A better Taylor series of the slow solution of (4).
-   pure subroutine slow_series_of_4(self, t, unit, degree, z, y)
+   !> A better Taylor series of the slow solution.
+   pure subroutine slow_series(self, t, unit, degree, z, y)
       class(spring_block_type), intent(in) :: self
       real(wp), intent(in) :: t, unit
       integer, intent(in) :: degree
       real(wp), intent(in) :: z(0:degree, size(self%lag))
       real(wp), intent(inout) :: y(0:degree, self%n)
 
-      call slow_series_of_block(self%parameters, unit, degree, size(z, 2), z, y)
-   end subroutine slow_series_of_4
+      call self%model%slow_series(t, unit, degree, z, y)
+   end subroutine slow_series
 
-   !> Taylor series of disturbances of the solution of (4).
-   pure subroutine tangent_series_of_4(self, t, unit, degree, z, y, vectors, dz, dy)
+   !> Taylor series of disturbances of the solution.
+   pure subroutine tangent_series(self, t, unit, degree, z, y, vectors, dz, dy)
       class(spring_block_type), intent(in) :: self
       real(wp), intent(in) :: t, unit
       integer, intent(in) :: degree
@@ -173,11 +140,11 @@ contains
       real(wp), intent(in) :: dz(0:degree, size(self%lag), vectors)
       real(wp), intent(inout) :: dy(0:degree, self%n, vectors)
 
-      call tangent_series_of_block(self%parameters, unit, degree, size(z, 2), z, y, vectors, dz, dy)
-   end subroutine tangent_series_of_4
+      call self%model%tangent_series(t, unit, degree, z, y, vectors, dz, dy)
+   end subroutine tangent_series
 
-   !> A better Taylor series of disturbances of the slow solution of (4).
-   pure subroutine slow_tangent_series_of_4(self, t, unit, degree, z, before, y, vectors, dz, dy)
+   !> A better Taylor series of disturbances of the slow solution.
+   pure subroutine slow_tangent_series(self, t, unit, degree, z, before, y, vectors, dz, dy)
       class(spring_block_type), intent(in) :: self
       real(wp), intent(in) :: t, unit
       integer, intent(in) :: degree
@@ -187,19 +154,25 @@ contains
       real(wp), intent(in) :: dz(0:degree, size(self%lag), vectors)
       real(wp), intent(inout) :: dy(0:degree, self%n, vectors)
 
-      call slow_tangent_series_of_block(self%parameters, unit, degree, size(z, 2), z, before, y, &
-                                        vectors, dz, dy)
-   end subroutine slow_tangent_series_of_4
+      call self%model%slow_tangent_series(t, unit, degree, z, before, y, vectors, dz, dy)
+   end subroutine slow_tangent_series
 
-   !> Series of the constant history.
-   pure subroutine constant_series(self, t, component, unit, y)
+   !> A component up to the initial time.
+   pure function history(self, t, component) result(value)
       class(spring_block_type), intent(in) :: self
       real(wp), intent(in) :: t
       integer, intent(in) :: component
-      real(wp), intent(in) :: unit
-      real(wp), intent(out) :: y(0:)
+      real(wp) :: value
 
-      y = 0.0_wp
-      y(0) = self%past(component)
-   end subroutine constant_series
+      value = self%model%history(t, component)
+   end function history
+
+   !> Rate at which w approaches its balance.
+   pure function relaxation_rate(self, t, y) result(rate)
+      class(spring_block_type), intent(in) :: self
+      real(wp), intent(in) :: t, y(self%n)
+      real(wp) :: rate
+
+      rate = self%model%relaxation_rate(t, y)
+   end function relaxation_rate
 end module spring_block

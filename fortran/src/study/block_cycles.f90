@@ -1,7 +1,7 @@
 !> Cycles of the block along a line of parameters: branches from all Hopf points on it and from
 !> trajectories, with their special points.
 module block_cycles
-   use block_family, only: block_family_type, parameters_of, vector_of
+   use block_family, only: block_family_type, vector_of, with_vector
    use block_parameters, only: block_history_type
    use branch_ends, only: follow_settings_type
    use collocation_basis, only: collocation_basis_type, radau_points
@@ -97,7 +97,7 @@ contains
       associate (line => settings%line)
          call find_hopf_starts(line, hopf, error)
          if (allocated(error)) return
-         how%family = free_family_type(block_family_type(), [line%along], &
+         how%family = free_family_type(block_family_type(line%parameters), [line%along], &
                                        [line%window(2) - line%window(1)])
          how%window(:, 1) = line%window
          how%longest_period = settings%longest_period
@@ -200,7 +200,8 @@ contains
 
       vector = vector_of(settings%line%parameters)
       vector(settings%line%along) = settings%starts(i)
-      block = spring_block_type(parameters_of(vector), block_history_type(v=settings%start_v(i)))
+      block = spring_block_type(with_vector(settings%line%parameters, vector), &
+                                block_history_type(v=settings%start_v(i)))
       options%relative = tolerance
       options%absolute = tolerance
       call integrate(block, 0.0_wp, settings%t_transient, options, outcome, error, &

@@ -1,20 +1,22 @@
 !> The block as a family of problems with the parameters tau, epsilon, xi and gamma.
 module block_family
-   use block_parameters, only: block_history_type, parameters_of, vector_of
+   use block_parameters, only: block_history_type, block_parameters_type, vector_of, with_vector
    use dde, only: dde_problem_type
    use dde_kinds, only: wp
    use problem_family, only: problem_family_type
-   use spring_block, only: index_of_ln_v, spring_block_type
+   use spring_block, only: spring_block_type
    implicit none (type, external)
    private
-   public :: along_epsilon, along_gamma, along_tau, along_xi, block_family_type, parameters_of, &
-             vector_of
+   public :: along_epsilon, along_gamma, along_tau, along_xi, block_family_type, vector_of, &
+             with_vector
 
    !> Numbers of the parameters in the order of the family.
    integer, parameter :: along_tau = 1, along_epsilon = 2, along_xi = 3, along_gamma = 4
 
    !> The block; parameters tau, epsilon, xi, gamma.
    type, extends(problem_family_type) :: block_family_type
+      !> The law and its own parameters
+      type(block_parameters_type) :: law
    contains
       procedure :: at => block_at
    end type block_family_type
@@ -28,8 +30,7 @@ contains
       real(wp), intent(in) :: parameters(:)
       class(dde_problem_type), allocatable, intent(out) :: problem
 
-      allocate (problem, source=spring_block_type(parameters_of(parameters), block_history_type()))
-      problem%lag = [parameters(1)]
-      problem%component = [index_of_ln_v]
+      allocate (problem, source=spring_block_type(with_vector(self%law, parameters), &
+                                                  block_history_type(), keep_delays=.true.))
    end subroutine block_at
 end module block_family

@@ -12,7 +12,7 @@ module block_roots
 
 contains
 
-   !> All roots of (5) with real part above `bound`, the rightmost first.
+   !> All characteristic roots with real part above `bound`, the rightmost first.
    subroutine roots_of_block(p, bound, roots, error)
       !> Parameters
       type(block_parameters_type), intent(in) :: p

@@ -55,7 +55,8 @@ contains
       count = 0
       if (allocated(settings%curve_window)) then
          associate (window => settings%curve_window)
-            how%family = free_family_type(block_family_type(), [along_epsilon, along_tau], &
+            how%family = free_family_type(block_family_type(settings%line%parameters), &
+                                          [along_epsilon, along_tau], &
                                           window(2, :) - window(1, :))
          end associate
          how%window = settings%curve_window

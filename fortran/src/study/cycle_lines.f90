@@ -5,8 +5,7 @@ module cycle_lines
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use gsl_roots, only: find_root, scalar_function_type
-   use hopf_condition, only: frequency_condition, hopf_epsilon, hopf_gamma, hopf_tau, hopf_xi, &
-                             largest_omega, two_pi
+   use hopf_condition, only: find_hopf_condition, hopf_condition_type, two_pi
    implicit none (type, external)
    private
    public :: along_epsilon, along_gamma, along_tau, along_xi, cycle_line_type, find_hopf_starts, &
@@ -37,6 +36,8 @@ module cycle_lines
    type, extends(scalar_function_type) :: miss_type
       !> The line
       type(cycle_line_type) :: line
+      !> Where the law has pairs i omega
+      type(hopf_condition_type) :: condition
       !> Branch of equation (10); on lines along xi and gamma there is one for all
       integer :: k = 0
    contains
@@ -60,13 +61,15 @@ contains
 
       allocate (starts(0))
       miss%line = line
+      call find_hopf_condition(line%parameters, miss%condition, error)
+      if (allocated(error)) return
       associate (p => line%parameters)
-         largest = largest_omega(p%epsilon)
+         largest = miss%condition%largest_omega(p%epsilon)
          select case (line%along)
          case (along_tau)
             branches = int(line%window(2)*largest/two_pi) + 1
          case (along_epsilon)
-            largest = largest_omega(line%window(2))
+            largest = miss%condition%largest_omega(line%window(2))
             branches = int(p%tau*largest/two_pi) + 1
          case default
             branches = 0
@@ -98,15 +101,15 @@ contains
       real(wp), intent(in) :: omega
 
       parameters = miss%line%parameters
-      associate (p => parameters)
+      associate (p => parameters, c => miss%condition)
          select case (miss%line%along)
          case (along_xi)
-            p%xi = hopf_xi(omega, p%tau, p%gamma)
+            p%xi = c%xi_at(omega, p%tau, p%gamma)
          case (along_gamma)
-            p%gamma = hopf_gamma(omega, p%epsilon, p%tau, p%xi)
+            p%gamma = c%gamma_at(omega, p%epsilon, p%tau, p%xi)
          case default
-            p%tau = hopf_tau(omega, p%xi, p%gamma, miss%k)
-            p%epsilon = hopf_epsilon(omega, p%xi, p%gamma)
+            p%epsilon = c%epsilon_at(omega, p%xi, p%gamma)
+            p%tau = c%tau_at(omega, p%epsilon, p%xi, p%gamma, miss%k)
          end select
       end associate
    end function at_frequency
@@ -116,14 +119,16 @@ contains
       class(miss_type), intent(in) :: self
       real(wp), intent(in) :: x
 
-      associate (p => self%line%parameters)
+      associate (p => self%line%parameters, c => self%condition)
          select case (self%line%along)
          case (along_tau)
-            value = hopf_epsilon(x, p%xi, p%gamma) - p%epsilon
+            value = c%epsilon_at(x, p%xi, p%gamma) - p%epsilon
          case (along_epsilon)
-            value = hopf_tau(x, p%xi, p%gamma, self%k) - p%tau
+            value = c%tau_at(x, c%epsilon_at(x, p%xi, p%gamma), p%xi, p%gamma, self%k) - p%tau
+         case (along_xi)
+            value = c%miss_along_xi(x, p%epsilon, p%tau, p%gamma)
          case default
-            value = frequency_condition(x, p%epsilon, p%tau)
+            value = c%miss_along_gamma(x, p%epsilon, p%tau, p%xi)
          end select
       end associate
    end function miss_of_line

@@ -1,13 +1,15 @@
 !> Hopf curves in a plane of two parameters, drawn over the frequency omega: the pieces inside a
 !> window are found by a scan, their ends by root finding, and points are set where the line bends.
 module hopf_curves
+   use block_family, only: along_tau
    use block_parameters, only: block_parameters_type
-   use characteristic_function, only: by_tau, relative_residual, root_by
+   use characteristic_function, only: characteristic_of, characteristic_type
    use dde_errors, only: error_type
    use gsl_roots, only: find_root, scalar_function_type
-   use hopf_condition, only: largest_omega, printed_tau
+   use hopf_condition, only: printed_tau
    use hopf_planes, only: curve_plane_type
    use dde_kinds, only: wp
+   use spring_block, only: model_of
    implicit none (type, external)
    private
    public :: curve_point_type, trace_curves
@@ -71,10 +73,7 @@ contains
 
       allocate (points(0), omega(0:scan_points), inside(0:scan_points))
       margin%plane = plane
-      omega_most = largest_omega(plane%epsilon_window(2))
-      call plane%bounds(omega_most, omega_least, k_most)
-      ! |B| of `least_omega` is the same at gamma^2/omega, and larger beyond it
-      omega_most = min(omega_most, plane%fixed%gamma**2/omega_least)
+      call plane%bounds(omega_least, omega_most, k_most)
       omega(:) = [(omega_least + (omega_most - omega_least)*i/scan_points, i=0, scan_points)]
       piece = 0
       do k = 0, k_most
@@ -142,7 +141,7 @@ contains
    end function place_in_window
 
    !> Points of branch k between two omegas, set so close that the chords look like the curve.
-   pure function piece_of_curve(plane, k, ends, piece) result(points)
+   function piece_of_curve(plane, k, ends, piece) result(points)
       type(curve_plane_type), intent(in) :: plane
       integer, intent(in) :: k
       real(wp), intent(in) :: ends(2)
@@ -180,12 +179,13 @@ contains
    end function chord_is_bad
 
    !> The point of branch k at omega with its residuals and crossing.
-   pure type(curve_point_type) function point_of_curve(plane, k, omega, piece) result(point)
+   type(curve_point_type) function point_of_curve(plane, k, omega, piece) result(point)
       type(curve_plane_type), intent(in) :: plane
       integer, intent(in) :: k
       real(wp), intent(in) :: omega
       integer, intent(in) :: piece
       type(block_parameters_type) :: printed
+      type(characteristic_type) :: c
       complex(wp) :: s
 
       s = cmplx(0.0_wp, omega, kind=wp)
@@ -194,12 +194,14 @@ contains
       point%piece = piece
       point%parameters = plane%at(omega, k)
       associate (p => point%parameters)
-         point%residual = relative_residual(p, s)
-         point%crossing = nint(sign(1.0_wp, real(root_by(by_tau, p, s))))
+         c = characteristic_of(model_of(p))
+         point%residual = c%relative_residual(s)
+         point%crossing = nint(sign(1.0_wp, real(c%root_by(along_tau, s))))
          printed = p
          printed%tau = printed_tau(omega, p%xi, p%gamma, k)
       end associate
       point%printed_tau = printed%tau
-      point%printed_residual = relative_residual(printed, s)
+      c = characteristic_of(model_of(printed))
+      point%printed_residual = c%relative_residual(s)
    end function point_of_curve
 end module hopf_curves

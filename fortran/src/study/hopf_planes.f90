@@ -1,11 +1,12 @@
 !> Planes of two parameters in which Hopf curves are drawn, each with its window: tau over epsilon
 !> at fixed xi (Figure 2), or xi over epsilon at fixed tau (Figure 3).
 module hopf_planes
-   use block_family, only: along_epsilon, along_tau, along_xi, parameters_of, vector_of
+   use block_family, only: along_epsilon, along_tau, along_xi, vector_of, with_vector
    use block_parameters, only: block_parameters_type
-   use characteristic_function, only: by_epsilon, by_tau, by_xi, root_by
-   use hopf_condition, only: hopf_epsilon, hopf_tau, hopf_xi, two_pi
+   use characteristic_function, only: characteristic_of
+   use hopf_condition, only: hopf_condition_type, two_pi
    use dde_kinds, only: wp
+   use spring_block, only: model_of
    implicit none (type, external)
    private
    public :: curve_plane_type
@@ -14,8 +15,10 @@ module hopf_planes
    type :: curve_plane_type
       !> Which parameter is the ordinate: along_tau or along_xi
       integer :: along = along_tau
-      !> The fixed parameters: gamma, and xi or tau
+      !> The fixed parameters: the law, gamma, and xi or tau
       type(block_parameters_type) :: fixed
+      !> Where the law has pairs i omega
+      type(hopf_condition_type) :: condition
       !> Window on epsilon: least, most
       real(wp) :: epsilon_window(2) = [0.0_wp, 1.0_wp]
       !> Window on the ordinate: least, most
@@ -27,7 +30,7 @@ module hopf_planes
 contains
 
    !> Parameters at which branch k has the pair i omega; xi <= 0 if there are none. Equations (7)
-   !> and (10) at fixed xi; at fixed tau (7) and (9), as far as (10) gives that tau back on branch
+   !> and (10) at fixed xi; at fixed tau (9) and (7), as far as (10) gives that tau back on branch
    !> k.
    pure type(block_parameters_type) function at(self, omega, k) result(p)
       class(curve_plane_type), intent(in) :: self
@@ -35,17 +38,18 @@ contains
       integer, intent(in) :: k
 
       p = self%fixed
-      if (self%along == along_tau) then
-         p%tau = hopf_tau(omega, p%xi, p%gamma, k)
-      else
-         p%xi = hopf_xi(omega, p%tau, p%gamma)
+      associate (c => self%condition)
+         if (self%along == along_xi) p%xi = c%xi_at(omega, p%tau, p%gamma)
          if (.not. p%xi > 0.0_wp) return
-         if (abs(omega*(hopf_tau(omega, p%xi, p%gamma, k) - p%tau)) > 1.0_wp) then
-            p%xi = -1.0_wp
-            return
-         end if
-      end if
-      p%epsilon = hopf_epsilon(omega, p%xi, p%gamma)
+         p%epsilon = c%epsilon_at(omega, p%xi, p%gamma)
+         associate (tau => c%tau_at(omega, p%epsilon, p%xi, p%gamma, k))
+            if (self%along == along_tau) then
+               p%tau = tau
+            else if (abs(omega*(tau - p%tau)) > 1.0_wp) then
+               p%xi = -1.0_wp
+            end if
+         end associate
+      end associate
    end function at
 
    !> Parameters at a place of the plane.
@@ -57,7 +61,7 @@ contains
 
       vector = vector_of(self%fixed)
       vector([along_epsilon, self%along]) = [epsilon, ordinate]
-      p = parameters_of(vector)
+      p = with_vector(self%fixed, vector)
    end function parameters
 
    !> The ordinate among the parameters.
@@ -69,37 +73,51 @@ contains
    end function ordinate
 
    !> Derivatives of a root by epsilon and by the ordinate.
-   pure function root_slopes(self, p, s) result(slopes)
+   function root_slopes(self, p, s) result(slopes)
       class(curve_plane_type), intent(in) :: self
       type(block_parameters_type), intent(in) :: p
       complex(wp), intent(in) :: s
       complex(wp) :: slopes(2)
 
-      slopes = [root_by(by_epsilon, p, s), &
-                root_by(merge(by_tau, by_xi, self%along == along_tau), p, s)]
+      associate (c => characteristic_of(model_of(p)))
+         slopes = [c%root_by(along_epsilon, s), c%root_by(self%along, s)]
+      end associate
    end function root_slopes
 
-   !> Least omega: where xi (gamma^2 - omega^2)/(gamma^2 omega) falls to omega_most for the least
-   !> xi. Below it epsilon lies beyond the window, for 1 + epsilon = sqrt((1 + omega^2)(1 + B^2))
-   !> with B that ratio. Highest branch: where (2 pi k - pi)/omega_most exceeds the longest tau.
-   pure subroutine bounds(self, omega_most, omega_least, k_most)
+   !> Least and largest omega and highest branch in the window. At the least xi epsilon grows
+   !> without bound as omega falls to 0. On branch k, 2 pi k - pi <= omega tau.
+   pure subroutine bounds(self, omega_least, omega_most, k_most)
       class(curve_plane_type), intent(in) :: self
-      !> Largest omega in the window
-      real(wp), intent(in) :: omega_most
-      !> Least omega
-      real(wp), intent(out) :: omega_least
+      !> Least and largest omega
+      real(wp), intent(out) :: omega_least, omega_most
       !> Highest branch
       integer, intent(out) :: k_most
-      real(wp) :: half, tau_most, xi_least
+      real(wp) :: tau_most, xi_least
 
       tau_most = self%fixed%tau
       xi_least = self%fixed%xi
       if (self%along == along_tau) tau_most = self%ordinate_window(2)
       if (self%along == along_xi) xi_least = self%ordinate_window(1)
-      associate (gamma => self%fixed%gamma)
-         half = 0.5_wp*gamma**2*omega_most/xi_least
-         omega_least = gamma**2/(half + sqrt(half**2 + gamma**2))
+      associate (epsilon_most => self%epsilon_window(2), gamma => self%fixed%gamma)
+         omega_most = self%condition%largest_omega(epsilon_most)
+         omega_least = min(omega_most, gamma)
+         do while (omega_least > tiny(1.0_wp))
+            if (all(far_epsilons(self, omega_least, xi_least) > epsilon_most)) exit
+            omega_least = 0.5_wp*omega_least
+         end do
+         ! the same beyond gamma, where the inertia of the block holds the spring's place
+         omega_most = min(omega_most, gamma**2/omega_least)
       end associate
       k_most = ceiling(tau_most*omega_most/two_pi + 0.5_wp)
    end subroutine bounds
+
+   !> The epsilons of pairs at this and at some lower frequencies.
+   pure function far_epsilons(self, omega, xi) result(epsilons)
+      class(curve_plane_type), intent(in) :: self
+      real(wp), intent(in) :: omega, xi
+      real(wp) :: epsilons(0:3)
+      integer :: i
+
+      epsilons = [(self%condition%epsilon_at(omega/4**i, xi, self%fixed%gamma), i=0, 3)]
+   end function far_epsilons
 end module hopf_planes

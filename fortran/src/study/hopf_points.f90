@@ -6,7 +6,7 @@ module hopf_points
    use block_parameters, only: block_parameters_type
    use dde_errors, only: error_type
    use gsl_roots, only: find_falling_root, find_root, scalar_function_type
-   use hopf_condition, only: hopf_tau, partner_omega, two_pi
+   use hopf_condition, only: two_pi
    use hopf_curves, only: curve_point_type
    use hopf_planes, only: curve_plane_type
    use hopf_unfoldings, only: unfold_double_hopf, unfold_generalised_hopf, unfolding_type
@@ -118,7 +118,8 @@ contains
                   if (allocated(error)) return
                   associate (b => plane%at(omega, p%branch))
                      call add_point(found, "double_hopf", plane, &
-                                    [omega, partner_omega(omega, b%xi, b%gamma)], &
+                                    [omega, plane%condition%partner_omega(omega, b%epsilon, b%xi, &
+                                                                          b%gamma)], &
                                     [p%branch, m], error)
                   end associate
                end do
@@ -136,7 +137,8 @@ contains
 
       if (plane%along /= along_tau .or. plane%ordinate_window(1) > 0.0_wp) return
       ! omega tau falls from pi/2 as omega grows
-      call find_falling_root(omega_function_type(angle_above, plane%fixed), 1.0_wp, omega, error)
+      call find_falling_root(omega_function_type(angle_above, plane%fixed, plane%condition), &
+                             1.0_wp, omega, error)
       if (allocated(error)) return
       associate (p => plane%at(omega, 0), window => plane%epsilon_window)
          if (p%epsilon < window(1) .or. p%epsilon > window(2)) return
@@ -184,12 +186,13 @@ contains
       type(error_type), allocatable :: error
       real(wp) :: partner
 
-      associate (p => self%plane%at(x, self%k))
+      associate (p => self%plane%at(x, self%k), c => self%plane%condition)
          if (self%other == no_branch) then
             call first_lyapunov_coefficient(block_equation_type(p), x, value, error)
          else
-            partner = partner_omega(x, p%xi, p%gamma)
-            value = partner*(p%tau - hopf_tau(partner, p%xi, p%gamma, 0))/two_pi - self%other
+            partner = c%partner_omega(x, p%epsilon, p%xi, p%gamma)
+            value = partner*(p%tau - c%tau_at(partner, p%epsilon, p%xi, p%gamma, 0))/two_pi &
+                    - self%other
          end if
       end associate
    end function value_along_branch

@@ -94,7 +94,7 @@ contains
    end subroutine unfold_double_hopf
 
    !> The step (epsilon, ordinate) from a double Hopf point to given growth rates.
-   pure function way_to_growth(plane, parameters, omega, mu) result(way)
+   function way_to_growth(plane, parameters, omega, mu) result(way)
       !> The plane
       type(curve_plane_type), intent(in) :: plane
       !> Parameters of the point

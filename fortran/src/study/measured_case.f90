@@ -31,7 +31,7 @@ module measured_case
 contains
 
    !> The block with this case's parameters, rounded to double precision in any precision.
-   pure function problem(self, disturbance) result(block)
+   function problem(self, disturbance) result(block)
       class(case_type), intent(in) :: self
       !> Change of theta and u and relative change of v for t <= 0
       real(wp), intent(in) :: disturbance
@@ -40,7 +40,8 @@ contains
       associate (p => self%parameters, past => self%history)
          block = spring_block_type( &
                  block_parameters_type(tau=as_double(p%tau), epsilon=as_double(p%epsilon), &
-                                       xi=as_double(p%xi), gamma=as_double(p%gamma)), &
+                                       xi=as_double(p%xi), gamma=as_double(p%gamma), &
+                                       law=p%law, own=as_double(p%own)), &
                  block_history_type(theta=as_double(past%theta) + disturbance, &
                                     u=as_double(past%u) + disturbance, &
                                     v=as_double(past%v)*(1.0_wp + disturbance)))

@@ -1,11 +1,12 @@
-!> How many characteristic roots of (5) lie to the right of a line, by the principle of the
+!> How many characteristic roots of the block lie to the right of a line, by the principle of the
 !> argument: along s = bound + i w, w = 0..infinity, the argument of Delta(s) grows by
-!> (3/2 - Z) pi, where Z is their number. The largest terms of Delta(s) at large w are the leading
-!> part s^2 (s + 1 + gamma^2/xi), the argument of which is known.
+!> (n/2 - Z) pi, where Z is their number and n that of equations. The largest terms of Delta(s) at
+!> large w are the leading part s^(n-1) (s + c), the argument of which is known.
 module root_counts
    use block_parameters, only: block_parameters_type
-   use characteristic_function, only: delta, slope_bound, terms
+   use characteristic_function, only: characteristic_of, characteristic_type
    use dde_kinds, only: wp
+   use spring_block, only: model_of
    implicit none (type, external)
    private
    public :: has_more_roots, pairs_beside, roots_right_of
@@ -26,97 +27,125 @@ module root_counts
 contains
 
    !> Number of roots with real part above `bound`.
-   pure integer function roots_right_of(p, bound) result(number)
+   integer function roots_right_of(p, bound) result(number)
       !> Parameters
       type(block_parameters_type), intent(in) :: p
       !> Real part of the line, on which no root lies
       real(wp), intent(in) :: bound
 
-      number = number_of(p, line_growth(p, bound, 0.0_wp, far_end(p, bound)), bound)
+      associate (c => characteristic_of(model_of(p)))
+         number = number_of(c, line_growth(c, bound, 0.0_wp, far_end(c, bound)), bound)
+      end associate
    end function roots_right_of
 
    !> Whether there are surely more than `number` roots with real part above `bound`. It does not
-   !> count them, which takes long. Where the delayed term is larger than twice the sum of the
+   !> count them, which takes long. Where the delayed terms are larger than twice the sum of the
    !> others, the argument of Delta falls by tau per unit of w. The rest of the line changes it by a
    !> few turns.
-   pure logical function has_more_roots(p, bound, number) result(value)
+   logical function has_more_roots(p, bound, number) result(value)
       !> Parameters
       type(block_parameters_type), intent(in) :: p
       !> Real part of the line
       real(wp), intent(in) :: bound
       !> The number
       integer, intent(in) :: number
-      real(wp) :: first, last, size_of(5), w
+      type(characteristic_type) :: c
+      real(wp) :: first, last, w
+      complex(wp) :: s
       integer :: i
 
       value = -bound*p%tau > largest_exponent
       if (value) return
+      c = characteristic_of(model_of(p))
+      if (size(c%delay) /= 2) return
       first = 0.0_wp
       last = 0.0_wp
       do i = -16, 200
          w = 2.0_wp**i
-         size_of = abs(terms(p, cmplx(bound, w, kind=wp)))
-         if (size_of(5) > 2.0_wp*sum(size_of(:4))) then
+         s = cmplx(bound, w, kind=wp)
+         if (abs(c%part(2, s))*exp(-bound*c%delay(2)) > 2.0_wp*terms_size(c%coefficient(:, 1), s)) then
             if (first <= 0.0_wp) first = w
             last = w
          end if
       end do
-      value = p%tau*(last - first)/pi > 2.0_wp*(number + 4)
+      value = c%delay(2)*(last - first)/pi > 2.0_wp*(number + 4)
    end function has_more_roots
+
+   !> Sum of the sizes of the terms of a polynomial.
+   pure real(wp) function terms_size(coefficient, s) result(total)
+      !> Coefficients of s**0, s**1, ...
+      real(wp), intent(in) :: coefficient(0:)
+      complex(wp), intent(in) :: s
+      integer :: k
+
+      total = 0.0_wp
+      do k = ubound(coefficient, 1), 0, -1
+         total = total*abs(s) + abs(coefficient(k))
+      end do
+   end function terms_size
 
    !> Number of pairs of roots with positive real part where some pairs i omega are on the
    !> imaginary axis, which are left out.
-   pure integer function pairs_beside(p, omega) result(number)
+   integer function pairs_beside(p, omega) result(number)
       !> Parameters
       type(block_parameters_type), intent(in) :: p
       !> Frequencies of the pairs on the axis, ascending
       real(wp), intent(in) :: omega(:)
+      type(characteristic_type) :: c
       real(wp) :: from, growth, radius
       integer :: i
 
+      c = characteristic_of(model_of(p))
       from = 0.0_wp
       growth = 0.0_wp
       do i = 1, size(omega)
          radius = radius_share*omega(i)
-         growth = growth + line_growth(p, 0.0_wp, from, omega(i) - radius) &
-                  + arc_growth(p, omega(i), radius)
+         growth = growth + line_growth(c, 0.0_wp, from, omega(i) - radius) &
+                  + arc_growth(c, omega(i), radius)
          from = omega(i) + radius
       end do
-      growth = growth + line_growth(p, 0.0_wp, from, max(from, far_end(p, 0.0_wp)))
-      number = number_of(p, growth, 0.0_wp)/2
+      growth = growth + line_growth(c, 0.0_wp, from, max(from, far_end(c, 0.0_wp)))
+      number = number_of(c, growth, 0.0_wp)/2
    end function pairs_beside
 
    !> Number of roots from the growth of the argument up to `far_end`; from there on the argument
    !> grows as that of the leading part.
-   pure integer function number_of(p, growth, bound) result(number)
-      type(block_parameters_type), intent(in) :: p
+   pure integer function number_of(c, growth, bound) result(number)
+      type(characteristic_type), intent(in) :: c
       real(wp), intent(in) :: growth, bound
       complex(wp) :: factor, s
       real(wp) :: rest
 
-      s = cmplx(bound, far_end(p, bound), kind=wp)
-      factor = s + (1.0_wp + p%gamma**2/p%xi)
-      rest = 1.5_wp*pi - 2.0_wp*angle(s) - angle(factor) - angle(delta(p, s)/(s**2*factor))
-      number = nint(1.5_wp - (growth + rest)/pi)
+      s = cmplx(bound, far_end(c, bound), kind=wp)
+      factor = s + c%coefficient(c%n - 1, 1)
+      rest = 0.5_wp*c%n*pi - (c%n - 1)*angle(s) - angle(factor) &
+             - angle(c%value(s)/(s**(c%n - 1)*factor))
+      number = nint(0.5_wp*c%n - (growth + rest)/pi)
    end function number_of
 
    !> A w from which on the leading part outweighs the other terms; their ratio grows with w.
-   pure real(wp) function far_end(p, bound) result(w)
-      type(block_parameters_type), intent(in) :: p
+   pure real(wp) function far_end(c, bound) result(w)
+      type(characteristic_type), intent(in) :: c
       real(wp), intent(in) :: bound
-      complex(wp) :: term(5)
+      complex(wp) :: s
+      real(wp) :: others
+      integer :: i
 
       w = 1.0_wp
       do
-         term = terms(p, cmplx(bound, w, kind=wp))
-         if (abs(term(1) + term(2)) > 2.0_wp*sum(abs(term(3:)))) exit
+         s = cmplx(bound, w, kind=wp)
+         others = terms_size(c%coefficient(:c%n - 2, 1), s)
+         do i = 2, size(c%delay)
+            others = others + terms_size(c%coefficient(:, i), s)*exp(-bound*c%delay(i))
+         end do
+         if (abs(s**(c%n - 1)*(s + c%coefficient(c%n - 1, 1))) > 2.0_wp*others) exit
          w = 2.0_wp*w
       end do
    end function far_end
 
    !> Growth of the argument of Delta along s = bound + i w.
-   pure real(wp) function line_growth(p, bound, from, to) result(growth)
-      type(block_parameters_type), intent(in) :: p
+   pure real(wp) function line_growth(c, bound, from, to) result(growth)
+      type(characteristic_type), intent(in) :: c
       real(wp), intent(in) :: bound, from, to
       complex(wp) :: s, value, value_before
       real(wp) :: step, w
@@ -124,33 +153,33 @@ contains
       growth = 0.0_wp
       w = from
       s = cmplx(bound, w, kind=wp)
-      value = delta(p, s)
+      value = c%value(s)
       do while (w < to)
          ! the bound grows with w: a step that holds it at the end of a longer one holds it
-         step = step_share*abs(value)/slope_bound(p, s)
-         step = step_share*abs(value)/slope_bound(p, cmplx(bound, w + step, kind=wp))
+         step = step_share*abs(value)/c%slope_bound(s)
+         step = step_share*abs(value)/c%slope_bound(cmplx(bound, w + step, kind=wp))
          step = max(step, least_share*w + least_step)
          w = min(w + step, to)
          value_before = value
          s = cmplx(bound, w, kind=wp)
-         value = delta(p, s)
+         value = c%value(s)
          growth = growth + angle(value*conjg(value_before))
       end do
    end function line_growth
 
    !> Growth of the argument of Delta along the half circle to the right of i omega.
-   pure real(wp) function arc_growth(p, omega, radius) result(growth)
-      type(block_parameters_type), intent(in) :: p
+   pure real(wp) function arc_growth(c, omega, radius) result(growth)
+      type(characteristic_type), intent(in) :: c
       real(wp), intent(in) :: omega, radius
       complex(wp) :: value, value_before
       integer :: i
 
       growth = 0.0_wp
-      value = delta(p, cmplx(0.0_wp, omega - radius, kind=wp))
+      value = c%value(cmplx(0.0_wp, omega - radius, kind=wp))
       do i = 1, arc_steps
          value_before = value
          associate (phi => pi*(real(i, wp)/arc_steps - 0.5_wp))
-            value = delta(p, cmplx(radius*cos(phi), omega + radius*sin(phi), kind=wp))
+            value = c%value(cmplx(radius*cos(phi), omega + radius*sin(phi), kind=wp))
          end associate
          growth = growth + angle(value*conjg(value_before))
       end do

@@ -1,13 +1,15 @@
 !> The delays and the sensitivities epsilon at which a pair of characteristic roots crosses the
 !> imaginary axis, all else kept: equations (7) and (10), solved for the frequency.
 module stability_changes
+   use block_family, only: along_epsilon, along_tau
    use block_parameters, only: block_parameters_type
-   use characteristic_function, only: by_epsilon, by_tau, root_by
+   use characteristic_function, only: characteristic_of
    use dde_errors, only: error_type
    use gsl_roots, only: find_falling_root, find_root, scalar_function_type
-   use hopf_condition, only: hopf_epsilon, hopf_tau, largest_omega, partner_omega
+   use hopf_condition, only: find_hopf_condition, hopf_condition_type
    use dde_kinds, only: wp
    use root_counts, only: pairs_beside
+   use spring_block, only: model_of
    implicit none (type, external)
    private
    public :: angle_above, changes_with_epsilon, changes_with_tau, omega_function_type, &
@@ -34,6 +36,8 @@ module stability_changes
       integer :: quantity = 0
       !> Parameters, with the given epsilon or delay
       type(block_parameters_type) :: p
+      !> Where the law has pairs i omega
+      type(hopf_condition_type) :: condition
       !> Branch
       integer :: k = 0
    contains
@@ -53,15 +57,18 @@ contains
       !> A root was not found
       type(error_type), allocatable, intent(out) :: error
       type(block_parameters_type) :: there
+      type(hopf_condition_type) :: condition
       type(omega_function_type) :: excess
       real(wp) :: bottom, lower, omega(2), upper
       integer :: i, k
 
       allocate (changes(0))
-      ! epsilon is least where both frequencies of an epsilon are the same
-      call find_falling_root(omega_function_type(partner_above, p), p%gamma, bottom, error)
+      call find_hopf_condition(p, condition, error)
       if (allocated(error)) return
-      excess = omega_function_type(epsilon_above, p)
+      ! epsilon is least where both frequencies of an epsilon are the same
+      call find_falling_root(omega_function_type(partner_above, p, condition), p%gamma, bottom, error)
+      if (allocated(error)) return
+      excess = omega_function_type(epsilon_above, p, condition)
       if (excess%value(bottom) >= 0.0_wp) return
       lower = bottom
       do while (excess%value(lower) <= 0.0_wp)
@@ -78,14 +85,12 @@ contains
       do i = 1, 2
          k = 0
          do
-            there%tau = hopf_tau(omega(i), p%xi, p%gamma, k)
+            there%tau = condition%tau_at(omega(i), p%epsilon, p%xi, p%gamma, k)
             if (there%tau > tau_most) exit
             k = k + 1
             if (there%tau <= 0.0_wp) cycle
-            associate (speed => real(root_by(by_tau, there, cmplx(0.0_wp, omega(i), kind=wp))))
-               call insert_change(changes, change_at(there, omega(i), speed), &
-                                  changes%parameters%tau < there%tau)
-            end associate
+            call insert_change(changes, change_at(there, omega(i), along_tau), &
+                               changes%parameters%tau < there%tau)
          end do
       end do
    end subroutine changes_with_tau
@@ -101,13 +106,15 @@ contains
       !> A root was not found
       type(error_type), allocatable, intent(out) :: error
       type(block_parameters_type) :: there
+      type(hopf_condition_type) :: condition
       type(omega_function_type) :: angle
-      complex(wp) :: s
       real(wp) :: lower, omega, omega_most
 
       allocate (changes(0))
-      angle = omega_function_type(angle_above, p)
-      omega_most = largest_omega(epsilon_most)
+      call find_hopf_condition(p, condition, error)
+      if (allocated(error)) return
+      angle = omega_function_type(angle_above, p, condition)
+      omega_most = condition%largest_omega(epsilon_most)
       there = p
       do
          if (angle%value(omega_most) >= 0.0_wp) exit
@@ -118,22 +125,25 @@ contains
          call find_root(angle, lower, omega_most, omega, error)
          if (allocated(error)) return
          angle%k = angle%k + 1
-         there%epsilon = hopf_epsilon(omega, p%xi, p%gamma)
+         there%epsilon = condition%epsilon_at(omega, p%xi, p%gamma)
          if (there%epsilon > epsilon_most) cycle
-         s = cmplx(0.0_wp, omega, kind=wp)
-         call insert_change(changes, change_at(there, omega, real(root_by(by_epsilon, there, s))), &
+         call insert_change(changes, change_at(there, omega, along_epsilon), &
                             changes%parameters%epsilon < there%epsilon)
       end do
    end subroutine changes_with_epsilon
 
    !> A crossing at the pair i omega.
-   pure type(stability_change_type) function change_at(p, omega, speed) result(change)
+   type(stability_change_type) function change_at(p, omega, parameter) result(change)
       type(block_parameters_type), intent(in) :: p
       real(wp), intent(in) :: omega
-      !> How fast the pair moves to the right
-      real(wp), intent(in) :: speed
+      !> Number of the parameter that grows
+      integer, intent(in) :: parameter
+      real(wp) :: speed
       integer :: beside
 
+      associate (c => characteristic_of(model_of(p)))
+         speed = real(c%root_by(parameter, cmplx(0.0_wp, omega, kind=wp)))
+      end associate
       beside = pairs_beside(p, [omega])
       change = stability_change_type(p, omega, beside, beside)
       if (speed > 0.0_wp) then
@@ -160,14 +170,15 @@ contains
       class(omega_function_type), intent(in) :: self
       real(wp), intent(in) :: x
 
-      associate (p => self%p)
+      associate (p => self%p, c => self%condition, &
+                 epsilon => self%condition%epsilon_at(x, self%p%xi, self%p%gamma))
          select case (self%quantity)
          case (epsilon_above)
-            value = hopf_epsilon(x, p%xi, p%gamma) - p%epsilon
+            value = epsilon - p%epsilon
          case (partner_above)
-            value = partner_omega(x, p%xi, p%gamma) - x
+            value = c%partner_omega(x, epsilon, p%xi, p%gamma) - x
          case default
-            value = x*(hopf_tau(x, p%xi, p%gamma, self%k) - p%tau)
+            value = x*(c%tau_at(x, epsilon, p%xi, p%gamma, self%k) - p%tau)
          end select
       end associate
    end function value_at_omega

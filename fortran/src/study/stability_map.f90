@@ -10,7 +10,7 @@ module stability_map
 contains
 
    !> Number of unstable pairs in the middle of each cell of the plane's window.
-   pure function unstable_pairs(plane, cells) result(pairs)
+   function unstable_pairs(plane, cells) result(pairs)
       !> The plane
       type(curve_plane_type), intent(in) :: plane
       !> Cells along each side

@@ -91,7 +91,7 @@ contains
    end subroutine sliding_exponents
 
    !> A bound with at least this number of roots of (5) above it, not many more; or the last bound.
-   pure real(wp) function bound_for(p, count) result(bound)
+   real(wp) function bound_for(p, count) result(bound)
       type(block_parameters_type), intent(in) :: p
       integer, intent(in) :: count
       real(wp) :: nearer

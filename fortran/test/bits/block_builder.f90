@@ -10,7 +10,7 @@ module block_builder
 contains
 
    !> A block at these parameters from this history.
-   pure type(spring_block_type) function build_block(tau, epsilon, xi, gamma, theta, u, v) &
+   type(spring_block_type) function build_block(tau, epsilon, xi, gamma, theta, u, v) &
       result(block)
       real(wp), intent(in) :: tau, epsilon, xi, gamma
       real(wp), intent(in), optional :: theta, u, v

@@ -1,0 +1,1 @@
+"""Makes a Fortran module of a delay-differential model from its definition; see README.md."""

@@ -1,0 +1,369 @@
+"""A model as its author writes it: parameters, states, equations with delayed states, as text.
+
+Expressions are read by Python's own parser and never evaluated: a definition cannot run commands.
+"""
+
+import ast
+import keyword
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import sympy
+from ruamel.yaml import YAML
+from ruamel.yaml.error import YAMLError
+
+FUNCTIONS = {
+    "exp": sympy.exp,
+    "log": sympy.log,
+    "sqrt": sympy.sqrt,
+    "sin": sympy.sin,
+    "cos": sympy.cos,
+}
+"""The functions that an expression may have: all are analytic, and have series by a recurrence."""
+TIME = sympy.Symbol("t", real=True)
+NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,47}\Z")
+TAKEN = {
+    *("t", "s", "y", "z", "dy", "dz", "x", "i", "j", "k", "wp", "self", "unit", "degree", "step"),
+    *("form", "rate", "share", "first", "last", "used", "lanes", "vectors", "before", "dydt"),
+    *("by_y", "by_z", "lag", "past", "power", "coefficient", "delay", "state", "derivative"),
+    *("sum", "real", "abs", "merge", "size", "steady", "parameter", "component", "place", "delays"),
+    *("slow", "rate_before", "integer", "end", "do", "if", "top", "component_series"),
+    *FUNCTIONS,
+}
+"""Names of the generated code, which a model's own names would hide."""
+KEYS = {
+    *("name", "about", "source", "parameters", "states", "auxiliary", "definitions"),
+    *("equations", "steady_state", "history", "fast", "domain"),
+}
+LARGEST_EXPONENT = 300
+"""The argument of exp is refused beyond this, unless `domain` says otherwise: its products might
+overflow."""
+
+
+class ModelError(ValueError):
+    """What is wrong with a definition: what, where, and what is expected."""
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A number that stands in the equations."""
+
+    name: str
+    meaning: str
+    unit: str = "nondimensional"
+    above: float | None = None
+    at_least: float | None = None
+    default: float | None = None
+
+
+@dataclass(frozen=True)
+class Delayed:
+    """A state some time ago."""
+
+    state: str
+    lag: sympy.Expr
+    symbol: sympy.Symbol
+
+
+@dataclass
+class Model:
+    """A system y' = f(t, y, z) in symbols."""
+
+    name: str
+    about: str
+    source: str
+    parameters: list[Parameter]
+    states: dict[str, str]
+    """Meanings by name, in the order of the state vector."""
+    auxiliary: dict[str, str]
+    """For each name that stands for exp(state), the state."""
+    texts: dict[str, str]
+    """The equation of each state as written, with definitions filled in by name."""
+    definitions: dict[str, str]
+    equations: dict[str, sympy.Expr]
+    delayed: list[Delayed] = field(default_factory=list)
+    steady_state: dict[str, sympy.Expr] | None = None
+    history: dict[str, sympy.Expr] | None = None
+    """Each state up to the initial time as an expression of t; None: numbers, given later."""
+    fast: str | None = None
+    domain: dict[str, tuple[float, float]] = field(default_factory=dict)
+
+    def symbol(self, name: str) -> sympy.Symbol:
+        """The symbol of a parameter, a state or an auxiliary."""
+        return sympy.Symbol(name, real=True)
+
+    @property
+    def variables(self) -> set[sympy.Symbol]:
+        """Symbols that change in time."""
+        names = [*self.states, *self.auxiliary]
+        return {TIME, *map(self.symbol, names), *(one.symbol for one in self.delayed)}
+
+    def by_state(self, expression: sympy.Expr, state: str) -> sympy.Expr:
+        """The derivative by a state, of which auxiliaries are functions."""
+        result = expression.diff(self.symbol(state))
+        for name, of in self.auxiliary.items():
+            if of == state:
+                result += self.symbol(name) * expression.diff(self.symbol(name))
+        return result
+
+    def at_steady_state(self, expression: sympy.Expr) -> sympy.Expr:
+        """An expression with all states, now and before, at the steady state."""
+        values = {self.symbol(name): value for name, value in self.steady_state.items()}
+        for name, state in self.auxiliary.items():
+            values[self.symbol(name)] = sympy.exp(self.steady_state[state])
+        for one in self.delayed:
+            values[one.symbol] = self.steady_state[one.state]
+        return expression.subs(values)
+
+
+def read_files(paths: Iterable[Path]) -> Model:
+    """The model that files define together: later ones add to earlier ones and replace."""
+    whole: dict = {}
+    for path in paths:
+        try:
+            part = YAML(typ="safe", pure=True).load(Path(path).read_text(encoding="utf-8"))
+        except (OSError, YAMLError) as problem:
+            raise ModelError(f"{path}: {' '.join(str(problem).split())}") from None
+        if not isinstance(part, dict):
+            raise ModelError(f"{path}: expected keys with values below them")
+        whole = overlaid(whole, part)
+    return read_model(whole)
+
+
+def overlaid(whole: dict, part: dict) -> dict:
+    """A definition with another over it: sections are joined, None takes an entry away."""
+    result = dict(whole)
+    for key, value in part.items():
+        if isinstance(value, dict) and isinstance(result.get(key), dict):
+            entries = {**result[key], **value}
+            result[key] = {name: entry for name, entry in entries.items() if entry is not None}
+        else:
+            result[key] = value
+    return result
+
+
+def read_model(values: dict) -> Model:
+    """The model of a definition; raise ModelError naming what is wrong with it."""
+    name = str(values.get("name", ""))
+    if not NAME.match(name):
+        raise ModelError(f"name: {name!r}; expected a letter, then letters, digits or _, <= 48")
+    return _Reader(name, values).model
+
+
+class _Reader:
+    """Reads the parts of a definition in turn."""
+
+    def __init__(self, name: str, values: dict):
+        self.place = f"model {name}"
+        if unknown := sorted(set(values) - KEYS):
+            self.refuse("keys", ", ".join(unknown), f"only {', '.join(sorted(KEYS))}")
+        for key in ("states", "equations"):
+            if not isinstance(values.get(key), dict) or not values[key]:
+                self.refuse(key, values.get(key), "at least one entry")
+        self.model = Model(
+            name=name,
+            about=str(values.get("about", f"The model {name}.")),
+            source=str(values.get("source", "")),
+            parameters=[
+                self.parameter(key, entry or {})
+                for key, entry in (values.get("parameters") or {}).items()
+            ],
+            states={str(key): str(text) for key, text in values["states"].items()},
+            auxiliary={},
+            texts={},
+            definitions={key: str(text) for key, text in (values.get("definitions") or {}).items()},
+            equations={},
+        )
+        model = self.model
+        for key, text in (values.get("auxiliary") or {}).items():
+            found = re.match(r"exp\((\w+)\)\Z", str(text).replace(" ", ""))
+            if not found or found[1] not in model.states:
+                self.refuse(f"auxiliary {key}", text, "exp(STATE)")
+            model.auxiliary[str(key)] = found[1]
+        self.check_names()
+        self.open: list[str] = []
+        if set(values["equations"]) != set(model.states):
+            self.refuse("equations", ", ".join(values["equations"]), f"one for each of {', '.join(model.states)}")
+        for state in model.states:
+            model.texts[state] = str(values["equations"][state])
+            model.equations[state] = self.expression(f"equation of {state}", model.texts[state])
+        self.read_rest(values)
+
+    def refuse(self, what: str, value, expected: str):
+        raise ModelError(f"{self.place}: {what}: {value!r}; expected {expected}")
+
+    def parameter(self, name: str, entry: dict) -> Parameter:
+        allowed = {"meaning", "unit", "above", "at_least", "default"}
+        if not isinstance(entry, dict) or set(entry) - allowed:
+            self.refuse(f"parameter {name}", entry, f"keys of {', '.join(sorted(allowed))}")
+        numbers = {key: entry[key] for key in ("above", "at_least", "default") if key in entry}
+        for key, value in numbers.items():
+            if isinstance(value, bool) or not isinstance(value, int | float):
+                self.refuse(f"{key} of parameter {name}", value, "a number")
+        return Parameter(
+            str(name),
+            str(entry.get("meaning", name)),
+            str(entry.get("unit", "nondimensional")),
+            **{key: float(value) for key, value in numbers.items()},
+        )
+
+    def check_names(self) -> None:
+        """Names are distinct for Fortran, which knows no upper and lower case."""
+        model, seen = self.model, set()
+        for name in [
+            *(one.name for one in model.parameters),
+            *model.states,
+            *model.auxiliary,
+            *model.definitions,
+        ]:
+            low = name.lower()
+            if not NAME.match(name) or low in TAKEN or keyword.iskeyword(name):
+                self.refuse("name", name, "a letter, then letters, digits or _, no name of the generated code")
+            if low in seen:
+                self.refuse("name", name, "each name once, whatever its case")
+            seen.add(low)
+
+    def read_rest(self, values: dict) -> None:
+        """What a definition may leave out."""
+        model = self.model
+        if values.get("steady_state") is not None:
+            steady = values["steady_state"]
+            if set(steady) != set(model.states):
+                self.refuse("steady_state", ", ".join(steady), "a value for each state")
+            model.steady_state = {
+                state: self.expression(f"steady state of {state}", steady[state])
+                for state in model.states
+            }
+            for state, equation in model.equations.items():
+                if (left := sympy.simplify(model.at_steady_state(equation))) != 0:
+                    text = f"{model.texts[state]} = {left}"
+                    self.refuse(f"equation of {state} at the steady state", text, "0")
+        if values.get("history") is not None:
+            model.history = {
+                state: self.expression(f"history of {state}", values["history"].get(state, 0))
+                for state in model.states
+            }
+        fast = values.get("fast")
+        if fast is not None and fast not in model.states:
+            self.refuse("fast", fast, f"one of the states {', '.join(model.states)}")
+        model.fast = fast
+        for state, window in (values.get("domain") or {}).items():
+            if state not in model.states or not isinstance(window, list) or len(window) != 2:
+                self.refuse(f"domain of {state}", window, "a state with its least and largest value")
+            model.domain[state] = (float(window[0]), float(window[1]))
+
+    def expression(self, place: str, text) -> sympy.Expr:
+        """An expression from its text."""
+        try:
+            tree = ast.parse(str(text).strip(), mode="eval")
+        except (SyntaxError, ValueError):
+            self.refuse(place, text, "an expression such as -v*(theta + log(v(t - tau)))")
+        value = _Expression(self, place, str(text).strip()).value(tree.body)
+        if value.has(sympy.zoo, sympy.nan, sympy.oo):
+            self.refuse(place, text, "an expression that is finite")
+        return value
+
+    def definition(self, name: str) -> sympy.Expr:
+        """A named part of the equations."""
+        if name in self.open:
+            self.refuse("definition", " > ".join([*self.open, name]), "no definition of itself")
+        self.open.append(name)
+        value = self.expression(f"definition of {name}", self.model.definitions[name])
+        self.open.pop()
+        return value
+
+    def delayed(self, state: str, lag: sympy.Expr) -> sympy.Symbol:
+        """The symbol of a state some time ago, the same for the same time."""
+        for one in self.model.delayed:
+            if one.state == state and one.lag == lag:
+                return one.symbol
+        number = len(self.model.delayed) + 1
+        symbol = sympy.Symbol(f"{state}_delayed_{number}", real=True)
+        self.model.delayed.append(Delayed(state, lag, symbol))
+        return symbol
+
+
+class _Expression:
+    """Turns the parsed text of one expression into symbols."""
+
+    def __init__(self, reader: _Reader, place: str, text: str):
+        self.reader, self.place, self.text = reader, place, text
+
+    def refuse(self, node: ast.AST, expected: str):
+        part = ast.get_source_segment(self.text, node) or self.text
+        self.reader.refuse(self.place, part, expected)
+
+    def value(self, node: ast.AST) -> sympy.Expr:
+        match node:
+            case ast.Constant(value=int() | float()) if not isinstance(node.value, bool):
+                # the decimal digits as written are exact
+                return sympy.Rational(ast.get_source_segment(self.text, node).replace("_", ""))
+            case ast.Name(id=name):
+                return self.named(node, name)
+            case ast.UnaryOp(op=ast.USub(), operand=one):
+                return -self.value(one)
+            case ast.UnaryOp(op=ast.UAdd(), operand=one):
+                return self.value(one)
+            case ast.BinOp(left=left, op=operator, right=right):
+                return self.combined(node, operator, self.value(left), self.value(right))
+            case ast.Call(func=ast.Name(id=name), args=args, keywords=[]):
+                return self.called(node, name, args)
+        self.refuse(node, "numbers, names, + - * / **, and functions")
+
+    def named(self, node: ast.Name, name: str) -> sympy.Expr:
+        model = self.reader.model
+        if name == "t":
+            return TIME
+        if name in model.definitions:
+            return self.reader.definition(name)
+        if name in {*model.states, *model.auxiliary, *(one.name for one in model.parameters)}:
+            return model.symbol(name)
+        known = [*(one.name for one in model.parameters), *model.states, *model.auxiliary]
+        self.refuse(node, f"one of {', '.join([*known, *model.definitions])}")
+
+    def combined(self, node, operator, left: sympy.Expr, right: sympy.Expr) -> sympy.Expr:
+        match operator:
+            case ast.Add():
+                return left + right
+            case ast.Sub():
+                return left - right
+            case ast.Mult():
+                return left * right
+            case ast.Div():
+                return left / right
+            case ast.Pow():
+                if right.free_symbols & self.reader.model.variables:
+                    self.refuse(node, "a power with a constant exponent; write exp(b*log(a))")
+                return left**right
+        self.refuse(node, "+ - * / **")
+
+    def called(self, node: ast.Call, name: str, args: list[ast.AST]) -> sympy.Expr:
+        model = self.reader.model
+        if name in {*model.states, *model.auxiliary}:
+            return self.delayed(node, name, args)
+        if name == "derivative" and len(args) == 2 and isinstance(args[1], ast.Name):
+            return model.by_state(self.value(args[0]), args[1].id)
+        if name not in FUNCTIONS or len(args) != 1:
+            expected = f"one of {', '.join(FUNCTIONS)} of one argument, or STATE(t - delay)"
+            self.refuse(node, f"{expected}: other functions are not analytic or have no series here")
+        argument = self.value(args[0])
+        for auxiliary, state in model.auxiliary.items():
+            of, value = model.symbol(state), model.symbol(auxiliary)
+            if name == "log" and argument == value:
+                return of
+            if name == "exp" and argument in (of, -of):
+                return value ** (1 if argument == of else -1)
+        return FUNCTIONS[name](argument)
+
+    def delayed(self, node: ast.Call, name: str, args: list[ast.AST]) -> sympy.Expr:
+        model = self.reader.model
+        lag = TIME - self.value(args[0]) if len(args) == 1 else TIME
+        if lag == 0:
+            return model.symbol(name)
+        if lag.free_symbols & model.variables or (lag.is_number and lag <= 0):
+            self.refuse(node, f"{name}(t - DELAY) with a delay >= 0 of numbers and parameters")
+        if name in model.auxiliary:
+            return sympy.exp(self.reader.delayed(model.auxiliary[name], lag))
+        return self.reader.delayed(name, lag)

@@ -1,0 +1,188 @@
+!> The characteristic function of a model at its steady state,
+!>
+!>     Delta(s) = det(s I - A_0 - sum over k of A_k exp(-s lag_k)) = sum over d of P_d(s) exp(-s d),
+!>
+!> with polynomials P_d, from the terms that were made from the equations.
+module characteristic_function
+   use dde_kinds, only: wp
+   use model_problem, only: model_type
+   implicit none (type, external)
+   private
+   public :: characteristic_of, characteristic_type
+
+   !> Delta(s) of a model, and its derivatives by the model's parameters.
+   type :: characteristic_type
+      !> Number of equations: the degree of P_0, whose first coefficient is 1
+      integer :: n = 0
+      !> Delays d, ascending; the first is 0
+      real(wp), allocatable :: delay(:)
+      !> Coefficients of P_d, shape (0:n, delays)
+      real(wp), allocatable :: coefficient(:, :)
+      !> Derivatives by the parameters, shapes (delays, parameters) and (0:n, delays, parameters)
+      real(wp), allocatable :: delay_by(:, :), coefficient_by(:, :, :)
+   contains
+      procedure :: value => delta
+      procedure :: by_s
+      procedure :: by_parameter
+      procedure :: part
+      procedure :: part_by_parameter
+      procedure :: slope_bound
+      procedure :: root_by
+      procedure :: relative_residual
+   end type characteristic_type
+
+contains
+
+   !> The characteristic function of a model. Terms of one delay in the definition are one part, also
+   !> where that delay is 0.
+   pure function characteristic_of(model) result(function_of_model)
+      !> The model
+      class(model_type), intent(in) :: model
+      type(characteristic_type) :: function_of_model
+      real(wp), allocatable :: coefficient(:), coefficient_by(:, :), delay(:), delay_by(:, :)
+      integer, allocatable :: part(:), power(:)
+      integer :: i, parts
+
+      call model%characteristic_terms(coefficient, power, delay, part, coefficient_by, delay_by)
+      parts = maxval(part)
+      associate (c => function_of_model)
+         c%n = model%n
+         allocate (c%delay(parts), c%coefficient(0:c%n, parts), &
+                   c%delay_by(parts, size(delay_by, 2)), &
+                   c%coefficient_by(0:c%n, parts, size(delay_by, 2)), source=0.0_wp)
+         do i = 1, size(coefficient)
+            c%delay(part(i)) = delay(i)
+            c%delay_by(part(i), :) = delay_by(i, :)
+            c%coefficient(power(i), part(i)) = coefficient(i)
+            c%coefficient_by(power(i), part(i), :) = coefficient_by(i, :)
+         end do
+      end associate
+   end function characteristic_of
+
+   !> P_d(s), without the exponential.
+   pure complex(wp) function part(self, number, s) result(value)
+      class(characteristic_type), intent(in) :: self
+      !> Number of the delay
+      integer, intent(in) :: number
+      !> Point of the complex plane
+      complex(wp), intent(in) :: s
+
+      value = polynomial(self%coefficient(:, number), s)
+   end function part
+
+   !> Derivative of P_d(s) by a parameter.
+   pure complex(wp) function part_by_parameter(self, number, parameter, s) result(value)
+      class(characteristic_type), intent(in) :: self
+      !> Number of the delay, number of the parameter
+      integer, intent(in) :: number, parameter
+      !> Point of the complex plane
+      complex(wp), intent(in) :: s
+
+      value = polynomial(self%coefficient_by(:, number, parameter), s)
+   end function part_by_parameter
+
+   !> Delta(s).
+   pure complex(wp) function delta(self, s) result(value)
+      class(characteristic_type), intent(in) :: self
+      !> Point of the complex plane
+      complex(wp), intent(in) :: s
+      integer :: i
+
+      value = self%part(1, s)
+      do i = 2, size(self%delay)
+         value = value + self%part(i, s)*exp(-s*self%delay(i))
+      end do
+   end function delta
+
+   !> Derivative of Delta by s.
+   pure complex(wp) function by_s(self, s) result(value)
+      class(characteristic_type), intent(in) :: self
+      !> Point of the complex plane
+      complex(wp), intent(in) :: s
+      integer :: i, power
+
+      value = 0.0_wp
+      do i = 1, size(self%delay)
+         value = value + (polynomial([(power*self%coefficient(power, i), power=1, self%n)], s) &
+                          - self%delay(i)*self%part(i, s))*exp(-s*self%delay(i))
+      end do
+   end function by_s
+
+   !> Derivative of Delta by a parameter.
+   pure complex(wp) function by_parameter(self, parameter, s) result(value)
+      class(characteristic_type), intent(in) :: self
+      !> Number of the parameter
+      integer, intent(in) :: parameter
+      !> Point of the complex plane
+      complex(wp), intent(in) :: s
+      integer :: i
+
+      value = 0.0_wp
+      do i = 1, size(self%delay)
+         value = value + (self%part_by_parameter(i, parameter, s) &
+                          - s*self%delay_by(i, parameter)*self%part(i, s))*exp(-s*self%delay(i))
+      end do
+   end function by_parameter
+
+   !> Derivative of a root by a parameter.
+   pure complex(wp) function root_by(self, parameter, s) result(value)
+      class(characteristic_type), intent(in) :: self
+      !> Number of the parameter
+      integer, intent(in) :: parameter
+      !> The root
+      complex(wp), intent(in) :: s
+
+      value = -self%by_parameter(parameter, s)/self%by_s(s)
+   end function root_by
+
+   !> Sum of the sizes of the terms of the derivative of Delta by s.
+   pure real(wp) function slope_bound(self, s) result(value)
+      class(characteristic_type), intent(in) :: self
+      !> Point of the complex plane
+      complex(wp), intent(in) :: s
+      real(wp) :: size_of_s, total
+      integer :: i, power
+
+      size_of_s = abs(s)
+      value = 0.0_wp
+      do i = 1, size(self%delay)
+         total = 0.0_wp
+         do power = self%n, 0, -1
+            total = total*size_of_s + abs(self%coefficient(power, i))*self%delay(i)
+            if (power < self%n) total = total + (power + 1)*abs(self%coefficient(power + 1, i))
+         end do
+         value = value + total*exp(-real(s)*self%delay(i))
+      end do
+   end function slope_bound
+
+   !> |Delta(s)| over its largest term: how well s is a characteristic root.
+   pure real(wp) function relative_residual(self, s) result(value)
+      class(characteristic_type), intent(in) :: self
+      !> Point of the complex plane
+      complex(wp), intent(in) :: s
+      real(wp) :: largest
+      integer :: i, power
+
+      largest = 0.0_wp
+      do i = 1, size(self%delay)
+         do power = 0, self%n
+            largest = max(largest, abs(self%coefficient(power, i))*abs(s)**power &
+                          *exp(-real(s)*self%delay(i)))
+         end do
+      end do
+      value = abs(self%value(s))/largest
+   end function relative_residual
+
+   !> A polynomial with real coefficients.
+   pure complex(wp) function polynomial(coefficient, s) result(value)
+      !> Coefficients of s**0, s**1, ...
+      real(wp), intent(in) :: coefficient(0:)
+      complex(wp), intent(in) :: s
+      integer :: power
+
+      value = coefficient(ubound(coefficient, 1))
+      do power = ubound(coefficient, 1) - 1, 0, -1
+         value = value*s + coefficient(power)
+      end do
+   end function polynomial
+end module characteristic_function

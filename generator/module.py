@@ -1,0 +1,165 @@
+"""The Fortran module of a model."""
+
+from pathlib import Path
+
+import jinja2
+import sympy
+
+from generator import pointwise, series, tangents
+from generator.definition import TIME, Model
+from generator.fortran import text_of, wrapped
+from generator.graph import Graph, in_order
+from generator.recurrences import Constants, Recurrences, fetch_parameters
+from generator.series import Procedure
+
+TEMPLATES = jinja2.Environment(
+    loader=jinja2.FileSystemLoader(Path(__file__).parent),
+    trim_blocks=True,
+    lstrip_blocks=True,
+    keep_trailing_newline=True,
+    undefined=jinja2.StrictUndefined,
+    autoescape=False,  # the text is Fortran
+)
+
+
+def write_module(model: Model) -> str:
+    """The text of the module."""
+    balance = series.balance_of(model)
+    flow = series.flow_of(model)
+    parts = {
+        "rhs": pointwise.rhs_procedure(model),
+        "jacobian": pointwise.jacobian_procedure(model),
+        "series": series.series_procedure(model),
+        "tangent_series": tangents.tangent_series_procedure(model),
+        "description": description_lines(model),
+        "delayed": delayed_procedure(model),
+        "steady_state": steady_state_procedure(model),
+        "derivative": None,
+        "characteristic": Procedure([], [], [], []),
+        "terms": [],
+        "history_series": [],
+        "flow_texts": flow_texts(model, flow),
+    }
+    if balance:
+        parts["relaxation_rate"] = pointwise.relaxation_procedure(model, balance)
+        parts["slow_series"] = series.slow_series_procedure(model, balance)
+        parts["slow_tangent_series"] = tangents.slow_tangent_series_procedure(model, balance)
+    if model.steady_state:
+        parts["derivative"] = pointwise.derivative_procedure(model)
+        parts["characteristic"] = pointwise.characteristic_procedure(model)
+        parts["terms"] = pointwise.characteristic_terms(model)
+    if model.history:
+        parts["history"] = history_procedure(model)
+        parts["history_series"] = [history_series_procedure(model, state) for state in model.states]
+    return rendered("model.f90.jinja", model=model, balance=balance, **parts)
+
+
+def write_registry(names: list[str]) -> str:
+    """The text of the module that makes models by their names."""
+    return rendered("registry.f90.jinja", names=names)
+
+
+def rendered(template: str, **values) -> str:
+    """The text of a template, in lines of a length that compilers take."""
+    text = TEMPLATES.get_template(template).render(**values)
+    lines = [part for line in text.splitlines() for part in wrapped(line.rstrip())]
+    return "\n".join(lines) + "\n"
+
+
+def flow_texts(model: Model, flow: series.Flow) -> dict[str, str]:
+    """The equations as they are integrated."""
+    texts = dict(model.texts)
+    for auxiliary, state in flow.integrated.items():
+        texts[state] = f"{auxiliary}'/{auxiliary}"
+        texts[auxiliary] = str(series.rate_of_auxiliary(model, auxiliary))
+    return texts
+
+
+def description_lines(model: Model) -> list[str]:
+    """Statements that describe the model."""
+    equations = [f"{state}' = {text}" for state, text in model.texts.items()]
+    equations += [f"{name} = {text}" for name, text in model.definitions.items()]
+    equations += [f"{name} = exp({state})" for name, state in model.auxiliary.items()]
+    lines = [
+        f"description%name = {quoted(model.name)}",
+        f"description%source = {quoted(model.source)}",
+        f"allocate (description%parameters({len(model.parameters)}))",
+        f"allocate (description%equations({len(equations)}))",
+    ]
+    for place, one in enumerate(model.parameters, 1):
+        lines += [
+            f"description%parameters({place})%name = {quoted(one.name)}",
+            f"description%parameters({place})%meaning = {quoted(one.meaning)}",
+            f"description%parameters({place})%unit = {quoted(one.unit)}",
+        ]
+        for key in ("above", "at_least"):
+            if getattr(one, key) is not None:
+                value = text_of(sympy.Rational(str(getattr(one, key))))
+                lines.append(f"description%parameters({place})%{key} = {value}")
+    lines += [f"description%equations({place}) = {quoted(text)}" for place, text in enumerate(equations, 1)]
+    return lines
+
+
+def quoted(text: str) -> str:
+    """A character constant."""
+    return '"' + text.replace('"', '""') + '"'
+
+
+def delayed_procedure(model: Model) -> Procedure:
+    """Delays and components of the delayed states."""
+    parameters = series.uses_parameters(model, [one.lag for one in model.delayed])
+    states = list(model.states)
+    lines = [
+        *fetch_parameters(model, parameters),
+        f"lag = [real(wp) :: {', '.join(text_of(one.lag) for one in model.delayed)}]",
+        f"component = [integer :: {', '.join(str(states.index(one.state) + 1) for one in model.delayed)}]",
+    ]
+    return Procedure(parameters, [], [], lines)
+
+
+def steady_state_procedure(model: Model) -> Procedure:
+    """The state at rest."""
+    if model.steady_state is None:
+        return Procedure([], [], [], ["state = ieee_value(1.0_wp, ieee_quiet_nan)"])
+    values = list(model.steady_state.values())
+    parameters = series.uses_parameters(model, values)
+    lines = [*fetch_parameters(model, parameters)]
+    lines += [f"state({place}) = {text_of(value)}" for place, value in enumerate(values, 1)]
+    return Procedure(parameters, [], [], lines)
+
+
+def history_procedure(model: Model) -> Procedure:
+    """Values up to the initial time."""
+    parameters = series.uses_parameters(model, list(model.history.values()))
+    lines = [*fetch_parameters(model, parameters), "select case (component)"]
+    for place, value in enumerate(model.history.values(), 1):
+        lines += [f"case ({place})", f"   value = {text_of(value)}"]
+    lines += ["case default", "   value = ieee_value(1.0_wp, ieee_quiet_nan)", "end select"]
+    return Procedure(parameters, [], [], lines)
+
+
+def history_series_procedure(model: Model, state: str) -> Procedure:
+    """Coefficients of one component up to the initial time."""
+    graph = Graph(model, {TIME: "time"})
+    target = graph.node(sympy.sympify(model.history[state]))
+    nodes = in_order([target])
+    constants = Constants(model)
+    recurrences = Recurrences(nodes, [target], constants)
+    first = [line for node in nodes for line in recurrences.first.get(node, [])]
+    later = [line for node in nodes for line in recurrences.later.get(node, [])]
+    start, rest = recurrences.rate_text(target, first=True), recurrences.rate_text(target)
+    lines = [
+        *constants.fetched(),
+        "time_0 = t",
+        *first,
+        f"y(0) = {start}",
+        "do k = 1, degree",
+        *("   " + line for line in recurrences.loop()),
+        "   time = merge(unit, 0.0_wp, k == 1)",
+        *("   " + line for line in later),
+        *("   " + line for line in recurrences.stores()),
+        f"   y(k) = {rest}",
+        "end do",
+    ]
+    reals = [*constants.scalars(), "time", "time_0", *recurrences.scalars]
+    return Procedure(reals, recurrences.arrays(), ["j", "k"] if recurrences.sums else ["k"], lines)

@@ -1,0 +1,192 @@
+"""Procedures that need one state: the right-hand side, its derivatives, and the linear part."""
+
+
+import sympy
+
+from generator.definition import Model
+from generator.fortran import text_of
+from generator.recurrences import fetch_parameters
+from generator.series import Balance, Procedure, guarded, refusals, uses_parameters
+
+
+def fetch_states(model: Model, expressions: list[sympy.Expr]) -> tuple[list[str], list[str], list[str]]:
+    """Statements that set states, delayed states and auxiliaries; and the names that they set.
+
+    The auxiliaries are by themselves: they may have no value.
+    """
+    symbols = set().union(*(one.free_symbols for one in expressions)) if expressions else set()
+    states, names = [], []
+    wanted = {one.state for one in model.delayed if one.symbol in symbols}
+    wanted |= {state for name, state in model.auxiliary.items() if model.symbol(name) in symbols}
+    wanted |= set(model.domain)
+    for place, state in enumerate(model.states, 1):
+        if model.symbol(state) in symbols or state in wanted:
+            states.append(f"{state} = y({place})")
+            names.append(state)
+    for number, one in enumerate(model.delayed, 1):
+        if one.symbol in symbols:
+            name = one.symbol.name
+            states += [
+                f"{name} = {one.state}",
+                f"if (self%place({number}) > 0) {name} = z(self%place({number}))",
+            ]
+            names.append(name)
+    auxiliary = [
+        f"{name} = exp({state})" for name, state in model.auxiliary.items() if model.symbol(name) in symbols
+    ]
+    names += [name for name in model.auxiliary if model.symbol(name) in symbols]
+    return states, auxiliary, names
+
+
+def guard_lines(model: Model, result: str) -> list[str]:
+    """Statements that end a procedure where the equations have no value."""
+    names = {model.symbol(name): f"exp({state})" for name, state in model.auxiliary.items()}
+    names |= {model.symbol(state): state for state in model.states}
+    names |= {one.symbol: one.symbol.name for one in model.delayed}
+    return refusals(model, list(model.equations.values()), names, result)
+
+
+def rhs_procedure(model: Model) -> Procedure:
+    """The equations themselves."""
+    equations = list(model.equations.values())
+    states, auxiliary, names = fetch_states(model, [*equations, *guarded(model)])
+    parameters = uses_parameters(model, equations)
+    lines = [
+        *fetch_parameters(model, parameters),
+        *states,
+        *guard_lines(model, "dydt"),
+        *auxiliary,
+        *(f"dydt({place}) = {text_of(one)}" for place, one in enumerate(equations, 1)),
+    ]
+    return Procedure([*parameters, *names], [], [], lines)
+
+
+def jacobian_procedure(model: Model) -> Procedure:
+    """Derivatives of the equations by states and delayed states."""
+    entries: dict[str, sympy.Expr] = {}
+    absent: dict[int, list[str]] = {}
+    for row, equation in enumerate(model.equations.values(), 1):
+        for column, state in enumerate(model.states, 1):
+            entries[f"by_y({row}, {column})"] = model.by_state(equation, state)
+        for number, one in enumerate(model.delayed, 1):
+            entries[f"delayed_{row}_{number}"] = equation.diff(one.symbol)
+    entries = {name: value for name, value in entries.items() if value != 0}
+    shared, reduced = sympy.cse(
+        list(entries.values()), symbols=sympy.numbered_symbols("part_", real=True, start=1)
+    )
+    states, auxiliary, names = fetch_states(model, [*entries.values(), *guarded(model)])
+    parameters = uses_parameters(model, [*entries.values(), *guarded(model)])
+    texts = dict(zip(entries, map(text_of, reduced), strict=True))
+    lines = [
+        *fetch_parameters(model, parameters),
+        *states,
+        *guard_lines(model, "by_y"),
+        *auxiliary,
+        *(f"{name} = {text_of(value)}" for name, value in shared),
+        "by_y = 0.0_wp",
+        *(f"{name} = {text}" for name, text in texts.items() if name.startswith("by_y")),
+    ]
+    # without its delay a delayed state is the present one
+    for number, one in enumerate(model.delayed, 1):
+        column = list(model.states).index(one.state) + 1
+        rows = [row for row in range(1, len(model.states) + 1) if f"delayed_{row}_{number}" in texts]
+        lines += [f"if (self%place({number}) > 0) then", f"   by_z(:, self%place({number})) = 0.0_wp"]
+        lines += [f"   by_z({row}, self%place({number})) = {texts[f'delayed_{row}_{number}']}" for row in rows]
+        absent[number] = [
+            f"   by_y({row}, {column}) = by_y({row}, {column}) + {braced(texts[f'delayed_{row}_{number}'])}"
+            for row in rows
+        ]
+        lines += ["else", *absent[number], "end if"]
+    # no number in all of them
+    lines = [line.replace("   return", "   by_z = by_y(1, 1)\n   return") for line in lines]
+    lines = [part for line in lines for part in line.split("\n")]
+    return Procedure([*parameters, *names, *(str(name) for name, _ in shared)], [], [], lines)
+
+
+def braced(text: str) -> str:
+    """A summand."""
+    return f"({text})" if text.startswith("-") else text
+
+
+def relaxation_procedure(model: Model, balance: Balance) -> Procedure:
+    """The rate at which the fast state approaches its balance, (rate of the definition)/v."""
+    parameters = uses_parameters(model, [balance.rate])
+    place = list(model.states).index(balance.state) + 1
+    least = text_of(sympy.Rational(str(model.domain.get(balance.state, (-300, 0))[0])))
+    lines = [
+        *fetch_parameters(model, parameters),
+        f"rate = {text_of(balance.rate)}*exp(-max({least}, y({place})))",
+    ]
+    return Procedure(parameters, [], [], lines)
+
+
+def derivative_procedure(model: Model) -> Procedure:
+    """The k-linear forms of the equations at the steady state, by nilpotent numbers."""
+    equations = list(model.equations.values())
+    symbols = set().union(*(one.free_symbols for one in equations))
+    parameters = uses_parameters(model, [*equations, *model.steady_state.values()])
+    lines = fetch_parameters(model, parameters)
+    names = []
+    for place, (state, value) in enumerate(model.steady_state.items(), 1):
+        lines.append(f"{state} = disturbed({text_of(value)}, x({place}, 1, :))")
+        names.append(state)
+    for number, one in enumerate(model.delayed, 1):
+        place = list(model.states).index(one.state) + 1
+        value = text_of(model.steady_state[one.state])
+        lines.append(f"{one.symbol.name} = disturbed({value}, x({place}, {number + 1}, :))")
+        names.append(one.symbol.name)
+    for name, state in model.auxiliary.items():
+        if model.symbol(name) in symbols:
+            lines.append(f"{name} = exp({state})")
+            names.append(name)
+    for place, equation in enumerate(equations, 1):
+        constant = not equation.free_symbols & model.variables
+        lines.append(f"form({place}) = " + ("0.0_wp" if constant else f"top({text_of(equation)})"))
+    return Procedure(parameters, [], [], lines, lanes=names)
+
+
+def characteristic_terms(model: Model) -> list[tuple[sympy.Expr, int, sympy.Expr]]:
+    """The terms c s^m exp(-s d) of det(s I - A_0 - sum of A_k exp(-s lag_k)): c, m and d."""
+    s = sympy.Symbol("s_")
+    decays = [sympy.Symbol(f"decay_{i}") for i in range(len(model.delayed))]
+    size = len(model.states)
+    matrix = sympy.zeros(size, size)
+    for row, equation in enumerate(model.equations.values()):
+        for column, state in enumerate(model.states):
+            entry = model.at_steady_state(model.by_state(equation, state))
+            for decay, one in zip(decays, model.delayed, strict=True):
+                if one.state == state:
+                    entry += model.at_steady_state(equation.diff(one.symbol)) * decay
+            matrix[row, column] = (s if row == column else 0) - sympy.simplify(entry)
+    polynomial = sympy.Poly(matrix.det(method="berkowitz"), s, *decays)
+    terms = []
+    for (power, *times), coefficient in polynomial.terms():
+        delay = sympy.Add(*(n * one.lag for n, one in zip(times, model.delayed, strict=True)))
+        terms.append((sympy.expand(coefficient), power, delay))
+    return terms
+
+
+def characteristic_procedure(model: Model) -> Procedure:
+    """Coefficients, powers and delays of the terms, and their derivatives by the parameters."""
+    terms = characteristic_terms(model)
+    values = [value for coefficient, _, delay in terms for value in (coefficient, delay)]
+    parameters = uses_parameters(model, values)
+    lines = fetch_parameters(model, parameters)
+    lines += ["coefficient_by = 0.0_wp", "delay_by = 0.0_wp"]
+    parts = [sympy.S.Zero]
+    for i, (coefficient, power, delay) in enumerate(terms, 1):
+        if delay not in parts:
+            parts.append(delay)
+        lines += [
+            f"coefficient({i}) = {text_of(coefficient)}",
+            f"power({i}) = {power}",
+            f"delay({i}) = {text_of(delay)}",
+            f"part({i}) = {parts.index(delay) + 1}",
+        ]
+        for j, one in enumerate(model.parameters, 1):
+            for array, value in (("coefficient_by", coefficient), ("delay_by", delay)):
+                slope = sympy.expand(value.diff(model.symbol(one.name)))
+                if slope != 0:
+                    lines.append(f"{array}({i}, {j}) = {text_of(slope)}")
+    return Procedure(parameters, [], [], lines)
+

@@ -1,0 +1,264 @@
+"""Statements that compute the Taylor coefficients of a graph, order by order.
+
+With a_k for coefficient k (Jorba and Zou 2005, "A software package for the numerical integration of
+ODEs by means of high-order Taylor methods", sec. 2):
+
+    p = a b       p_k = sum_j a_(k-j) b_j
+    q = a/b       b_0 q_k = a_k - sum_(j<k) b_(k-j) q_j
+    e = exp(a)    k e_k = sum_j e_(k-j) j a_j
+    l = log(a)    a_0 k l_k = k a_k - sum_(0<j<k) a_(k-j) j l_j
+    p = a**c      a_0 k p_k = c sum_j p_(k-j) j a_j - sum_(0<j<k) a_(k-j) j p_j
+
+Order 0 is computed by itself. Of every higher order the terms with a newest coefficient are
+computed last, from scalars: the others, 0 < j < k, are known before, in one loop for all sums.
+There the left factor is stored backwards, so that both factors are read forwards.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import sympy
+
+from generator.definition import Model
+from generator.fortran import text_of
+from generator.graph import Node
+
+
+@dataclass
+class Constants:
+    """What does not change in time: parameters in use, and numbers computed from them once a call."""
+
+    model: Model
+    names: dict[sympy.Expr, str] = field(default_factory=dict)
+    lines: list[str] = field(default_factory=list)
+
+    def text(self, value: sympy.Expr) -> str:
+        """A positive factor: a number, a parameter, or the name of a constant."""
+        if value.is_Integer:
+            return text_of(value)
+        if value.is_Symbol:
+            self.names[value] = value.name
+        elif value not in self.names:
+            self.names[value] = f"constant_{len(self.lines) + 1}"
+            self.lines.append(f"{self.names[value]} = {text_of(value)}")
+        return self.names[value]
+
+    def parameters(self) -> list[str]:
+        """Names of the parameters that the constants take."""
+        used = {symbol.name for value in self.names for symbol in value.free_symbols}
+        return [one.name for one in self.model.parameters if one.name in used]
+
+    def fetched(self) -> list[str]:
+        """Statements that set parameters and constants."""
+        return [*fetch_parameters(self.model, self.parameters()), *self.lines]
+
+    def scalars(self) -> list[str]:
+        """Names that these statements set."""
+        return [*self.parameters(), *self.names.values()]
+
+
+def fetch_parameters(model: Model, names: list[str]) -> list[str]:
+    """Statements that give parameters their names."""
+    order = [one.name for one in model.parameters]
+    return [f"{name} = self%parameters({order.index(name) + 1})" for name in names]
+
+
+def weighted_sum(parts: list[tuple[sympy.Expr, str]], constants: Constants) -> str:
+    """A sum of weights times texts; "" without parts."""
+    written = ""
+    # a term without a sign first, where there is one
+    for weight, text in sorted(parts, key=lambda part: part[0].could_extract_minus_sign()):
+        negative = weight.could_extract_minus_sign()
+        size = -weight if negative else weight
+        factors = [constants.text(size)] * (size != 1 or not text) + [text] * bool(text)
+        term = "*".join(factors)
+        sign = ("-" if negative else "") if not written else " - " if negative else " + "
+        written += sign + term
+    return written
+
+
+@dataclass
+class Recurrences:
+    """The nodes of a graph in order, with a statement for each at order 0 and at order k."""
+
+    nodes: list[Node]
+    roots: list[Node]
+    """Those whose coefficients are wanted."""
+    constants: Constants
+    inlined: set[Node] = field(default_factory=set)
+    """Sums that stand within the expression that takes them."""
+    sums: list[tuple[str, str]] = field(default_factory=list)
+    """Left array, stored backwards, and right array of each sum over lower orders."""
+    backwards: dict[str, str] = field(default_factory=dict)
+    """Stored backwards: the array of each quantity."""
+    forwards: dict[str, str] = field(default_factory=dict)
+    scalars: list[str] = field(default_factory=list)
+
+    def __post_init__(self):
+        uses: dict[Node, int] = {}
+        for one in self.roots:
+            uses[one] = uses.get(one, 0) + 1
+        for node in self.nodes:
+            for place, one in enumerate(node.args):
+                # what a convolution takes is stored, but for the dividend
+                stored = node.is_convolution and not (node.kind == "quotient" and place == 0)
+                uses[one] = uses.get(one, 0) + (2 if stored else 1)
+        self.inlined = {node for node in self.nodes if node.kind == "sum" and uses.get(node, 0) < 2}
+        self.first: dict[Node, list[str]] = {}
+        self.later: dict[Node, list[str]] = {}
+        for node in self.nodes:
+            if node.kind != "input" and node not in self.inlined:
+                self.first[node], self.later[node] = self.statements(node)
+
+    def text(self, node: Node, *, first: bool = False) -> str:
+        """The coefficient of a node: its name, or the sum itself."""
+        if node in self.inlined:
+            text = self.sum_text(node, first=first)
+            return text if text.replace("_", "").isalnum() else f"({text})"
+        return f"{node.name}_0" if first else node.name
+
+    def sum_text(self, node: Node, *, first: bool) -> str:
+        """The sum of a node."""
+        parts = [
+            (weight, self.text(one, first=first))
+            for weight, one in zip(node.weights, node.args, strict=True)
+        ]
+        if first and node.constant != 0:
+            parts.append((node.constant, ""))
+        return weighted_sum(parts, self.constants) or "0.0_wp"
+
+    def rate_text(self, node: Node, *, first: bool = False) -> str:
+        """The coefficient of a rate, without brackets around a sum."""
+        inside = node in self.inlined
+        return self.sum_text(node, first=first) if inside else self.text(node, first=first)
+
+    def convolved(self, left: str, right: str) -> str:
+        """The name of the sum over 0 < j < k of left_(k-j) right_j."""
+        self.backwards.setdefault(left, f"{left}_back")
+        self.forwards.setdefault(right, f"{right}_all")
+        pair = (self.backwards[left], self.forwards[right])
+        if pair not in self.sums:
+            self.sums.append(pair)
+        return f"total_{self.sums.index(pair) + 1}"
+
+    def define(self, name: str) -> str:
+        """A scalar that is set."""
+        if name not in self.scalars:
+            self.scalars.append(name)
+        return name
+
+    def statements(self, node: Node) -> tuple[list[str], list[str]]:
+        """The statements of a node at order 0 and at order k."""
+        name = self.define(node.name)
+        zero = self.define(f"{name}_0")
+        if node.kind == "sum":
+            return (
+                [f"{zero} = {self.sum_text(node, first=True)}"],
+                [f"{name} = {self.sum_text(node, first=False)}"],
+            )
+        kinds: dict[str, Callable] = {
+            "product": self.product,
+            "quotient": self.quotient,
+            "exp": self.exponential,
+            "log": self.logarithm,
+            "power": self.power,
+            "sin": self.circle,
+            "cos": self.circle,
+        }
+        return kinds[node.kind](node, name, zero)
+
+    def product(self, node, name, zero):
+        left, right = node.args
+        a, b = self.text(left), self.text(right)
+        rest = self.convolved(a, b)
+        newest = f"2.0_wp*{a}_0*{a}" if a == b else f"{a}_0*{b} + {a}*{b}_0"
+        return [f"{zero} = {a}_0*{b}_0"], [f"{name} = {rest} + {newest}"]
+
+    def quotient(self, node, name, zero):
+        above, below = node.args
+        b = self.text(below)
+        inverse = self.define(f"by_{b}")
+        rest = self.convolved(b, name)
+        above_text = self.text(above)
+        newest = "" if above_text == "0.0_wp" else f"{above_text} - "
+        return (
+            [f"{inverse} = 1.0_wp/{b}_0", f"{zero} = {inverse}*{self.text(above, first=True)}"],
+            [f"{name} = {inverse}*({newest}{zero}*{b} - {rest})"]
+            if newest
+            else [f"{name} = -{inverse}*({zero}*{b} + {rest})"],
+        )
+
+    def multiple(self, a: str) -> str:
+        """The name of k times coefficient k."""
+        return self.define(f"multiple_of_{a}")
+
+    def exponential(self, node, name, zero):
+        a = self.text(node.args[0])
+        multiple = self.multiple(a)
+        rest = self.convolved(name, multiple)
+        return (
+            [f"{zero} = exp({a}_0)"],
+            [f"{multiple} = k*{a}", f"{name} = reciprocal(k)*({rest} + {zero}*{multiple})"],
+        )
+
+    def logarithm(self, node, name, zero):
+        a = self.text(node.args[0])
+        multiple, inverse = self.multiple(name), self.define(f"by_{a}")
+        rest = self.convolved(a, multiple)
+        return (
+            [f"{inverse} = 1.0_wp/{a}_0", f"{zero} = log({a}_0)"],
+            [f"{multiple} = {inverse}*(k*{a} - {rest})", f"{name} = reciprocal(k)*{multiple}"],
+        )
+
+    def power(self, node, name, zero):
+        a = self.text(node.args[0])
+        exponent = text_of(node.exponent) if node.exponent.is_Integer else self.constants.text(node.exponent)
+        own, given, inverse = self.multiple(name), self.multiple(a), self.define(f"by_{a}")
+        grows, rest = self.convolved(name, given), self.convolved(a, own)
+        return (
+            [f"{inverse} = 1.0_wp/{a}_0", f"{zero} = {a}_0**{exponent}"],
+            [
+                f"{given} = k*{a}",
+                f"{own} = {inverse}*({exponent}*({grows} + {zero}*{given}) - {rest})",
+                f"{name} = reciprocal(k)*{own}",
+            ],
+        )
+
+    def circle(self, node, name, zero):
+        argument, partner = node.args
+        a, other = self.text(argument), partner.name
+        multiple = self.multiple(a)
+        rest = self.convolved(other, multiple)
+        sign = "-" if node.kind == "cos" else ""
+        return (
+            [f"{zero} = {node.kind}({a}_0)"],
+            [f"{multiple} = k*{a}", f"{name} = {sign}reciprocal(k)*({rest} + {other}_0*{multiple})"],
+        )
+
+    def loop(self) -> list[str]:
+        """The sums over lower orders."""
+        if not self.sums:
+            return []
+        names = [f"total_{i + 1}" for i in range(len(self.sums))]
+        for name in names:
+            self.define(name)
+        return [
+            *(f"{name} = 0.0_wp" for name in names),
+            "do j = 1, k - 1",
+            *(
+                f"   {name} = {name} + {left}(degree - k + j)*{right}(j)"
+                for name, (left, right) in zip(names, self.sums, strict=True)
+            ),
+            "end do",
+        ]
+
+    def stores(self) -> list[str]:
+        """Keep the newest coefficients for the sums of higher orders."""
+        return [
+            *(f"{array}(degree - k) = {name}" for name, array in self.backwards.items()),
+            *(f"{array}(k) = {name}" for name, array in self.forwards.items()),
+        ]
+
+    def arrays(self) -> list[str]:
+        """Names of all arrays."""
+        return [*self.backwards.values(), *self.forwards.values()]

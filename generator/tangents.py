@@ -1,0 +1,456 @@
+"""Procedures that compute Taylor series of small disturbances: the derivatives of the recurrences.
+
+    p = a b       dp = a db + b da            e = exp(a)    de = e da
+    q = a/b       b dq = da - q db            l = log(a)    a dl = da
+    p = a**c      dp = (c p/a) da             v = exp(w), integrated    v dw = dv
+
+Disturbances are computed in lanes, several at a time: the recurrences of one wait for their own last
+terms, those of several overlap. One product of each sum is one statement: compilers then keep the
+sums in registers.
+"""
+
+from dataclasses import dataclass, field
+
+from generator.definition import Model
+from generator.fortran import indented, text_of
+from generator.graph import Node, in_order
+from generator.recurrences import Constants, Recurrences, weighted_sum
+from generator.series import (
+    Balance,
+    Flow,
+    Procedure,
+    exponential_lines,
+    fetch_inputs,
+    fetch_places,
+    flow_of,
+    flow_with,
+    integral_of,
+    place_names,
+)
+
+
+@dataclass
+class Disturbances:
+    """Statements for the disturbance of each node at order k, and the sums and series they take.
+
+    A disturbance is early where it follows at order k without sums over lower orders: those of
+    states do, and sums of early ones. The sums then hold their newest terms. Of the others the
+    newest terms are added later, and stand as zeros before.
+    """
+
+    flow: Flow
+    nodes: list[Node]
+    roots: list[Node]
+    constants: Constants
+    late: set[Node] = field(default_factory=set)
+    """Inputs that are not early."""
+    sums: list[tuple[str, str]] = field(default_factory=list)
+    series: dict[Node, None] = field(default_factory=dict)
+    """Nodes whose own series are needed."""
+    stored: dict[Node, None] = field(default_factory=dict)
+    """Nodes whose disturbances sums take."""
+    lanes: list[str] = field(default_factory=list)
+    early: list[Node] = field(default_factory=list)
+
+    def __post_init__(self):
+        # which sums stand alone, and which within the expression that takes them
+        self.inlined = Recurrences(self.nodes, self.roots, Constants(self.constants.model)).inlined
+        for node in self.nodes:
+            if self.is_early(node):
+                self.early.append(node)
+        for node in self.nodes:
+            if node.is_convolution:
+                self.formula(node)
+        self.alone = [
+            node
+            for node in self.nodes
+            if node.kind != "input" and node not in self.inlined and not self.is_constant(node)
+        ]
+        self.lanes = [f"d_{node.name}" for node in self.alone if node not in self.stored]
+
+    def is_constant(self, node: Node) -> bool:
+        """Whether a node does not change in time."""
+        return node.kind == "sum" and not node.args
+
+    def is_early(self, node: Node) -> bool:
+        """Whether the disturbance follows without sums over lower orders."""
+        if node.kind == "input":
+            return node not in self.late
+        return node.kind == "sum" and all(map(self.is_early, node.args))
+
+    def text(self, node: Node) -> str:
+        """The disturbance of a node at order k: its name, or the sum itself."""
+        if node in self.inlined:
+            text = self.sum_text(node)
+            return text if text.replace("_", "").isalnum() else f"({text})"
+        return f"d_{node.name}_all(:, k)" if node in self.stored else f"d_{node.name}"
+
+    def sum_text(self, node: Node) -> str:
+        """The sum of a node."""
+        parts = [(weight, self.text(one)) for weight, one in zip(node.weights, node.args, strict=True)]
+        return weighted_sum(parts, self.constants) or "0.0_wp"
+
+    def rate_text(self, node: Node) -> str:
+        """The disturbance of a rate, without brackets around a sum."""
+        return self.sum_text(node) if node in self.inlined else self.text(node)
+
+    def total(self, series: Node, of: Node, shift: str = "k - j") -> str:
+        """The name of the sum of series_(k-j) disturbance_j, the newest term left out if late."""
+        self.series.setdefault(series)
+        self.stored.setdefault(of)
+        pair = (f"{series.name}_series({shift})", f"d_{of.name}_all(:, j)")
+        if pair not in self.sums:
+            self.sums.append(pair)
+        return f"d_total_{self.sums.index(pair) + 1}"
+
+    def times(self, series: Node, of: Node) -> str:
+        """The whole sum over j <= k."""
+        total = self.total(series, of)
+        return total if of in self.early else f"{total} + {series.name}_series(0)*{self.text(of)}"
+
+    def statement(self, node: Node) -> str:
+        """The statement that sets the disturbance of a node."""
+        return f"{self.text(node)} = {self.formula(node)}"
+
+    def formula(self, node: Node) -> str:
+        """The disturbance of a node from those of its arguments."""
+        a = node.args[0] if node.args else node
+        match node.kind:
+            case "sum":
+                return self.sum_text(node)
+            case "product":
+                b = node.args[1]
+                if a is b:
+                    return f"2.0_wp*({self.times(a, a)})"
+                return f"{self.times(a, b)} + {self.times(b, a)}"
+            case "quotient":
+                b = node.args[1]
+                # the newest term of the quotient itself is a zero here
+                own = self.total(b, node)
+                above = "" if self.is_constant(a) else f"{self.text(a)} - "
+                minus = "" if above else "-"
+                return f"{minus}({above}({self.times(node, b)} + {own}))/{b.name}_series(0)"
+            case "exp":
+                return self.times(node, a)
+            case "log":
+                own = self.total(a, node)
+                return f"({self.text(a)} - {own})/{a.name}_series(0)"
+            case "power":
+                ratio = self.ratio(node, a)
+                exponent = (
+                    text_of(node.exponent) if node.exponent.is_Integer else self.constants.text(node.exponent)
+                )
+                return f"{exponent}*({self.times(ratio, a)})"
+            case "sin":
+                return self.times(node.args[1], a)
+            case "cos":
+                return f"-({self.times(node.args[1], a)})"
+        raise TypeError(node.kind)
+
+    def ratio(self, power: Node, base: Node) -> Node:
+        """The node a**c/a."""
+        known = [one for one in self.series if one.kind == "quotient" and one.args == (power, base)]
+        return known[0] if known else self.flow.graph.add("quotient", power, base)
+
+    def loop(self) -> list[str]:
+        """The sums, and zeros for the terms that come later."""
+        if not self.sums:
+            return []
+        names = [f"d_total_{i + 1}" for i in range(len(self.sums))]
+        return [
+            *(f"d_{node.name}_all(:, k) = 0.0_wp" for node in self.stored if node not in self.early),
+            *(f"{name} = 0.0_wp" for name in names),
+            "do j = 0, k",
+            *(f"   {n} = {n} + {left}*{right}" for n, (left, right) in zip(names, self.sums, strict=True)),
+            "end do",
+        ]
+
+    def before_loop(self) -> list[str]:
+        """Statements of early nodes."""
+        return [self.statement(node) for node in self.alone if node in self.early]
+
+    def after_loop(self) -> list[str]:
+        """Statements of the others."""
+        return [self.statement(node) for node in self.alone if node not in self.early]
+
+    def lane_names(self) -> list[str]:
+        """Scalars of each lane."""
+        return [*self.lanes, *(f"d_total_{i + 1}" for i in range(len(self.sums)))]
+
+    def arrays(self) -> list[str]:
+        """Arrays of each lane."""
+        return [f"d_{node.name}_all" for node in self.stored]
+
+
+def base_series(model: Model, wanted: list[Node], flow: Flow, constants: Constants, y: str):
+    """Statements that compute the series of nodes from those of the states, and their names."""
+    given = {flow.graph.known[model.symbol(name)] for name in model.auxiliary}
+    auxiliaries = [node for node in given if node in in_order(wanted)]
+    lines = [
+        line
+        for node in auxiliaries
+        for line in exponential_lines(model, node.name, y, f"{node.name}_series", constants)
+    ]
+    own = ["by_unit"] * any(integral_of(model, node.name) for node in auxiliaries)
+    rest = [node for node in wanted if node not in given]
+    # auxiliaries are inputs here
+    nodes = [node for node in in_order_but(rest, given) if node not in given]
+    if not rest:
+        return lines, own, [f"{node.name}_series" for node in wanted]
+    recurrences = Recurrences(nodes, rest, constants)
+    places = {name: place for place, name in enumerate(model.states, 1)}
+    inputs = [node for node in in_order_but(rest, given) if node.kind == "input" or node in given]
+    reals: list[str] = []
+
+    def fetched(order: str) -> list[str]:
+        end = "_0" if order == "0" else ""
+        found = []
+        states = {one.state for one in model.delayed if one.symbol.name in {node.name for node in inputs}}
+        for name in [*model.states, *model.auxiliary]:
+            if name in states or name in {node.name for node in inputs}:
+                source = f"{y}({order}, {places[name]})" if name in places else f"{name}_series({order})"
+                found.append(f"{name}{end} = {source}")
+                reals.append(f"{name}{end}")
+        more, names = fetch_inputs(model, inputs, order)
+        reals.extend(names)
+        return [*found, *more]
+
+    def kept(order: str) -> list[str]:
+        first = order == "0"
+        texts = [(node, recurrences.rate_text(node, first=first)) for node in rest]
+        return [f"{node.name}_series({order}) = {text}" for node, text in texts]
+
+    first = [line for node in nodes for line in recurrences.first.get(node, [])]
+    later = [line for node in nodes for line in recurrences.later.get(node, [])]
+    lines += [
+        *fetched("0"),
+        *first,
+        *kept("0"),
+        "do k = 1, degree",
+        *indented([*recurrences.loop(), *fetched("k"), *later, *recurrences.stores(), *kept("k")]),
+        "end do",
+    ]
+    arrays = [*recurrences.arrays(), *(f"{node.name}_series" for node in wanted)]
+    arrays += [f"{node.name}_series" for node in auxiliaries]
+    return lines, [*own, *reals, *recurrences.scalars], arrays
+
+
+def in_order_but(roots: list[Node], given: set[Node]) -> list[Node]:
+    """All nodes that some nodes take, without those that given ones take alone."""
+    found: dict[Node, None] = {}
+    started: set[Node] = set()
+
+    def visit(node: Node) -> None:
+        if node in started:
+            return
+        started.add(node)
+        for one in () if node in given else node.args:
+            visit(one)
+        found[node] = None
+
+    for root in roots:
+        visit(root)
+    return list(found)
+
+
+def lane_inputs(model: Model, steps: Disturbances) -> tuple[list[str], list[str], list[str]]:
+    """Statements that set delayed disturbances before all orders and at order k; their arrays."""
+    before, at_order, arrays = [], [], []
+    used = {node.name: node for node in steps.nodes if node.kind == "input"}
+    for number, one in enumerate(model.delayed, 1):
+        if one.symbol.name not in used:
+            continue
+        steps.stored.setdefault(used[one.symbol.name])
+        name = f"d_{one.symbol.name}_all"
+        arrays.append(name)
+        before += [
+            f"if (place_{number} > 0) then",
+            f"   {name} = 0.0_wp",
+            f"   {name}(:used, :) = transpose(dz(:, place_{number}, first:last))",
+            "end if",
+        ]
+        present = steps.flow.graph.known[model.symbol(one.state)]
+        at_order.append(f"if (place_{number} == 0) {name}(:, k) = {steps.text(present)}")
+    if "time" in used:
+        at_order.append(f"{steps.text(used['time'])} = 0.0_wp")
+    return before, at_order, arrays
+
+
+def of_order(texts: dict[str, str], order: str) -> dict[str, str]:
+    """Texts of disturbances at another order; scalars are those of the present one."""
+    return {name: text.replace("(:, k)", f"(:, {order})") for name, text in texts.items()}
+
+
+def of_used(texts: dict[str, str]) -> dict[str, str]:
+    """Texts of disturbances in the lanes that are in use."""
+    return {
+        name: text.replace("(:, ", "(:used, ") if "(" in text else f"{text}(:used)"
+        for name, text in texts.items()
+    }
+
+
+def tangent_series_procedure(model: Model) -> Procedure:
+    """Coefficients 1 to degree of disturbances from their values."""
+    flow = flow_of(model)
+    known = {name: flow.graph.known[model.symbol(name)] for name in flow.rates}
+    driven = {state: auxiliary for auxiliary, state in flow.integrated.items()}
+    rates = {name: node for name, node in flow.rates.items() if name not in driven}
+    roots = list(rates.values())
+    nodes = in_order(roots)
+    constants = Constants(model)
+    steps = Disturbances(flow, nodes, roots, constants)
+    # of v = exp(w), integrated: v_0 dw_(k+1) = dv_(k+1) - sum over j <= k of v_(k+1-j) dw_j
+    shifted = {
+        state: steps.total(known[auxiliary], known[state], "k + 1 - j") for state, auxiliary in driven.items()
+    }
+    before, at_order, delayed = lane_inputs(model, steps)
+    steps.early += [node for node in known.values() if node not in steps.early]
+    rate_lines = [f"d_{name}_rate = {steps.rate_text(node)}" for name, node in rates.items()]
+    statements = [*steps.before_loop()], [*steps.after_loop()]
+    base, reals, arrays = base_series(model, list(steps.series), flow, constants, "y")
+    now = {name: steps.text(node) for name, node in known.items()}
+    start, later = of_order(now, "0"), of_order(now, "k + 1")
+    start_part, part = of_used(start), of_used(later)
+    states = list(model.states)
+    body = [
+        *at_order,
+        *statements[0],
+        *steps.loop(),
+        *statements[1],
+        *rate_lines,
+        "step = unit*reciprocal(k + 1)",
+        *(f"{later[name]} = step*d_{name}_rate" for name in rates),
+        *(
+            f"{later[state]} = by_{auxiliary}*({later[auxiliary]} - {shifted[state]})"
+            for state, auxiliary in driven.items()
+        ),
+        *(f"dy(k + 1, {place}, first:last) = {part[state]}" for place, state in enumerate(states, 1)),
+    ]
+    lines = [
+        *fetch_places(model),
+        *constants.fetched(),
+        *base,
+        *(f"by_{auxiliary} = 1.0_wp/{auxiliary}_series(0)" for auxiliary in driven.values()),
+        "do first = 1, vectors, lanes",
+        *indented(
+            [
+                "last = min(vectors, first + lanes - 1)",
+                "used = last - first + 1",
+                *before,
+                *(f"{start[state]} = 0.0_wp" for state in states),
+                *(f"{start_part[state]} = dy(0, {place}, first:last)" for place, state in enumerate(states, 1)),
+                *(
+                    f"{start[auxiliary]} = {auxiliary}_series(0)*{start[state]}"
+                    for state, auxiliary in driven.items()
+                ),
+                "do k = 0, degree - 1",
+                *indented(body),
+                "end do",
+            ]
+        ),
+        "end do",
+    ]
+    return Procedure(
+        [*constants.scalars(), *reals, *(f"by_{one}" for one in driven.values()), "step"],
+        arrays,
+        [*place_names(model), "first", "j", "k", "last", "used"],
+        lines,
+        lanes=[
+            *(text for text in now.values() if "(" not in text),
+            *(f"d_{name}_rate" for name in rates),
+            *steps.lane_names(),
+        ],
+        lane_arrays=[*steps.arrays(), *delayed],
+    )
+
+
+def slow_tangent_series_procedure(model: Model, balance: Balance) -> Procedure:
+    """Coefficients of disturbances of the slow solution: the derivative of its series."""
+    flow = flow_with(model, {})
+    fast, auxiliary = balance.state, balance.auxiliary
+    known = {name: flow.graph.known[model.symbol(name)] for name in model.states}
+    places = {name: place for place, name in enumerate(model.states, 1)}
+    others = [state for state in model.states if state != fast]
+    target = flow.graph.node(balance.value)
+    roots = [target, *(flow.rates[state] for state in others)]
+    nodes = in_order(roots)
+    constants = Constants(model)
+    steps = Disturbances(flow, nodes, roots, constants)
+    before, at_order, delayed = lane_inputs(model, steps)
+    rate_lines = [f"d_{state}_rate = {steps.rate_text(flow.rates[state])}" for state in others]
+    now = {name: steps.text(node) for name, node in known.items()}
+    fast_line = f"{now[fast]} = {steps.rate_text(target)} - inertia*d_rate_before(:, k)"
+    statements = [*steps.before_loop()], [*steps.after_loop()]
+    inertia = constants.text(1 / balance.rate)
+    exponential = exponential_lines(model, auxiliary, "before", f"{auxiliary}_before", constants)
+    base, reals, arrays = base_series(model, list(steps.series), flow, constants, "y")
+    integral = integral_of(model, auxiliary)
+    if integral is None:
+        growth = [
+            "do k = 0, degree - 1",
+            "   do j = 0, k + 1",
+            "      d_rate_before(:used, k) = d_rate_before(:used, k) &",
+            f"         + {auxiliary}_before(k + 1 - j)*dy(j, {places[fast]}, first:last)",
+            "   end do",
+            "   d_rate_before(:, k) = (k + 1)*d_rate_before(:, k)",
+            "end do",
+        ]
+    else:
+        growth = [
+            "do k = 0, degree - 2",
+            f"   d_rate_before(:used, k) = (by_unit*((k + 1)*(k + 2)))*dy(k + 2, {integral[0]}, first:last)",
+            "end do",
+            "do j = 0, degree",
+            "   d_rate_before(:used, degree - 1) = d_rate_before(:used, degree - 1) &",
+            f"      + degree*{auxiliary}_before(degree - j)*dy(j, {places[fast]}, first:last)",
+            "end do",
+        ]
+    start, later = of_order(now, "0"), of_order(now, "k + 1")
+    start_part, part = of_used(start), of_used(now)
+    body = [
+        fast_line,
+        *at_order,
+        *statements[0],
+        *steps.loop(),
+        *statements[1],
+        *(f"dy(k, {places[state]}, first:last) = {part[state]}" for state in model.states),
+        *rate_lines,
+        "step = unit*reciprocal(k + 1)",
+        *(f"{later[state]} = step*d_{state}_rate" for state in others),
+    ]
+    lines = [
+        *fetch_places(model),
+        *constants.fetched(),
+        f"inertia = {inertia}/unit",
+        *exponential,
+        *base,
+        "do first = 1, vectors, lanes",
+        *indented(
+            [
+                "last = min(vectors, first + lanes - 1)",
+                "used = last - first + 1",
+                *before,
+                "d_rate_before = 0.0_wp",
+                *growth,
+                *(f"{start[state]} = 0.0_wp" for state in others),
+                *(f"{start_part[state]} = dy(0, {places[state]}, first:last)" for state in others),
+                "do k = 0, degree",
+                *indented(body),
+                "end do",
+            ]
+        ),
+        "end do",
+    ]
+    own = ["by_unit"] * (integral is not None)
+    return Procedure(
+        [*constants.scalars(), *reals, *own, "inertia", "step"],
+        [*arrays, f"{auxiliary}_before"],
+        [*place_names(model), "first", "j", "k", "last", "used"],
+        lines,
+        lanes=[
+            *(text for text in now.values() if "(" not in text),
+            *(f"d_{state}_rate" for state in others),
+            *steps.lane_names(),
+        ],
+        lane_arrays=["d_rate_before", *steps.arrays(), *delayed],
+    )
