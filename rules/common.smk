@@ -1,8 +1,10 @@
 # Wildcards, digests of code by which results of older code are stale, and functions of the rules.
 import functools
 import hashlib
+from os.path import normpath
 from pathlib import Path
 
+from scripts.config import laws
 from scripts.figures import registry
 from scripts.namelists.study_cases import measured_study
 from scripts.results.programs import BUILD, PAPER, RUNS
@@ -10,6 +12,7 @@ from scripts.workflow.script_imports import modules_of
 
 
 wildcard_constraints:
+    law="|".join(config["laws"]),
     scene="|".join(config["scenes"]),
     plane="|".join(config["hopf_curves"]),
     cycle_line="|".join(config["cycles"]["lines"]),
@@ -19,6 +22,10 @@ wildcard_constraints:
     part=r"\w+",
     study="stability|trust",
     case=r"\w+",
+
+
+BUILT = f"build/users/{Path(plan.results).name}" if config["laws"] else "build/release"
+"""The folder of the programs: those with a user's laws are by themselves."""
 
 
 def digest_of_files(paths):
@@ -37,7 +44,9 @@ def code_of(script, *others):
 
 def files_in(*folders, endings):
     """Files with these endings in folders of the Fortran code, in order."""
-    files = [path for folder in folders for path in Path("fortran", folder).rglob("*")]
+    files = [
+        path for folder in folders for path in Path(normpath(f"fortran/{folder}")).rglob("*")
+    ]
     return sorted(str(path) for path in files if path.suffix in endings)
 
 
@@ -49,9 +58,11 @@ def sources_of(program):
             "fortran/CMakeLists.txt",
             "fortran/CMakePresets.json",
             "fortran/dde/CMakeLists.txt",
+            "generator/CMakeLists.txt",
         ),
         f"fortran/app/{program}.f90",
-        *files_in("src", "dde/src", endings={".f90", ".c", ".in"}),
+        *files_in("src", "dde/src", endings={".f90", ".c", ".in", ".yaml"}),
+        *files_in("../generator", endings={".f90", ".py", ".jinja"}),
     ]
 
 
@@ -77,6 +88,15 @@ def groups_of(run):
         return fill_in(run.groups(config, **wildcards))
 
     return find_groups
+
+
+def laws_of(run):
+    """Definitions of the user's laws that a run's namelist names, by the wildcards."""
+
+    def find_laws(wildcards):
+        return laws.users_definitions(config, run.groups(config, **wildcards))
+
+    return find_laws
 
 
 def tables_read(figure):

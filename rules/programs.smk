@@ -1,14 +1,32 @@
 # Programs, each built when a result needs it, and their runs: scripts/results/programs.py lists them.
 
 
+rule law:
+    """The definition of a user's law of friction."""
+    output:
+        f"{BUILT}/laws/{{law}}.yaml",
+    log:
+        "<results>/logs/laws/{law}.log",
+    priority: BUILD
+    localrule: True
+    params:
+        definition=lambda wildcards: laws.definition(
+            wildcards.law, config["laws"][wildcards.law]
+        ),
+        code=code_of("namelists/write_law.py"),
+    script:
+        "../scripts/namelists/write_law.py"
+
+
 rule build:
-    """A Fortran program, built from its sources."""
+    """A Fortran program, built from its sources and the user's laws."""
 
     # by time too: a program built by CMake alone has no record of its digest
     input:
         lambda wildcards: sources_of(wildcards.program),
+        users=expand(f"{BUILT}/laws/{{law}}.yaml", law=config["laws"]),
     output:
-        "build/release/bin/{program}",
+        f"{BUILT}/bin/{{program}}",
     log:
         "<results>/logs/build/{program}.log",
     priority: BUILD
@@ -16,11 +34,15 @@ rule build:
     threads: 2
     params:
         digest=lambda wildcards: digest_of(wildcards.program),
+        folder=BUILT,
+        laws=";".join(
+            str(Path.cwd() / BUILT / f"laws/{law}.yaml") for law in config["laws"]
+        ),
     # two builds must not write one build folder at the same time
     shell:
         "(flock 9"
-        " && cmake --preset release -S fortran"
-        " && cmake --build build/release --parallel {threads} --target {wildcards.program:q}_program)"
+        " && cmake --preset release -S fortran -B {params.folder:q} -DUSERS_LAWS={params.laws:q}"
+        " && cmake --build {params.folder:q} --parallel {threads} --target {wildcards.program:q}_program)"
         " > {log:q} 2>&1 9> build/lock || {{ cat {log:q} >&2; exit 1; }}"
 
 
@@ -49,7 +71,7 @@ for run in RUNS:
             run.rule
         input:
             **{name: f"<results>/{path}" for name, path in run.needs.items()},
-            program=f"build/release/bin/{run.program}",
+            program=f"{BUILT}/bin/{run.program}",
             namelist=f"<results>/{run.namelist_path}",
         output:
             f"<results>/{run.output}",
@@ -62,6 +84,7 @@ for run in RUNS:
         params:
             groups=groups_of(run),
             sources=digest_of(run.program),
+            laws=laws_of(run),
         shell:
             "OMP_NUM_THREADS={threads} {input.program:q} {input.namelist:q} {output:q}"
             " 2> {log:q} || {{ grep -v ' %, ' {log:q} >&2; exit 1; }}"

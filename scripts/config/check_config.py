@@ -6,7 +6,7 @@ from difflib import get_close_matches
 
 import jsonschema
 
-from scripts.config import check_attractors
+from scripts.config import check_attractors, check_laws
 from scripts.config.check_attractors import wrong
 from scripts.config.ranges import range_of, rules
 from scripts.config.read_config import ConfigError, parse
@@ -26,7 +26,9 @@ LONG = 1e4
 
 def checked(config: dict) -> dict:
     """Return `config` with its defaults; raise ConfigError naming place, key, value and range."""
-    problems = [in_words(error) for error in validator_for(rules()).iter_errors(config)]
+    schema = check_laws.with_own_parameters(rules(), config)
+    problems = [in_words(error) for error in validator_for(schema).iter_errors(config)]
+    problems = problems or list(check_laws.contradictions(config))
     if not problems:
         _fill_in_ends_of_exponents(config)
         problems = list(_contradictions(config))
@@ -155,7 +157,7 @@ def _contradictions(config: dict):
             expected = f"a finite number > tolerance = {reference['tolerance']}"
             yield wrong(f"config {study} reference", reference, "check_tolerance", expected)
     for name, family in config["stability"]["families"].items():
-        yield from _contradictions_of_family(name, family)
+        yield from _contradictions_of_family(config, name, family)
     yield from _contradictions_of_measured(config["work_precision"], scenes)
     yield from check_attractors.contradictions(config)
 
@@ -175,13 +177,13 @@ def _contradictions_of_scene(place: str, scene: dict):
         yield wrong(f"{place} exponents", wanted, "t_end", expected)
 
 
-def _contradictions_of_family(name: str, family: dict):
+def _contradictions_of_family(config: dict, name: str, family: dict):
     """Problems of the cases of a family."""
     place, count = f"config stability families {name}", number_of_cases(family)
     if count > MOST_CASES:
         yield f"{place}: {count} combinations; expected at most {MOST_CASES}"
         return
-    longest = max((case["name"] for case in cases_of_family(name, family)), key=len)
+    longest = max((case["name"] for case in cases_of_family(config, name)), key=len)
     if len(longest) > LONGEST_NAME:
         yield (
             f"{place}: case '{longest}' of {len(longest)} letters; expected at most {LONGEST_NAME}"

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from scripts.config.laws import law_group
 from scripts.namelists.study_cases import HISTORY, PARAMETERS
 
 
@@ -41,7 +42,7 @@ def survey_groups(
     return {
         "observation": {**observation, **config["spectra"]},
         "solver": solver,
-        "points": {"name": name, **axes, **how},
+        "points": {"name": name, **axes, **law_group(config, place), **how},
         "histories": {key: [history[key] for history in histories] for key in HISTORY},
     }
 

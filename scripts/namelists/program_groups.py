@@ -5,13 +5,15 @@ program's namelist by name: for each, its values by key. A group is a variable o
 the program, and a group within a group a component of that variable.
 """
 
+from scripts.config.laws import law_group, own_parameters
 from scripts.namelists import attractor_surveys
 from scripts.namelists.study_cases import (
     HISTORY,
-    PARAMETERS,
     case_of,
     cases_of_family,
     measured_study,
+    place_of,
+    with_parameters,
 )
 
 LAW = ["mu0", "a", "b", "dc", "v0", "b_state"]
@@ -30,7 +32,7 @@ def scene_groups(config: dict, scene: str) -> dict[str, dict]:
     """A scene: for its trajectory and its slip events."""
     settings = config["scenes"][scene]
     own = {key: value for key, value in settings.items() if key not in ("exponents", "attractors")}
-    return {"scene": nested({"name": scene, **own}, "parameters", PARAMETERS)}
+    return {"scene": with_parameters(config, {"name": scene, **own})}
 
 
 def exponents_groups(config: dict, scene: str) -> dict[str, dict]:
@@ -48,13 +50,16 @@ def spectrum_groups(config: dict, scene: str) -> dict:
 
 def linear_stability_groups(config: dict, scene: str) -> dict[str, dict]:
     """The parameters of a scene, and the bounds of roots and changes of its linear stability."""
-    parameters = {key: config["scenes"][scene][key] for key in PARAMETERS}
-    return {"linear_stability": {"parameters": parameters, **config["linear_stability"]}}
+    place = place_of(config, config["scenes"][scene])
+    return {"linear_stability": {**with_parameters(config, place), **config["linear_stability"]}}
 
 
 def hopf_groups(config: dict, plane: str) -> dict[str, dict]:
     """A plane of Hopf curves."""
-    return {"hopf_curves": config["hopf_curves"][plane]}
+    settings = config["hopf_curves"][plane]
+    own = own_parameters(config, settings["law"])
+    rest = {key: value for key, value in settings.items() if key not in own}
+    return {"hopf_curves": {**rest, **law_group(config, settings)}}
 
 
 def cycles_groups(config: dict, cycle_line: str) -> dict[str, dict]:
@@ -66,7 +71,7 @@ def cycles_groups(config: dict, cycle_line: str) -> dict[str, dict]:
         how |= cycles.get("curves", {})
     # a namelist has no empty lists
     own = {key: value for key, value in cycles["lines"][cycle_line].items() if value != []}
-    return {"cycles": nested({**how, **own}, "parameters", PARAMETERS)}
+    return {"cycles": with_parameters(config, {**how, **own})}
 
 
 def velocity_step_groups(config: dict) -> dict[str, dict]:
@@ -116,20 +121,16 @@ def work_precision_groups(config: dict, case: str) -> dict[str, dict]:
     study = measured_study(config)
     cases = [case_of(case, study["cases"][case])]
     keys = ["methods", "tolerances", "steps", "most_steps", "repeats", "least_seconds"]
-    return {**case_groups(cases), "measure": {key: study[key] for key in keys}}
+    return {**case_groups(config, cases), "measure": {key: study[key] for key in keys}}
 
 
 def cases_of_study(config: dict, study: str, name: str) -> dict[str, dict]:
     """The cases of a family, or the case of a scene in full length."""
     if study == "stability":
-        return case_groups(cases_of_family(name, config["stability"]["families"][name]))
-    return case_groups([case_of(name, measured_study(config)["cases"][name])])
+        return case_groups(config, cases_of_family(config, name))
+    return case_groups(config, [case_of(name, measured_study(config)["cases"][name])])
 
 
-def case_groups(cases: list[dict]) -> dict[str, list[dict]]:
+def case_groups(config: dict, cases: list[dict]) -> dict[str, list[dict]]:
     """The namelist group of cases, an element a case."""
-    return {
-        "cases": [
-            nested(nested(case, "parameters", PARAMETERS), "history", HISTORY) for case in cases
-        ]
-    }
+    return {"cases": [nested(with_parameters(config, case), "history", HISTORY) for case in cases]}

@@ -3,7 +3,8 @@
 In paths `<results>` stands for the folder of the results.
 """
 
-from scripts.namelists.study_cases import HISTORY, PARAMETERS
+from scripts.config.laws import own_place
+from scripts.namelists.study_cases import HISTORY, PARAMETERS, place_of
 
 
 def scenes_of(config: dict, figure: str) -> list[str]:
@@ -51,15 +52,16 @@ def cycles_of_lines(config: dict) -> list[str]:
 
 def sweeps_on_lines(config: dict) -> dict[str, list[str]]:
     """Sweeps of the routes that lie on each line of cycles."""
-    keys = ("along", "tau", "epsilon", "xi", "gamma")
-    places = {
-        name: [route.get(key) for key in keys] for name, route in config["routes"]["lines"].items()
-    }
+    keys = ("along", *PARAMETERS)
+
+    def place(settings: dict) -> dict:
+        return {key: settings.get(key) for key in keys} | own_place(config, settings)
+
     return {
         line: [
             f"<results>/attractors/routes/{name}/{run}.nc"
-            for name, place in places.items()
-            if place == [settings.get(key) for key in keys]
+            for name, route in config["routes"]["lines"].items()
+            if place(route) == place(settings)
             for run in config["routes"]["sweeps"]
         ]
         for line, settings in config["cycles"]["lines"].items()
@@ -91,38 +93,44 @@ def table_of_atlas(config: dict) -> str:
 def curves_of_atlas(config: dict) -> list[str]:
     """Hopf curves that lie in planes of the atlas."""
     atlas = config["atlas"]
-    planes = [(plane["xi"], plane["gamma"]) for plane in atlas["planes"].values()]
+    planes = [_plane(config, plane, "xi") for plane in atlas["planes"].values()]
     return [
         f"<results>/hopf/{name}.nc"
         for name, plane in config["hopf_curves"].items()
-        if plane["ordinate"] == "tau" and (plane["fixed"], plane["gamma"]) in planes
+        if plane["ordinate"] == "tau" and _plane(config, plane, "fixed") in planes
     ]
 
 
 def cycles_in_atlas(config: dict) -> list[str]:
     """Cycles followed along lines that lie in planes of the atlas."""
-    planes = [(plane["xi"], plane["gamma"]) for plane in config["atlas"]["planes"].values()]
+    planes = [_plane(config, plane, "xi") for plane in config["atlas"]["planes"].values()]
     return [
         f"<results>/cycles/{name}.nc"
         for name, line in config["cycles"]["lines"].items()
-        if (line.get("xi"), line.get("gamma")) in planes
+        if _plane(config, line, "xi") in planes
     ]
 
 
-def places_in_atlas(config: dict) -> dict[str, dict[str, float]]:
+def _plane(config: dict, settings: dict, fixed: str) -> dict:
+    """What a plane has fixed: xi or tau, gamma, the law and the law's own parameters."""
+    place = {"fixed": settings.get(fixed), "gamma": settings.get("gamma")}
+    return place | own_place(config, settings)
+
+
+def places_in_atlas(config: dict) -> dict[str, dict]:
     """Parameters of the scenes that the atlas marks: those whose attractors are looked for."""
     return {
-        scene: {key: config["scenes"][scene][key] for key in PARAMETERS}
+        scene: place_of(config, config["scenes"][scene])
         for scene in scenes_with(config, "attractors")
     }
 
 
-def places_in_plane(config: dict, plane: str) -> dict[str, dict[str, float]]:
+def places_in_plane(config: dict, plane: str) -> dict[str, dict]:
     """Parameters of the scenes that lie in a plane of Hopf curves."""
     settings = config["hopf_curves"][plane]
     fixed = "xi" if settings["ordinate"] == "tau" else "tau"
     return {
         scene: place
         for scene, place in places_in_atlas(config).items()
-        if (place[fixed], place["gamma"]) == (settings["fixed"], settings["gamma"])
+        if _plane(config, place, fixed) == _plane(config, settings, "fixed")
     }

@@ -11,9 +11,10 @@ module hopf_files
    use hopf_planes, only: curve_plane_type
    use hopf_points, only: hopf_point_type
    use namelist_input, only: namelist_file_type, word_length
+   use model_problem, only: law_length => word_length
    use netcdf_output, only: output_file_type
    use stability_map, only: middles
-   use value_checks, only: check_choice, missing, missing_count
+   use value_checks, only: absent, check_choice, missing, missing_count
    implicit none (type, external)
    private
    public :: hopf_settings_type, read_plane, write_curves
@@ -27,8 +28,8 @@ module hopf_files
       !> Frequency of the block
       real(wp) :: gamma = missing
       !> Law of friction and its own parameters
-      character(len=word_length) :: law = ""
-      real(wp) :: own(most_own) = missing
+      character(len=law_length) :: law = ""
+      real(wp) :: own(most_own) = absent
       !> Window on epsilon
       real(wp) :: epsilon_window(2) = missing
       !> Window on the ordinate

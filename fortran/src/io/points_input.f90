@@ -5,8 +5,9 @@ module points_input
    use block_parameters, only: block_history_type, block_parameters_type, most_own
    use dde_errors, only: error_type
    use dde_kinds, only: wp
+   use model_problem, only: law_length => word_length
    use namelist_input, only: word_length
-   use value_checks, only: check_choice, check_count, missing, missing_count
+   use value_checks, only: absent, check_choice, check_count, missing, missing_count
    implicit none (type, external)
    private
    public :: points_settings_type
@@ -28,8 +29,8 @@ module points_input
       !> Values of the parameters
       type(axis_type) :: epsilon, tau, xi, gamma
       !> Law of friction and its own parameters
-      character(len=word_length) :: law = ""
-      real(wp) :: own(most_own) = missing
+      character(len=law_length) :: law = ""
+      real(wp) :: own(most_own) = absent
       !> Whether each point starts where the one before ended: "none", "up" or "down"
       character(len=word_length) :: sweep = ""
       !> Every 2**refinements-th line in epsilon and tau is computed in full

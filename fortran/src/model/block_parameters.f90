@@ -63,7 +63,7 @@ module block_parameters
    !> Parameters and a history that must be given.
    type(block_parameters_type), parameter :: &
       missing_parameters = block_parameters_type(missing, missing, missing, missing, law="", &
-                                                 own=missing)
+                                                 own=absent)
    type(block_history_type), parameter :: missing_history = &
                                           block_history_type(missing, missing, missing)
    !> A history beyond the last of a list.

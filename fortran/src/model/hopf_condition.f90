@@ -9,10 +9,10 @@
 !> tests compare them. All quantities are nondimensional.
 module hopf_condition
    use block_parameters, only: block_parameters_type
-   use characteristic_function, only: characteristic_of, characteristic_type
+   use characteristic_function, only: characteristic_type
    use dde_errors, only: error_type, raise
    use dde_kinds, only: wp
-   use spring_block, only: model_of
+   use spring_block, only: block_characteristic
    implicit none (type, external)
    private
    public :: find_hopf_condition, hopf_condition_type, printed_tau, two_pi
@@ -99,7 +99,7 @@ contains
       there%xi = infinite
       if (x > 0.0_wp) there%xi = 1.0_wp/x
       there%gamma = sqrt(g)
-      c = characteristic_of(model_of(there))
+      c = block_characteristic(there)
       values = c%coefficient
    end function coefficients
 

@@ -3,13 +3,15 @@
 module spring_block
    use block_parameters, only: block_history_type, block_parameters_type, law_parameters
    use block_state, only: index_of_ln_v, index_of_theta, index_of_u
+   use characteristic_function, only: characteristic_of, characteristic_type
    use dde, only: problem_with_tangents
    use dde_kinds, only: wp
    use model_problem, only: model_type
    use model_registry, only: make_model
    implicit none (type, external)
    private
-   public :: index_of_ln_v, index_of_theta, index_of_u, model_of, spring_block_type
+   public :: block_characteristic, find_model, index_of_ln_v, index_of_theta, index_of_u, &
+             spring_block_type
 
    !> The block with its parameters.
    type, extends(problem_with_tangents) :: spring_block_type
@@ -46,7 +48,7 @@ contains
       type(spring_block_type) :: block
 
       block%parameters = parameters
-      block%model = model_of(parameters, history, keep_delays)
+      call find_model(parameters, block%model, history, keep_delays)
       block%n = block%model%n
       block%lag = block%model%lag
       block%component = block%model%component
@@ -55,21 +57,33 @@ contains
    end function new_spring_block
 
    !> The model of a law with its parameters; from steady sliding unless a history is given.
-   function model_of(parameters, history, keep_delays) result(model)
+   subroutine find_model(parameters, model, history, keep_delays)
       !> Parameters, with the name of a law that there is
       type(block_parameters_type), intent(in) :: parameters
+      !> The model
+      class(model_type), allocatable, intent(out) :: model
+      !> Values for t <= 0
       type(block_history_type), intent(in), optional :: history
       !> Whether a delay of 0 is a delayed value, too; .false. unless given
       logical, intent(in), optional :: keep_delays
-      class(model_type), allocatable :: model
       type(block_history_type) :: past
 
       if (present(history)) past = history
       call make_model(trim(parameters%law), model)
-      if (.not. allocated(model)) error stop "model_of: no such law"
+      if (.not. allocated(model)) error stop "find_model: no such law"
       call model%set(law_parameters(parameters, model), [past%theta, past%u, log(past%v)], &
                      keep_delays)
-   end function model_of
+   end subroutine find_model
+
+   !> The characteristic function of steady sliding.
+   type(characteristic_type) function block_characteristic(parameters) result(function_of_block)
+      !> Parameters, with the name of a law that there is
+      type(block_parameters_type), intent(in) :: parameters
+      class(model_type), allocatable :: model
+
+      call find_model(parameters, model)
+      function_of_block = characteristic_of(model)
+   end function block_characteristic
 
    !> State at the initial time.
    pure subroutine initial(self, y)

@@ -4,7 +4,7 @@ module block_equation
    use delay_equation, only: delay_equation_type, linear_part
    use dde_kinds, only: wp
    use model_problem, only: model_type
-   use spring_block, only: model_of
+   use spring_block, only: find_model
    implicit none (type, external)
    private
    public :: block_equation_type
@@ -28,7 +28,7 @@ contains
       type(block_parameters_type), intent(in) :: parameters
       type(block_equation_type) :: equation
 
-      equation%model = model_of(parameters, keep_delays=.true.)
+      call find_model(parameters, equation%model, keep_delays=.true.)
       equation%linear = linear_part(equation%model, equation%model%steady_state())
    end function new_block_equation
 

@@ -3,13 +3,13 @@
 module hopf_curves
    use block_family, only: along_tau
    use block_parameters, only: block_parameters_type
-   use characteristic_function, only: characteristic_of, characteristic_type
+   use characteristic_function, only: characteristic_type
    use dde_errors, only: error_type
    use gsl_roots, only: find_root, scalar_function_type
    use hopf_condition, only: printed_tau
    use hopf_planes, only: curve_plane_type
    use dde_kinds, only: wp
-   use spring_block, only: model_of
+   use spring_block, only: block_characteristic
    implicit none (type, external)
    private
    public :: curve_point_type, trace_curves
@@ -194,14 +194,14 @@ contains
       point%piece = piece
       point%parameters = plane%at(omega, k)
       associate (p => point%parameters)
-         c = characteristic_of(model_of(p))
+         c = block_characteristic(p)
          point%residual = c%relative_residual(s)
          point%crossing = nint(sign(1.0_wp, real(c%root_by(along_tau, s))))
          printed = p
          printed%tau = printed_tau(omega, p%xi, p%gamma, k)
       end associate
       point%printed_tau = printed%tau
-      c = characteristic_of(model_of(printed))
+      c = block_characteristic(printed)
       point%printed_residual = c%relative_residual(s)
    end function point_of_curve
 end module hopf_curves

@@ -3,10 +3,10 @@
 module hopf_planes
    use block_family, only: along_epsilon, along_tau, along_xi, vector_of, with_vector
    use block_parameters, only: block_parameters_type
-   use characteristic_function, only: characteristic_of
+   use characteristic_function, only: characteristic_type
    use hopf_condition, only: hopf_condition_type, two_pi
    use dde_kinds, only: wp
-   use spring_block, only: model_of
+   use spring_block, only: block_characteristic
    implicit none (type, external)
    private
    public :: curve_plane_type
@@ -78,10 +78,10 @@ contains
       type(block_parameters_type), intent(in) :: p
       complex(wp), intent(in) :: s
       complex(wp) :: slopes(2)
+      type(characteristic_type) :: c
 
-      associate (c => characteristic_of(model_of(p)))
-         slopes = [c%root_by(along_epsilon, s), c%root_by(self%along, s)]
-      end associate
+      c = block_characteristic(p)
+      slopes = [c%root_by(along_epsilon, s), c%root_by(self%along, s)]
    end function root_slopes
 
    !> Least and largest omega and highest branch in the window. At the least xi epsilon grows

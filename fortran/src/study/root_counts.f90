@@ -4,9 +4,9 @@
 !> large w are the leading part s^(n-1) (s + c), the argument of which is known.
 module root_counts
    use block_parameters, only: block_parameters_type
-   use characteristic_function, only: characteristic_of, characteristic_type
+   use characteristic_function, only: characteristic_type
    use dde_kinds, only: wp
-   use spring_block, only: model_of
+   use spring_block, only: block_characteristic
    implicit none (type, external)
    private
    public :: has_more_roots, pairs_beside, roots_right_of
@@ -32,10 +32,10 @@ contains
       type(block_parameters_type), intent(in) :: p
       !> Real part of the line, on which no root lies
       real(wp), intent(in) :: bound
+      type(characteristic_type) :: c
 
-      associate (c => characteristic_of(model_of(p)))
-         number = number_of(c, line_growth(c, bound, 0.0_wp, far_end(c, bound)), bound)
-      end associate
+      c = block_characteristic(p)
+      number = number_of(c, line_growth(c, bound, 0.0_wp, far_end(c, bound)), bound)
    end function roots_right_of
 
    !> Whether there are surely more than `number` roots with real part above `bound`. It does not
@@ -56,7 +56,7 @@ contains
 
       value = -bound*p%tau > largest_exponent
       if (value) return
-      c = characteristic_of(model_of(p))
+      c = block_characteristic(p)
       if (size(c%delay) /= 2) return
       first = 0.0_wp
       last = 0.0_wp
@@ -95,7 +95,7 @@ contains
       real(wp) :: from, growth, radius
       integer :: i
 
-      c = characteristic_of(model_of(p))
+      c = block_characteristic(p)
       from = 0.0_wp
       growth = 0.0_wp
       do i = 1, size(omega)

@@ -3,13 +3,13 @@
 module stability_changes
    use block_family, only: along_epsilon, along_tau
    use block_parameters, only: block_parameters_type
-   use characteristic_function, only: characteristic_of
+   use characteristic_function, only: characteristic_type
    use dde_errors, only: error_type
    use gsl_roots, only: find_falling_root, find_root, scalar_function_type
    use hopf_condition, only: find_hopf_condition, hopf_condition_type
    use dde_kinds, only: wp
    use root_counts, only: pairs_beside
-   use spring_block, only: model_of
+   use spring_block, only: block_characteristic
    implicit none (type, external)
    private
    public :: angle_above, changes_with_epsilon, changes_with_tau, omega_function_type, &
@@ -138,12 +138,12 @@ contains
       real(wp), intent(in) :: omega
       !> Number of the parameter that grows
       integer, intent(in) :: parameter
+      type(characteristic_type) :: c
       real(wp) :: speed
       integer :: beside
 
-      associate (c => characteristic_of(model_of(p)))
-         speed = real(c%root_by(parameter, cmplx(0.0_wp, omega, kind=wp)))
-      end associate
+      c = block_characteristic(p)
+      speed = real(c%root_by(parameter, cmplx(0.0_wp, omega, kind=wp)))
       beside = pairs_beside(p, [omega])
       change = stability_change_type(p, omega, beside, beside)
       if (speed > 0.0_wp) then

@@ -1,0 +1,84 @@
+"""Laws of friction: those of the project, and a user's in the configuration under `laws`."""
+
+from functools import cache
+from pathlib import Path
+
+from scripts.config.read_config import ConfigError, read
+
+MODEL = Path(__file__).parents[2] / "fortran" / "src" / "model"
+BLOCK = MODEL / "spring_block.yaml"
+"""The equations of the block, to which a law adds its own."""
+PAPER = "slip_delayed_logarithm"
+"""The law of equation (4)."""
+
+
+@cache
+def built_in() -> dict[str, dict]:
+    """Definitions of the project's laws by name, the paper's first."""
+    laws = {path.stem: read(path) for path in sorted((MODEL / "laws").glob("*.yaml"))}
+    return {PAPER: laws.pop(PAPER), **laws}
+
+
+def definition(name: str, law: dict) -> dict:
+    """The definition of a user's law, as the generator reads it."""
+    parts = {key: law[key] for key in ("evolution", "friction") if key in law}
+    return {
+        "name": name,
+        "source": law["source"],
+        "parameters": law["parameters"],
+        "definitions": parts,
+    }
+
+
+def definitions(config: dict) -> dict[str, dict]:
+    """Definitions of all laws by name."""
+    users = config.get("laws", {})
+    return {**built_in(), **{name: definition(name, law) for name, law in users.items()}}
+
+
+def own_parameters(config: dict, law: str) -> dict[str, dict]:
+    """The parameters that a law has beside the block's."""
+    return definitions(config)[law].get("parameters") or {}
+
+
+def law_group(config: dict, settings: dict) -> dict:
+    """Law and own parameters of an entry, as programs read them."""
+    own = [settings[key] for key in own_parameters(config, settings["law"])]
+    # a namelist has no empty lists
+    return {"law": settings["law"], **({"own": own} if own else {})}
+
+
+def own_place(config: dict, settings: dict) -> dict:
+    """Law and own parameters of an entry by name, to be compared with others."""
+    return {key: settings[key] for key in ("law", *own_parameters(config, settings["law"]))}
+
+
+def users_definitions(config: dict, groups) -> dict[str, dict]:
+    """The user's laws that groups of a namelist name."""
+    users = config.get("laws", {})
+    return {name: users[name] for name in sorted(_named_laws(groups)) if name in users}
+
+
+def _named_laws(value) -> set[str]:
+    if isinstance(value, dict):
+        own = {value["law"]} if isinstance(value.get("law"), str) else set()
+        return own.union(*map(_named_laws, value.values()))
+    if isinstance(value, list):
+        return set().union(*map(_named_laws, value))
+    return set()
+
+
+def check_law(name: str, law: dict) -> None:
+    """Refuse a law from which no model can be made; raise ConfigError saying why."""
+    # needs SymPy, which takes half a second to load
+    from generator.definition import ModelError, overlaid, read_model  # noqa: PLC0415
+    from generator.module import write_module  # noqa: PLC0415
+
+    place = f"config laws {name}"
+    if name in built_in():
+        raise ConfigError(f"{place}: the project has a law of this name; expected another name")
+    try:
+        write_module(read_model(overlaid(read(BLOCK), definition(name, law))))
+    except (ModelError, TypeError) as problem:
+        reason = str(problem).removeprefix(f"model {name}: ")
+        raise ConfigError(f"{place}: {reason}") from None
