@@ -25,7 +25,7 @@ FUNCTIONS = {
 TIME = sympy.Symbol("t", real=True)
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,47}\Z")
 TAKEN = {
-    *("t", "s", "y", "z", "dy", "dz", "x", "i", "j", "k", "wp", "self", "unit", "degree", "step"),
+    *("t", "y", "z", "dy", "dz", "j", "k", "wp", "self", "unit", "degree", "step", "arguments"),
     *("form", "rate", "share", "first", "last", "used", "lanes", "vectors", "before", "dydt"),
     *("by_y", "by_z", "lag", "past", "power", "coefficient", "delay", "state", "derivative"),
     *("sum", "real", "abs", "merge", "size", "steady", "parameter", "component", "place", "delays"),
@@ -241,10 +241,16 @@ class _Reader:
                     text = f"{model.texts[state]} = {left}"
                     self.refuse(f"equation of {state} at the steady state", text, "0")
         if values.get("history") is not None:
+            history = values["history"]
+            if set(history) != set(model.states):
+                self.refuse("history", ", ".join(history), "an expression of t for each state")
             model.history = {
-                state: self.expression(f"history of {state}", values["history"].get(state, 0))
+                state: self.expression(f"history of {state}", history[state])
                 for state in model.states
             }
+            for state, value in model.history.items():
+                if value.free_symbols & (model.variables - {TIME}):
+                    self.refuse(f"history of {state}", history[state], "an expression of t alone")
         fast = values.get("fast")
         if fast is not None and fast not in model.states:
             self.refuse("fast", fast, f"one of the states {', '.join(model.states)}")

@@ -40,7 +40,7 @@ class Graph:
         }
         for auxiliary, state in model.auxiliary.items():
             symbol = model.symbol(auxiliary)
-            if symbol not in self.known:
+            if symbol not in self.known and model.symbol(state) in self.known:
                 self.known[symbol] = Node("exp", auxiliary, (self.known[model.symbol(state)],))
         self.counts: dict[str, int] = {}
 

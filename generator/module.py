@@ -37,7 +37,7 @@ def write_module(model: Model) -> str:
         "derivative": None,
         "characteristic": Procedure([], [], [], []),
         "terms": [],
-        "history_series": [],
+        "history_series": {},
         "flow_texts": flow_texts(model, flow),
     }
     if balance:
@@ -50,7 +50,9 @@ def write_module(model: Model) -> str:
         parts["terms"] = pointwise.characteristic_terms(model)
     if model.history:
         parts["history"] = history_procedure(model)
-        parts["history_series"] = [history_series_procedure(model, state) for state in model.states]
+        parts["history_series"] = {
+            state: history_series_procedure(model, state) for state in model.states
+        }
     return rendered("model.f90.jinja", model=model, balance=balance, **parts)
 
 

@@ -128,12 +128,12 @@ def derivative_procedure(model: Model) -> Procedure:
     lines = fetch_parameters(model, parameters)
     names = []
     for place, (state, value) in enumerate(model.steady_state.items(), 1):
-        lines.append(f"{state} = disturbed({text_of(value)}, x({place}, 1, :))")
+        lines.append(f"{state} = disturbed({text_of(value)}, arguments({place}, 1, :))")
         names.append(state)
     for number, one in enumerate(model.delayed, 1):
         place = list(model.states).index(one.state) + 1
         value = text_of(model.steady_state[one.state])
-        lines.append(f"{one.symbol.name} = disturbed({value}, x({place}, {number + 1}, :))")
+        lines.append(f"{one.symbol.name} = disturbed({value}, arguments({place}, {number + 1}, :))")
         names.append(one.symbol.name)
     for name, state in model.auxiliary.items():
         if model.symbol(name) in symbols:

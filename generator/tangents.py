@@ -266,7 +266,7 @@ def lane_inputs(model: Model, steps: Disturbances) -> tuple[list[str], list[str]
         before += [
             f"if (place_{number} > 0) then",
             f"   {name} = 0.0_wp",
-            f"   {name}(:used, :) = transpose(dz(:, place_{number}, first:last))",
+            f"   {name}(:used, 0:degree) = transpose(dz(:, place_{number}, first:last))",
             "end if",
         ]
         present = steps.flow.graph.known[model.symbol(one.state)]

@@ -97,14 +97,14 @@ module model_problem
       end function find_state
 
       !> The derivative of the order of the number of arguments, linear in each of them.
-      pure function evaluate_form(self, x) result(form)
+      pure function evaluate_form(self, arguments) result(form)
          import :: model_type, wp
          implicit none (type, external)
          class(model_type), intent(in) :: self
          !> Disturbances of the state and of the delayed states of the definition, shape
          !> (n, 1 + delayed states, order)
-         complex(wp), intent(in) :: x(:, :, :)
-         complex(wp) :: form(size(x, 1))
+         complex(wp), intent(in) :: arguments(:, :, :)
+         complex(wp) :: form(size(arguments, 1))
       end function evaluate_form
 
       !> The terms coefficient s**power exp(-s delay) of

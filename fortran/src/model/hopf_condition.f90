@@ -19,7 +19,7 @@ module hopf_condition
 
    real(wp), parameter :: two_pi = 2.0_wp*acos(-1.0_wp)
    !> xi that stands for 1/xi = 0.
-   real(wp), parameter :: infinite = huge(1.0_wp)
+   real(wp), parameter :: infinite = 1.0e100_wp
    !> Where the coefficients are compared: d, x, g.
    real(wp), parameter :: probe(3) = [1.7_wp, 2.3_wp, 0.6_wp]
    !> Largest difference there, relative to the largest coefficient.
@@ -187,7 +187,7 @@ contains
 
       omega = 0.0_wp
       above = 1.0_wp
-      do while (self%epsilon_at(above, 1.0_wp, above) <= epsilon .and. above < infinite/4.0_wp)
+      do while (self%epsilon_at(above, 1.0_wp, above) <= epsilon .and. above < infinite)
          omega = above
          above = 2.0_wp*above
       end do

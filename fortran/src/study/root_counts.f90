@@ -63,7 +63,8 @@ contains
       do i = -16, 200
          w = 2.0_wp**i
          s = cmplx(bound, w, kind=wp)
-         if (abs(c%part(2, s))*exp(-bound*c%delay(2)) > 2.0_wp*terms_size(c%coefficient(:, 1), s)) then
+         if (abs(c%part(2, s))*exp(-bound*c%delay(2)) &
+             > 2.0_wp*terms_size(c%coefficient(:, 1), s)) then
             if (first <= 0.0_wp) first = w
             last = w
          end if

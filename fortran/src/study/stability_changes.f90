@@ -66,7 +66,8 @@ contains
       call find_hopf_condition(p, condition, error)
       if (allocated(error)) return
       ! epsilon is least where both frequencies of an epsilon are the same
-      call find_falling_root(omega_function_type(partner_above, p, condition), p%gamma, bottom, error)
+      call find_falling_root(omega_function_type(partner_above, p, condition), p%gamma, bottom, &
+                             error)
       if (allocated(error)) return
       excess = omega_function_type(epsilon_above, p, condition)
       if (excess%value(bottom) >= 0.0_wp) return

@@ -42,7 +42,7 @@ contains
    end function coarse_settings
 
    !> A block that starts near steady sliding, gamma = 0.8.
-   pure type(spring_block_type) function disturbed_block(tau, epsilon, xi) result(block)
+   type(spring_block_type) function disturbed_block(tau, epsilon, xi) result(block)
       real(wp), intent(in) :: tau, epsilon, xi
 
       block = build_block(tau=tau, epsilon=epsilon, xi=xi, gamma=0.8_wp, v=1.1_wp)

@@ -76,7 +76,7 @@ contains
    end subroutine find_cycle
 
    !> frequency x'(t) less the right-hand side at all points of a period.
-   pure function residual(parameters, amplitude, x) result(value)
+   function residual(parameters, amplitude, x) result(value)
       type(block_parameters_type), intent(in) :: parameters
       real(wp), intent(in) :: amplitude, x(unknowns)
       real(wp) :: value(unknowns)

@@ -1,8 +1,8 @@
 !> Cycles of the block along lines, against its Hopf points and their kinds.
 module test_block_cycles
    use block_cycles, only: cycle_settings_type, cycles_type, find_cycles, left_out_type
-   use block_family, only: parameters_of, vector_of
-   use characteristic_function, only: relative_residual
+   use block_family, only: vector_of, with_vector
+   use block_parameters, only: block_parameters_type
    use cycle_curves, only: cycle_curve_type, find_curves
    use cycle_lines, only: along_epsilon, along_gamma, along_tau, along_xi, cycle_line_type, &
                           find_hopf_starts, hopf_start_type
@@ -13,6 +13,7 @@ module test_block_cycles
    use hopf_planes, only: curve_plane_type
    use hopf_points, only: hopf_point_type
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use paper_equations, only: relative_residual
    use special_points, only: fold, torus_bifurcation
    use traced_planes, only: find_points, new_plane
    implicit none (type, external)
@@ -43,7 +44,7 @@ contains
 
       do j = 1, size(along)
          line%along = along(j)
-         line%parameters = parameters_of(known)
+         line%parameters = with_vector(block_parameters_type(), known)
          line%window = [0.01_wp, 2.0_wp]
          call find_hopf_starts(line, starts, failure)
          call expect_success(error, failure)
@@ -156,7 +157,8 @@ contains
       real(wp), intent(in) :: parameters(4), window(2)
       type(cycle_settings_type) :: settings
 
-      settings%line = cycle_line_type(along, parameters_of(parameters), window)
+      settings%line = cycle_line_type(along, with_vector(block_parameters_type(), parameters), &
+                                      window)
       allocate (settings%starts(0), settings%start_v(0))
       settings%degree = 5
       settings%intervals = 20
@@ -173,7 +175,7 @@ contains
       type(hopf_start_type), allocatable :: hopf(:)
 
       settings%line = cycle_line_type(along_tau, &
-                                      parameters_of([0.0_wp, 0.7_wp, 0.5_wp, 0.8_wp]), &
+                                      block_parameters_type(0.0_wp, 0.7_wp, 0.5_wp, 0.8_wp), &
                                       [4.8_wp, 5.2_wp])
       settings%starts = [5.0_wp, 5.0_wp]
       settings%start_v = [1.1_wp, 1.1_wp]

@@ -1,11 +1,12 @@
 !> Ranges of the block's parameters and history, and the words of a refusal.
 module test_block_parameters
    use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_quiet_nan, ieee_value
-   use block_parameters, only: block_parameters_type, check_quantity
+   use block_parameters, only: block_history_type, block_parameters_type
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
    use expectations, only: expect, expect_failure, expect_success
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use value_checks, only: absent
    implicit none (type, external)
    private
    public :: collect_block_parameters
@@ -23,54 +24,62 @@ contains
    !> The ends of the ranges and the defaults.
    subroutine test_allowed(error)
       type(error_type), allocatable, intent(out) :: error
+      type(block_history_type) :: history
       type(block_parameters_type) :: parameters
       type(failure_type), allocatable :: failure
-      character(len=*), parameter :: quantity(7) = ["tau    ", "epsilon", "xi     ", "gamma  ", &
-                                                    "theta  ", "u      ", "v      "]
-      real(wp) :: value(7)
-      integer :: i
 
-      value = [0.0_wp, nearest(-1.0_wp, 1.0_wp), tiny(1.0_wp), nearest(huge(1.0_wp), -1.0_wp), &
-               -1.0e300_wp, -1.0e300_wp, tiny(1.0_wp)]
       call parameters%check("input.nml", failure)
-      do i = 1, size(value)
-         call check_quantity(failure, "input.nml", trim(quantity(i)), value(i))
-      end do
+      parameters = block_parameters_type(tau=0.0_wp, epsilon=nearest(-1.0_wp, 1.0_wp), &
+                                         xi=tiny(1.0_wp), gamma=nearest(huge(1.0_wp), -1.0_wp))
+      call parameters%check("input.nml", failure)
+      history = block_history_type(theta=-1.0e300_wp, u=-1.0e300_wp, v=tiny(1.0_wp))
+      call history%check("input.nml", failure)
       call expect_success(error, failure)
    end subroutine test_allowed
 
    !> The message has the place, the key, the value and the range.
    subroutine test_refused(error)
       type(error_type), allocatable, intent(out) :: error
-      type(block_parameters_type) :: parameters
+      character(len=*), parameter :: words(3) = ["theta = ", "missing ", "v = 0.0 "]
+      type(block_history_type), allocatable :: history(:)
       type(failure_type), allocatable :: failure
       real(wp) :: infinity, no_number
+      integer :: i, status
 
       infinity = ieee_value(1.0_wp, ieee_positive_inf)
       no_number = ieee_value(1.0_wp, ieee_quiet_nan)
-      call refuse("tau", -0.1_wp, "input.nml: tau = -0.1; expected a finite number >= 0.0")
-      call refuse("tau", infinity, "finite number >= 0.0")
-      call refuse("epsilon", -1.0_wp, "epsilon = -1.0; expected a finite number > -1.0")
-      call refuse("xi", 0.0_wp, "xi = 0.0; expected a finite number > 0.0")
-      call refuse("gamma", 0.0_wp, "gamma = 0.0; expected a finite number > 0.0")
-      call refuse("theta", infinity, "theta = ")
-      call refuse("u", no_number, "missing")
-      call refuse("v", 0.0_wp, "input.nml: history%v = 0.0", key="history%v")
-      parameters%gamma = no_number
-      call parameters%check("input.nml", failure)
-      call expect_failure(error, failure, "gamma = NaN")
+      call refuse(block_parameters_type(tau=-0.1_wp), &
+                  "input.nml: tau = -0.1; expected a finite number >= 0.0")
+      call refuse(block_parameters_type(tau=infinity), "finite number >= 0.0")
+      call refuse(block_parameters_type(epsilon=-1.0_wp), &
+                  "epsilon = -1.0; expected a finite number > -1.0")
+      call refuse(block_parameters_type(xi=0.0_wp), "xi = 0.0; expected a finite number > 0.0")
+      call refuse(block_parameters_type(gamma=0.0_wp), &
+                  "gamma = 0.0; expected a finite number > 0.0")
+      call refuse(block_parameters_type(gamma=no_number), "gamma = NaN")
+      call refuse(block_parameters_type(law="slip"), &
+                  "input.nml: law = 'slip'; expected one of 'ageing_delayed_logarithm'")
+      call refuse(block_parameters_type(law="slip_cut_off", own=-0.5_wp), &
+                  "input.nml: c = -0.5; expected a finite number >= 0.0")
+      call refuse(block_parameters_type(law="slip_cut_off", own=absent), "c is missing")
+      history = [block_history_type(theta=infinity), block_history_type(u=no_number), &
+                 block_history_type(v=0.0_wp)]
+      do i = 1, size(history)
+         deallocate (failure, stat=status)
+         call history(i)%check("input.nml", failure)
+         call expect_failure(error, failure, trim(words(i)))
+      end do
 
    contains
 
-      !> A value is refused with these words.
-      subroutine refuse(quantity, value, words, key)
-         character(len=*), intent(in) :: quantity, words
-         real(wp), intent(in) :: value
-         character(len=*), intent(in), optional :: key
-         type(failure_type), allocatable :: why
+      !> Parameters are refused with these words.
+      subroutine refuse(refused, why)
+         type(block_parameters_type), intent(in) :: refused
+         character(len=*), intent(in) :: why
+         type(failure_type), allocatable :: met
 
-         call check_quantity(why, "input.nml", quantity, value, key)
-         call expect_failure(error, why, words)
+         call refused%check("input.nml", met)
+         call expect_failure(error, met, why)
       end subroutine refuse
    end subroutine test_refused
 

@@ -1,18 +1,19 @@
-!> Characteristic function and Hopf condition: equation (5) against the determinant of the block's
-!> own linearisation, (6) to (10) against the curves in closed form.
+!> Characteristic function and Hopf condition: those made from the laws against the determinant of
+!> the block's own linearisation; those of the paper's law against (5) to (10) as the paper has
+!> them, and these against the curves in closed form.
 module test_hopf_condition
-   use block_builder, only: build_block
-   use block_parameters, only: block_parameters_type
-   use characteristic_function, only: by_epsilon, by_tau, by_xi, delta, delta_by, delta_by_s, &
-                                      relative_residual
+   use block_parameters, only: block_history_type, block_parameters_type, vector_of, with_vector
+   use characteristic_function, only: characteristic_type
    use closed_form, only: closed_epsilon, closed_tau
-   use dde_errors, only: text
-   use expectations, only: expect_between, expect_close
-   use hopf_condition, only: hopf_epsilon, hopf_tau, hopf_xi, printed_tau
+   use dde_errors, only: failure_type => error_type, text
+   use expectations, only: expect_between, expect_close, expect_success
+   use hopf_condition, only: find_hopf_condition, hopf_condition_type, printed_tau
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use model_registry, only: model_names
+   use paper_equations, only: delta, hopf_epsilon, hopf_tau, hopf_xi, relative_residual
    use pseudo_random, only: uniform
-   use spring_block, only: spring_block_type
+   use spring_block, only: block_characteristic, spring_block_type
    implicit none (type, external)
    private
    public :: collect_hopf_condition
@@ -26,18 +27,21 @@ contains
    subroutine collect_hopf_condition(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("equation (5) from the block", test_linearisation), &
-                   new_unittest("derivatives of (5)", test_derivatives), &
+      testsuite = [new_unittest("characteristic function of each law", test_linearisation), &
+                   new_unittest("equation (5)", test_equation_5), &
+                   new_unittest("derivatives", test_derivatives), &
                    new_unittest("residual", test_residual), &
                    new_unittest("curves in closed form", test_curves), &
+                   new_unittest("Hopf points of each law", test_laws), &
                    new_unittest("equation (10) as printed", test_printed)]
    end subroutine collect_hopf_condition
 
-   !> Delta(s) is the determinant of s - A0 - A1 exp(-s tau), with the matrices taken from the
-   !> right-hand side of the block by differences.
+   !> Delta(s) of each law is the determinant of s - A0 - A1 exp(-s tau), with the matrices taken
+   !> from the right-hand side of the block by differences.
    subroutine test_linearisation(error)
       type(error_type), allocatable, intent(out) :: error
       type(block_parameters_type) :: p
+      type(characteristic_type) :: c
       type(spring_block_type) :: block
       complex(wp) :: matrix(3, 3), s
       real(wp), parameter :: small = 1.0e-5_wp
@@ -46,7 +50,9 @@ contains
 
       do i = 1, points
          call random_point(i, p, s)
-         block = build_block(tau=p%tau, epsilon=p%epsilon, xi=p%xi, gamma=p%gamma)
+         p%law = model_names(1 + modulo(i, size(model_names)))
+         p%own = 0.5_wp
+         block = spring_block_type(p, block_history_type())
          matrix = 0.0_wp
          do j = 1, 4
             shift = 0.0_wp
@@ -61,29 +67,57 @@ contains
          do j = 1, 3
             matrix(j, j) = matrix(j, j) + s
          end do
-         call expect_close(error, abs(delta(p, s) - determinant(matrix))/size_of(p, s), 0.0_wp, &
-                           1.0e-8_wp, "relative misfit at point "//text(i))
+         c = block_characteristic(p)
+         call expect_close(error, abs(c%value(s) - determinant(matrix))/size_of(p, s), 0.0_wp, &
+                           1.0e-8_wp, "relative misfit of "//trim(p%law)//", point "//text(i))
       end do
    end subroutine test_linearisation
 
-   !> Derivatives by s and by parameters against differences of fourth order.
+   !> Delta(s) of the paper's law, and of all that share its linear part, is (5).
+   subroutine test_equation_5(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(block_parameters_type) :: p
+      type(characteristic_type) :: c
+      complex(wp) :: s
+      integer :: i
+
+      do i = 1, points
+         call random_point(i, p, s)
+         ! without its cut-off, that law is the paper's
+         p%law = model_names(1 + modulo(i, size(model_names)))
+         c = block_characteristic(p)
+         call expect_close(error, abs(c%value(s) - delta(p, s))/size_of(p, s), 0.0_wp, &
+                           1.0e-14_wp, "relative misfit of "//trim(p%law)//", point "//text(i))
+         call expect_between(error, abs(c%relative_residual(s) - relative_residual(p, s)), 0.0_wp, &
+                             1.0e-13_wp, "difference of residuals at point "//text(i))
+      end do
+   end subroutine test_equation_5
+
+   !> Derivatives by s and by parameters against differences of fourth order; the bound of the
+   !> slope by s holds it.
    subroutine test_derivatives(error)
       type(error_type), allocatable, intent(out) :: error
       type(block_parameters_type) :: p
+      type(characteristic_type) :: c
       complex(wp) :: known, s
       real(wp), parameter :: h = 5.0e-4_wp
       integer :: by, i
 
       do i = 1, points
          call random_point(i, p, s)
-         do by = by_epsilon, by_xi + 1
-            if (by <= by_xi) known = delta_by(by, p, s)
-            if (by > by_xi) known = delta_by_s(p, s)
+         p%law = model_names(1 + modulo(i, size(model_names)))
+         p%own = 0.5_wp
+         c = block_characteristic(p)
+         do by = 1, 5
+            if (by < 5) known = c%by_parameter(by, s)
+            if (by == 5) known = c%by_s(s)
             call expect_close(error, abs(known - (8.0_wp*(beside(1) - beside(-1)) &
                                                   - (beside(2) - beside(-2)))/(12.0_wp*h)) &
                               /size_of(p, s), 0.0_wp, 1.0e-7_wp, "misfit at point "//text(i) &
                               //", derivative "//text(by))
          end do
+         call expect_between(error, abs(c%by_s(s))/c%slope_bound(s), 0.0_wp, 1.0_wp + 1.0e-14_wp, &
+                             "slope over its bound at point "//text(i))
       end do
 
    contains
@@ -92,12 +126,14 @@ contains
       complex(wp) function beside(steps) result(value)
          integer, intent(in) :: steps
          type(block_parameters_type) :: there
+         type(characteristic_type) :: delta_there
+         real(wp) :: vector(4)
 
-         there = p
-         if (by == by_epsilon) there%epsilon = p%epsilon + h*steps
-         if (by == by_tau) there%tau = p%tau + h*steps
-         if (by == by_xi) there%xi = p%xi + h*steps
-         value = delta(there, s + merge(h*steps, 0.0_wp, by > by_xi))
+         vector = vector_of(p)
+         if (by < 5) vector(by) = vector(by) + h*steps
+         there = with_vector(p, vector)
+         delta_there = block_characteristic(there)
+         value = delta_there%value(s + merge(h*steps, 0.0_wp, by == 5))
       end function beside
    end subroutine test_derivatives
 
@@ -106,43 +142,105 @@ contains
    subroutine test_residual(error)
       type(error_type), allocatable, intent(out) :: error
       type(block_parameters_type) :: p
+      type(characteristic_type) :: c
 
-      call expect_close(error, relative_residual(p, (1.0_wp, 0.0_wp)), 2.5_wp, 1.0e-15_wp, &
+      c = block_characteristic(p)
+      call expect_close(error, c%relative_residual((1.0_wp, 0.0_wp)), 2.5_wp, 1.0e-15_wp, &
                         "residual")
       p%epsilon = 0.5_wp
-      call expect_close(error, relative_residual(p, cmplx(0.0_wp, sqrt(0.5_wp), kind=wp)), 0.0_wp, &
+      c = block_characteristic(p)
+      call expect_close(error, c%relative_residual(cmplx(0.0_wp, sqrt(0.5_wp), kind=wp)), 0.0_wp, &
                         1.0e-15_wp, "residual of a root")
    end subroutine test_residual
 
-   !> For soft and stiff blocks on four branches: epsilon and tau over omega are those in closed
-   !> form, i omega is a root of (5) there, and equation (9) gives back the xi from which (10) gave
-   !> tau.
+   !> For soft and stiff blocks on four branches: epsilon, tau and xi of the paper's law are those
+   !> of (7) to (10), epsilon and tau over omega are those in closed form, and i omega is a root of
+   !> (5).
    subroutine test_curves(error)
       type(error_type), allocatable, intent(out) :: error
       type(block_parameters_type) :: p
+      type(failure_type), allocatable :: failure
+      type(hopf_condition_type) :: condition
       real(wp) :: x(3)
       integer :: i, k
 
+      call find_hopf_condition(p, condition, failure)
+      call expect_success(error, failure)
       do i = 1, points
          x = random_omega(i)
          associate (omega => x(1), xi => x(2), gamma => x(3))
-            p = block_parameters_type(epsilon=hopf_epsilon(omega, xi, gamma), xi=xi, gamma=gamma)
+            p = block_parameters_type(epsilon=condition%epsilon_at(omega, xi, gamma), xi=xi, &
+                                      gamma=gamma)
             call expect_close(error, (1.0_wp + p%epsilon) &
                               /(1.0_wp + closed_epsilon(omega, xi, gamma)), 1.0_wp, 1.0e-13_wp, &
                               "1 + epsilon over its closed form, point "//text(i))
+            call expect_close(error, (1.0_wp + p%epsilon) &
+                              /(1.0_wp + hopf_epsilon(omega, xi, gamma)), 1.0_wp, &
+                              1.0e-13_wp, "1 + epsilon over that of (7), point "//text(i))
             do k = 0, 3
-               p%tau = hopf_tau(omega, xi, gamma, k)
+               p%tau = condition%tau_at(omega, p%epsilon, xi, gamma, k)
                call expect_close(error, omega*p%tau, omega*closed_tau(omega, xi, gamma, k), &
                                  1.0e-12_wp, "omega tau of branch "//text(k)//", point "//text(i))
+               call expect_close(error, omega*p%tau, omega*hopf_tau(omega, xi, gamma, k), &
+                                 1.0e-12_wp, "omega tau of (10), branch "//text(k)//", point " &
+                                 //text(i))
                call expect_between(error, relative_residual(p, cmplx(0.0_wp, omega, kind=wp)), &
                                    0.0_wp, 1.0e-13_wp, &
                                    "residual of branch "//text(k)//", point "//text(i))
                call expect_close(error, hopf_xi(omega, p%tau, gamma)/xi, 1.0_wp, 1.0e-9_wp, &
-                                 "xi over xi, point "//text(i))
+                                 "xi of (9) over xi, point "//text(i))
+               call expect_close(error, condition%xi_at(omega, p%tau, gamma)/xi, 1.0_wp, &
+                                 1.0e-9_wp, "xi over xi, point "//text(i))
             end do
          end associate
       end do
    end subroutine test_curves
+
+   !> For each law, at random points: i omega is a root at epsilon and tau of its pair; the other
+   !> frequency has the same epsilon; lines along xi and gamma find these values again.
+   subroutine test_laws(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(block_parameters_type) :: p
+      type(characteristic_type) :: c
+      type(failure_type), allocatable :: failure
+      type(hopf_condition_type) :: condition
+      real(wp) :: partner, x(3)
+      integer :: i, law
+
+      do law = 1, size(model_names)
+         p = block_parameters_type(law=model_names(law), own=0.7_wp)
+         call find_hopf_condition(p, condition, failure)
+         call expect_success(error, failure)
+         do i = 1, points/4
+            x = random_omega(i)
+            associate (omega => x(1))
+               p%xi = x(2)
+               p%gamma = x(3)
+               p%epsilon = condition%epsilon_at(omega, p%xi, p%gamma)
+               p%tau = condition%tau_at(omega, p%epsilon, p%xi, p%gamma, 1)
+               c = block_characteristic(p)
+               call expect_between(error, c%relative_residual(cmplx(0.0_wp, omega, kind=wp)), &
+                                   0.0_wp, 1.0e-12_wp, "residual of "//trim(p%law)//", point " &
+                                   //text(i))
+               partner = condition%partner_omega(omega, p%epsilon, p%xi, p%gamma)
+               call expect_close(error, (1.0_wp + condition%epsilon_at(partner, p%xi, p%gamma)) &
+                                 /(1.0_wp + p%epsilon), 1.0_wp, 1.0e-9_wp, &
+                                 "1 + epsilon of the partner, point "//text(i))
+               call expect_close(error, condition%xi_at(omega, p%tau, p%gamma)/p%xi, 1.0_wp, &
+                                 1.0e-8_wp, "xi over xi, point "//text(i))
+               call expect_close(error, condition%gamma_at(omega, p%epsilon, p%tau, p%xi)/p%gamma, &
+                                 1.0_wp, 1.0e-7_wp, "gamma over gamma, point "//text(i))
+               call expect_close(error, condition%miss_along_xi(omega, p%epsilon, p%tau, p%gamma), &
+                                 0.0_wp, 1.0e-11_wp, "miss along xi, point "//text(i))
+               call expect_close(error, condition%miss_along_gamma(omega, p%epsilon, p%tau, p%xi), &
+                                 0.0_wp, 1.0e-11_wp, "miss along gamma, point "//text(i))
+               call expect_between(error, condition%largest_omega(p%epsilon)/omega, &
+                                   1.0_wp - 1.0e-12_wp, huge(1.0_wp), "largest omega, point " &
+                                   //text(i))
+            end associate
+         end do
+      end do
+   end subroutine test_laws
 
    !> (10) as printed, by hand at xi = gamma = 1, and its residual: nowhere a root.
    subroutine test_printed(error)

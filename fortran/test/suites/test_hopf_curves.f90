@@ -4,17 +4,17 @@
 module test_hopf_curves
    use block_equation, only: block_equation_type
    use block_parameters, only: block_parameters_type
-   use characteristic_function, only: relative_residual
    use characteristic_roots, only: find_roots
    use closed_form, only: closed_epsilon
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close, expect_success
-   use hopf_condition, only: hopf_epsilon, partner_omega
+   use hopf_condition, only: find_hopf_condition, hopf_condition_type
    use hopf_curves, only: curve_point_type
    use hopf_planes, only: curve_plane_type
    use hopf_points, only: hopf_point_type
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use paper_equations, only: hopf_epsilon, relative_residual
    use pseudo_random, only: uniform
    use traced_planes, only: closed_delta, find_points, known_point, place_of, plane_number, &
                             planes, trace, traced_plane
@@ -189,18 +189,25 @@ contains
    !> Both frequencies have the same epsilon, each is the other's partner.
    subroutine test_partner(error)
       type(error_type), allocatable, intent(out) :: error
+      type(block_parameters_type) :: p
+      type(failure_type), allocatable :: failure
+      type(hopf_condition_type) :: c
       real(wp) :: partner, x(3)
       integer :: i
 
+      call find_hopf_condition(p, c, failure)
+      call expect_success(error, failure)
       do i = 1, 100
          x = 10.0_wp**uniform(i, 3, -1.0_wp, 1.0_wp)
          associate (omega => x(1), xi => x(2), gamma => x(3))
-            partner = partner_omega(omega, xi, gamma)
+            partner = c%partner_omega(omega, hopf_epsilon(omega, xi, gamma), xi, gamma)
             call expect_close(error, (1.0_wp + hopf_epsilon(partner, xi, gamma)) &
                               /(1.0_wp + hopf_epsilon(omega, xi, gamma)), 1.0_wp, 1.0e-12_wp, &
                               "1 + epsilon over 1 + epsilon")
-            call expect_close(error, partner_omega(partner, xi, gamma)/omega, 1.0_wp, 1.0e-9_wp, &
-                              "partner of the partner")
+            associate (epsilon => hopf_epsilon(partner, xi, gamma))
+               call expect_close(error, c%partner_omega(partner, epsilon, xi, gamma)/omega, &
+                                 1.0_wp, 1.0e-9_wp, "partner of the partner")
+            end associate
          end associate
       end do
    end subroutine test_partner

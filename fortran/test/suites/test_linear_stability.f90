@@ -5,18 +5,17 @@ module test_linear_stability
    use block_equation, only: block_equation_type
    use block_family, only: along_tau
    use block_parameters, only: block_parameters_type
-   use characteristic_function, only: relative_residual
    use characteristic_roots, only: find_roots
    use closed_form, only: block_with_pair, closed_tau
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
    use delay_equation, only: linear_system_type
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
-   use hopf_condition, only: hopf_epsilon, hopf_tau
    use hopf_curves, only: curve_point_type, trace_curves
    use known_equations, only: neurons, new_block_by_values, new_small, small_equation
    use lapack, only: solve
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use paper_equations, only: hopf_epsilon, hopf_tau, relative_residual
    use normal_form, only: first_lyapunov_coefficient
    use pseudo_random, only: uniform
    use root_counts, only: pairs_beside, roots_right_of

@@ -43,12 +43,12 @@ contains
    end subroutine collect_lyapunov_spectrum
 
    !> The oscillation of the paper.
-   pure type(spring_block_type) function oscillation() result(block)
+   type(spring_block_type) function oscillation() result(block)
       block = build_block(tau=10.0_wp, epsilon=0.35_wp, xi=0.8_wp, gamma=0.8_wp, v=1.1_wp)
    end function oscillation
 
    !> A block without delay whose third vector shrinks by exp(-2e4) in a unit of time.
-   pure type(spring_block_type) function stiff(u) result(block)
+   type(spring_block_type) function stiff(u) result(block)
       real(wp), intent(in) :: u
 
       block = build_block(tau=0.0_wp, epsilon=0.3_wp, xi=0.5_wp, gamma=100.0_wp, u=u)

@@ -4,7 +4,6 @@ module test_stability_changes
    use block_builder, only: build_block
    use block_parameters, only: block_parameters_type
    use block_roots, only: roots_of_block
-   use characteristic_function, only: relative_residual
    use closed_form, only: block_with_pair
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
@@ -12,6 +11,7 @@ module test_stability_changes
    use exponent_averages, only: exponent_type
    use lapack, only: eigenvalues
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use paper_equations, only: relative_residual
    use pseudo_random, only: uniform
    use root_counts, only: pairs_beside, roots_right_of
    use stability_changes, only: changes_with_epsilon, changes_with_tau, stability_change_type

@@ -4,6 +4,7 @@ module traced_planes
    use closed_form, only: closed_epsilon, closed_tau, closed_xi
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_success
+   use hopf_condition, only: find_hopf_condition
    use hopf_curves, only: curve_point_type, trace_curves
    use hopf_planes, only: curve_plane_type
    use hopf_points, only: find_hopf_points, hopf_point_type, judge_points
@@ -29,7 +30,7 @@ contains
 
    !> Plane number i: Figures 2 and 3, loops that leave the window on their way, a short delay,
    !> pieces up to the largest omega there can be, branches up to the highest, and a large gamma.
-   pure type(curve_plane_type) function plane_number(i) result(plane)
+   type(curve_plane_type) function plane_number(i) result(plane)
       integer, intent(in) :: i
       integer, parameter :: along(planes) = [along_tau, along_xi, along_tau, along_xi, along_tau, &
                                              along_tau, along_tau]
@@ -77,9 +78,10 @@ contains
    end subroutine find_points
 
    !> A plane at a gamma and a fixed xi or tau, with windows on epsilon and the ordinate.
-   pure type(curve_plane_type) function new_plane(along, gamma, fixed, windows) result(plane)
+   type(curve_plane_type) function new_plane(along, gamma, fixed, windows) result(plane)
       integer, intent(in) :: along
       real(wp), intent(in) :: gamma, fixed, windows(4)
+      type(failure_type), allocatable :: failure
 
       plane%along = along
       plane%fixed%gamma = gamma
@@ -87,6 +89,8 @@ contains
       if (along == along_xi) plane%fixed%tau = fixed
       plane%epsilon_window = windows(:2)
       plane%ordinate_window = windows(3:)
+      call find_hopf_condition(plane%fixed, plane%condition, failure)
+      if (allocated(failure)) error stop "new_plane: "//failure%message
    end function new_plane
 
    !> (epsilon, ordinate) of branch k at omega in closed form.

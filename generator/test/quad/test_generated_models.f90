@@ -1,0 +1,154 @@
+!> Models made from definitions, in quadruple precision: all forms against the right-hand side, and
+!> against the same models written by hand.
+module test_generated_models
+   use dde, only: problem_with_tangents
+   use dde_kinds, only: wp
+   use expectations, only: expect_close
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use made_enzyme_model, only: made_enzyme_type
+   use made_infection_model, only: made_infection_type
+   use made_mackey_glass_model, only: made_mackey_glass_type
+   use made_zoo_model, only: made_zoo_type
+   use model_consistency, only: check_forms, check_model
+   use model_problem, only: description_type, model_type
+   use model_registry, only: make_model, model_names
+   use pseudo_random, only: uniform
+   use published_problems, only: enzyme, infection, mackey_glass
+   use solving, only: at_tolerance, solve
+   implicit none (type, external)
+   private
+   public :: collect_generated_models
+
+contains
+
+   subroutine collect_generated_models(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("all functions, two delays, time", test_zoo), &
+                   new_unittest("histories", test_histories), &
+                   new_unittest("Mackey-Glass", test_mackey_glass), &
+                   new_unittest("infection", test_infection), &
+                   new_unittest("enzyme kinetics", test_enzyme), &
+                   new_unittest("laws of friction", test_laws)]
+   end subroutine collect_generated_models
+
+   !> One of everything, with both delays and with one of 0.
+   subroutine test_zoo(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(made_zoo_type) :: zoo
+      integer :: i
+
+      do i = 0, 1
+         call zoo%set([1.3_wp, 0.9_wp*i], [0.0_wp, 0.0_wp, 0.0_wp])
+         call check_model(error, zoo, [0.4_wp, -0.7_wp, 0.3_wp], &
+                          uniform(i + 1, size(zoo%lag), 0.1_wp, 0.9_wp), "zoo")
+      end do
+   end subroutine test_zoo
+
+   !> An expression of t, its value and its series.
+   subroutine test_histories(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(made_zoo_type) :: zoo
+      real(wp), parameter :: t = -0.6_wp, s = 1.0e-3_wp
+      real(wp) :: series(0:12)
+      integer :: component, k
+
+      call zoo%set([1.3_wp, 0.9_wp], [0.0_wp, 0.0_wp, 0.0_wp])
+      call expect_close(error, zoo%history(t, 1), 1.0_wp + t/3.0_wp, 1.0e-33_wp, "1 + t/3")
+      call expect_close(error, zoo%history(t, 2), exp(t/5.0_wp)*cos(t), 1.0e-32_wp, &
+                        "exp(t/5) cos(t)")
+      call expect_close(error, zoo%history(t, 3), sin(t)**2, 1.0e-33_wp, "sin(t)**2")
+      do component = 1, 3
+         call zoo%past_series(t, component, 0.5_wp, series)
+         call expect_close(error, sum([(series(k)*s**k, k=0, 12)]), &
+                           zoo%history(t + 0.5_wp*s, component), 1.0e-32_wp, "series of history")
+      end do
+   end subroutine test_histories
+
+   !> Series and series of disturbances of the model written by hand; itself with and without delay.
+   subroutine test_mackey_glass(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(made_mackey_glass_type) :: made
+      type(mackey_glass) :: hand
+      real(wp), dimension(0:12, 1) :: y, y_by_hand, z
+      real(wp), dimension(0:12, 1, 5) :: dy, dy_by_hand, dz
+
+      call made%set([17.0_wp], [1.2_wp])
+      hand = mackey_glass()
+      z(:, 1) = uniform(1, 13, 0.2_wp, 0.9_wp)
+      dz = reshape(uniform(2, 65, -1.0_wp, 1.0_wp), shape(dz))
+      y(0, :) = 0.8_wp
+      y_by_hand(0, :) = y(0, :)
+      call made%series(0.0_wp, 0.7_wp, 12, z, y)
+      call hand%series(0.0_wp, 0.7_wp, 12, z, y_by_hand)
+      call expect_close(error, y(:, 1), y_by_hand(:, 1), 1.0e-25_wp, "series")
+      dy(0, 1, :) = uniform(3, 5, -1.0_wp, 1.0_wp)
+      dy_by_hand(0, 1, :) = dy(0, 1, :)
+      call made%tangent_series(0.0_wp, 0.7_wp, 12, z, y, 5, dz, dy)
+      call hand%tangent_series(0.0_wp, 0.7_wp, 12, z, y, 5, dz, dy_by_hand)
+      call expect_close(error, [dy], [dy_by_hand], 1.0e-23_wp, "series of disturbances")
+      call check_model(error, made, [0.8_wp], [0.9_wp], "Mackey-Glass")
+      call made%set([0.0_wp], [1.2_wp])
+      call check_model(error, made, [0.8_wp], [real(wp) ::], "Mackey-Glass without delay")
+   end subroutine test_mackey_glass
+
+   !> Whole runs of the model written by hand.
+   subroutine test_infection(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(made_infection_type) :: made
+
+      call made%set([real(wp) ::], [0.0_wp, 0.0_wp, 0.0_wp])
+      call compare_runs(error, made, infection(), 15.0_wp, "taylor")
+      call check_model(error, made, [2.0_wp, 0.3_wp, 1.0_wp], [0.4_wp, 0.2_wp], "infection")
+   end subroutine test_infection
+
+   !> Whole runs of the model written by hand, which has no series.
+   subroutine test_enzyme(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(made_enzyme_type) :: made
+
+      call made%set([real(wp) ::], [0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp])
+      call compare_runs(error, made, enzyme(), 6.0_wp, "dop853")
+      call check_model(error, made, [50.0_wp, 12.0_wp, 9.0_wp, 15.0_wp], [14.0_wp], "enzyme")
+   end subroutine test_enzyme
+
+   !> Solutions of a made model by Taylor steps and of the model by hand by another method.
+   subroutine compare_runs(error, made, hand, t_end, method)
+      type(error_type), allocatable, intent(inout) :: error
+      class(model_type), intent(in) :: made
+      class(problem_with_tangents), intent(in) :: hand
+      real(wp), intent(in) :: t_end
+      character(len=*), intent(in) :: method
+      real(wp), allocatable :: by_hand(:, :), values(:, :)
+      real(wp), parameter :: tolerance = 1.0e-18_wp
+
+      call solve(made, [0.5_wp*t_end, t_end], at_tolerance(tolerance, "taylor"), values, error)
+      call solve(hand, [0.5_wp*t_end, t_end], at_tolerance(tolerance, method), by_hand, error)
+      if (allocated(error)) return
+      call expect_close(error, [values], [by_hand], 1.0e-15_wp, "states")
+   end subroutine compare_runs
+
+   !> Every law at random states, with delay and without, and its derivative forms.
+   subroutine test_laws(error)
+      type(error_type), allocatable, intent(out) :: error
+      class(model_type), allocatable :: model
+      type(description_type) :: description
+      real(wp), allocatable :: own(:)
+      integer :: i, law
+
+      do law = 1, size(model_names)
+         do i = 1, 8
+            call make_model(trim(model_names(law)), model)
+            description = model%describe()
+            own = uniform(10 + i, size(description%parameters) - 4, 0.1_wp, 1.0_wp)
+            ! from soft to stiff
+            call model%set([2.0_wp*modulo(i, 2), uniform(20 + i, 2, 0.3_wp, 2.0_wp), &
+                            10.0_wp**(i - 2), own], [0.0_wp, 0.0_wp, 0.0_wp])
+            call check_model(error, model, uniform(30 + i, 3, -1.0_wp, 1.0_wp), &
+                             uniform(40 + i, size(model%lag), -1.0_wp, 1.0_wp), &
+                             trim(model_names(law)))
+            if (modulo(i, 2) == 1) call check_forms(error, model, trim(model_names(law)))
+         end do
+      end do
+   end subroutine test_laws
+end module test_generated_models

@@ -1,0 +1,278 @@
+!> All that is made from the equations of a model, against its right-hand side: by differences, and
+!> by inserting the Taylor series. In quadruple precision differences of step 1e-8 are good to 15
+!> digits.
+module model_consistency
+   use dde_errors, only: text
+   use dde_kinds, only: wp
+   use expectations, only: expect_close
+   use mctc_env_testing, only: error_type
+   use model_problem, only: model_type
+   use pseudo_random, only: uniform
+   implicit none (type, external)
+   private
+   public :: check_forms, check_model
+
+   !> Step of differences, and what they are good for.
+   real(wp), parameter :: h = 1.0e-8_wp, good = 1.0e-13_wp
+   !> Degree of series, time, and where the series are inserted.
+   integer, parameter :: degree = 12
+   real(wp), parameter :: now = 0.3_wp, place = 1.0e-3_wp
+   !> Disturbances: more than are computed at a time.
+   integer, parameter :: vectors = 6
+
+contains
+
+   !> Right-hand side, Jacobian and series at a state and delayed values.
+   subroutine check_model(error, model, y, z, name)
+      type(error_type), allocatable, intent(inout) :: error
+      class(model_type), intent(in) :: model
+      real(wp), intent(in) :: y(:), z(:)
+      character(len=*), intent(in) :: name
+
+      if (allocated(error)) return
+      call check_jacobian(error, model, y, z, name)
+      call check_series(error, model, y, z, name)
+      call check_tangents(error, model, y, z, name)
+      if (model%relaxation_rate(now, y) > 0.0_wp) call check_slow(error, model, y, z, name)
+   end subroutine check_model
+
+   !> Derivatives by states and delayed values.
+   subroutine check_jacobian(error, model, y, z, name)
+      type(error_type), allocatable, intent(inout) :: error
+      class(model_type), intent(in) :: model
+      real(wp), intent(in) :: y(:), z(:)
+      character(len=*), intent(in) :: name
+      real(wp) :: by_y(size(y), size(y)), by_z(size(y), size(z)), shift_y(size(y)), shift_z(size(z))
+      integer :: i
+
+      call model%jacobian(now, y, z, by_y, by_z)
+      shift_z = 0.0_wp
+      do i = 1, size(y)
+         shift_y = 0.0_wp
+         shift_y(i) = h
+         call compare_column(by_y(:, i), "state "//text(i))
+      end do
+      shift_y = 0.0_wp
+      do i = 1, size(z)
+         shift_z = 0.0_wp
+         shift_z(i) = h
+         call compare_column(by_z(:, i), "delayed value "//text(i))
+      end do
+
+   contains
+
+      subroutine compare_column(column, by)
+         real(wp), intent(in) :: column(:)
+         character(len=*), intent(in) :: by
+         real(wp), dimension(size(y)) :: after, before
+
+         call model%rhs(now, y + shift_y, z + shift_z, after)
+         call model%rhs(now, y - shift_y, z - shift_z, before)
+         call compare(error, column, (after - before)/(2.0_wp*h), good, name//", slope by "//by)
+      end subroutine compare_column
+   end subroutine check_jacobian
+
+   !> The series solve the equations: y'(s) = unit f(y(s), z(s)) up to the powers left out.
+   subroutine check_series(error, model, y, z, name)
+      type(error_type), allocatable, intent(inout) :: error
+      class(model_type), intent(in) :: model
+      real(wp), intent(in) :: y(:), z(:)
+      character(len=*), intent(in) :: name
+      real(wp) :: unit
+      real(wp) :: expected(size(y)), of_y(0:degree, size(y)), of_z(0:degree, size(z))
+
+      unit = unit_for(model, y, z)
+      of_y = 0.0_wp
+      of_y(0, :) = y
+      of_z = delayed_series(z)
+      call model%series(now, unit, degree, of_z, of_y)
+      call model%rhs(now + place*unit, value_of(of_y), value_of(of_z), expected)
+      ! the first power left out is as large as the last one kept, and s is small
+      associate (left_out => 100.0_wp*degree*maxval(abs(of_y(degree, :)))*place**degree)
+         call compare(error, slope_of(of_y), unit*expected, 1.0e-28_wp + left_out, &
+                      name//", slope of the series")
+      end associate
+   end subroutine check_series
+
+   !> Series of disturbances, by differences of series.
+   subroutine check_tangents(error, model, y, z, name)
+      type(error_type), allocatable, intent(inout) :: error
+      class(model_type), intent(in) :: model
+      real(wp), intent(in) :: y(:), z(:)
+      character(len=*), intent(in) :: name
+      real(wp), dimension(0:degree, size(y)) :: after, before, of_y
+      real(wp) :: unit
+      real(wp) :: of_z(0:degree, size(z)), dz(0:degree, size(z), vectors), &
+                  dy(0:degree, size(y), vectors)
+      integer :: i
+
+      unit = unit_for(model, y, z)
+      of_z = delayed_series(z)
+      of_y(0, :) = y
+      call model%series(now, unit, degree, of_z, of_y)
+      dy = 0.0_wp
+      do i = 1, vectors
+         dy(0, :, i) = uniform(500 + i, size(y), -1.0_wp, 1.0_wp)
+         dz(:, :, i) = reshape(uniform(600 + i, size(of_z), -1.0_wp, 1.0_wp), shape(of_z))
+      end do
+      call model%tangent_series(now, unit, degree, of_z, of_y, vectors, dz, dy)
+      do i = 1, vectors
+         after(0, :) = y + h*dy(0, :, i)
+         before(0, :) = y - h*dy(0, :, i)
+         call model%series(now, unit, degree, of_z + h*dz(:, :, i), after)
+         call model%series(now, unit, degree, of_z - h*dz(:, :, i), before)
+         call compare(error, [dy(:, :, i)], [(after - before)/(2.0_wp*h)], good, &
+                      name//", series of disturbance "//text(i))
+      end do
+   end subroutine check_tangents
+
+   !> On a solution w is its balance less w'/rate: an iteration gives the series back, but for the
+   !> last powers, of which w' is not known. Of disturbances it gives those of neighbouring
+   !> iterations.
+   subroutine check_slow(error, model, y, z, name)
+      type(error_type), allocatable, intent(inout) :: error
+      class(model_type), intent(in) :: model
+      real(wp), intent(in) :: y(:), z(:)
+      character(len=*), intent(in) :: name
+      real(wp), dimension(0:degree, size(y)) :: after, before, better, of_y
+      real(wp) :: unit
+      real(wp) :: of_z(0:degree, size(z)), dz(0:degree, size(z), vectors), &
+                  dy(0:degree, size(y), vectors)
+      integer :: i
+
+      unit = unit_for(model, y, z)
+      of_z = delayed_series(z)
+      of_y(0, :) = y
+      call model%series(now, unit, degree, of_z, of_y)
+      better = of_y
+      call model%slow_series(now, unit, degree, of_z, better)
+      call compare(error, [better(:degree - 1, :)], [of_y(:degree - 1, :)], 1.0e-28_wp, &
+                   name//", slow series")
+      dy = 0.0_wp
+      do i = 1, vectors
+         dy(0, :, i) = uniform(500 + i, size(y), -1.0_wp, 1.0_wp)
+         dz(:, :, i) = reshape(uniform(600 + i, size(of_z), -1.0_wp, 1.0_wp), shape(of_z))
+      end do
+      call model%tangent_series(now, unit, degree, of_z, of_y, vectors, dz, dy)
+      call model%slow_tangent_series(now, unit, degree, of_z, of_y, better, vectors, dz, dy)
+      do i = 1, vectors
+         after(0, :) = y + h*uniform(500 + i, size(y), -1.0_wp, 1.0_wp)
+         before(0, :) = y - h*uniform(500 + i, size(y), -1.0_wp, 1.0_wp)
+         call model%series(now, unit, degree, of_z + h*dz(:, :, i), after)
+         call model%series(now, unit, degree, of_z - h*dz(:, :, i), before)
+         call model%slow_series(now, unit, degree, of_z + h*dz(:, :, i), after)
+         call model%slow_series(now, unit, degree, of_z - h*dz(:, :, i), before)
+         call compare(error, [dy(:, :, i)], [(after - before)/(2.0_wp*h)], good, &
+                      name//", slow series of disturbance "//text(i))
+      end do
+   end subroutine check_slow
+
+   !> Derivative forms at the steady state: the first is the Jacobian, others are differences of it.
+   subroutine check_forms(error, model, name)
+      type(error_type), allocatable, intent(inout) :: error
+      class(model_type), intent(in) :: model
+      character(len=*), intent(in) :: name
+      real(wp), parameter :: wide = 1.0e-6_wp
+      real(wp) :: expected(model%n), mixed(model%n, 2), x(model%n, 1 + size(model%lag), 3)
+      integer :: i
+
+      if (allocated(error)) return
+      do i = 1, 3
+         x(:, :, i) = reshape(uniform(700 + i, size(x(:, :, 1)), -1.0_wp, 1.0_wp), &
+                              shape(x(:, :, 1)))
+      end do
+      expected = slope_at(0.0_wp*x(:, :, 1), x(:, :, 1))
+      call compare(error, real(model%derivative(cmplx(x(:, :, :1), kind=wp))), expected, good, &
+                   name//", first form")
+      expected = (slope_at(h*x(:, :, 2), x(:, :, 1)) - slope_at(-h*x(:, :, 2), x(:, :, 1)))/(2.0_wp*h)
+      call compare(error, real(model%derivative(cmplx(x(:, :, :2), kind=wp))), expected, good, &
+                   name//", second form")
+      do i = 1, 2
+         associate (way => (-1)**i*wide*x(:, :, 3))
+            mixed(:, i) = (slope_at(way + wide*x(:, :, 2), x(:, :, 1)) &
+                           - slope_at(way - wide*x(:, :, 2), x(:, :, 1)))/(2.0_wp*wide)
+         end associate
+      end do
+      expected = (mixed(:, 2) - mixed(:, 1))/(2.0_wp*wide)
+      call compare(error, real(model%derivative(cmplx(x, kind=wp))), expected, 1.0e-9_wp, &
+                   name//", third form")
+
+   contains
+
+      !> The Jacobian at a shift from the steady state, times a disturbance.
+      function slope_at(shift, disturbance) result(slope)
+         real(wp), intent(in) :: shift(:, :), disturbance(:, :)
+         real(wp) :: slope(model%n)
+         real(wp) :: by_y(model%n, model%n), by_z(model%n, size(model%lag))
+         integer :: k
+
+         associate (state => model%steady_state())
+            call model%jacobian(now, state + shift(:, 1), &
+                                [(state(model%component(k)) + shift(model%component(k), k + 1), &
+                                  k=1, size(model%lag))], by_y, by_z)
+         end associate
+         slope = matmul(by_y, disturbance(:, 1))
+         do k = 1, size(model%lag)
+            slope = slope + by_z(:, k)*disturbance(model%component(k), k + 1)
+         end do
+      end function slope_at
+   end subroutine check_forms
+
+   !> A unit of time in which the solution changes little.
+   function unit_for(model, y, z) result(unit)
+      class(model_type), intent(in) :: model
+      real(wp), intent(in) :: y(:), z(:)
+      real(wp) :: unit
+      real(wp) :: by_y(size(y), size(y)), by_z(size(y), size(z)), dydt(size(y))
+
+      call model%jacobian(now, y, z, by_y, by_z)
+      call model%rhs(now, y, z, dydt)
+      unit = 1.0_wp/(1.0_wp + maxval(abs(by_y)) + maxval(abs(dydt)))
+   end function unit_for
+
+   !> Delayed values as series.
+   function delayed_series(z) result(series)
+      real(wp), intent(in) :: z(:)
+      real(wp) :: series(0:degree, size(z))
+      integer :: i
+
+      do i = 1, size(z)
+         series(:, i) = uniform(400 + i, degree + 1, -0.5_wp, 0.5_wp)
+      end do
+      series(0, :) = z
+   end function delayed_series
+
+   !> Values of series at the place.
+   pure function value_of(series) result(values)
+      real(wp), intent(in) :: series(0:, :)
+      real(wp) :: values(size(series, 2))
+      integer :: k
+
+      values = 0.0_wp
+      do k = ubound(series, 1), 0, -1
+         values = values*place + series(k, :)
+      end do
+   end function value_of
+
+   !> Slopes of series at the place.
+   pure function slope_of(series) result(values)
+      real(wp), intent(in) :: series(0:, :)
+      real(wp) :: values(size(series, 2))
+      integer :: k
+
+      values = 0.0_wp
+      do k = ubound(series, 1), 1, -1
+         values = values*place + k*series(k, :)
+      end do
+   end function slope_of
+
+   !> Numbers agree, relative to the largest.
+   subroutine compare(error, met, expected, tolerance, what)
+      type(error_type), allocatable, intent(inout) :: error
+      real(wp), intent(in) :: met(:), expected(:), tolerance
+      character(len=*), intent(in) :: what
+
+      call expect_close(error, maxval(abs(met - expected))/max(1.0_wp, maxval(abs(expected))), &
+                        0.0_wp, tolerance, what)
+   end subroutine compare
+end module model_consistency
