@@ -11,7 +11,7 @@ folders = [str(workflow.basedir), os.environ.get("PYTHONPATH")]
 os.environ.update(PYTHONPATH=os.pathsep.join(filter(None, folders)))
 sys.path.insert(0, str(workflow.basedir))
 
-from scripts.config.read_config import ConfigError
+from scripts.files.read_config import ConfigError
 from scripts.results import manifest
 from scripts.workflow.plan import read_plan
 

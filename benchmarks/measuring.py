@@ -10,7 +10,7 @@ import subprocess
 from pathlib import Path
 
 from scripts.config.check_config import checked
-from scripts.config.read_config import read
+from scripts.files.read_config import read
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent

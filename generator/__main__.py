@@ -17,7 +17,9 @@ from generator.module import write_module, write_registry
 def main() -> None:
     """Write a module; the file is complete or absent."""
     parser = argparse.ArgumentParser(
-        prog="python -m generator", description=__doc__, formatter_class=argparse.RawTextHelpFormatter
+        prog="python -m generator",
+        description=__doc__,
+        formatter_class=argparse.RawTextHelpFormatter,
     )
     parser.add_argument("--registry", action="store_true", help="write the module of all names")
     parser.add_argument("sources", nargs="+", help="files of one definition, or names of models")

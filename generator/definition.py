@@ -185,7 +185,11 @@ class _Reader:
         self.check_names()
         self.open: list[str] = []
         if set(values["equations"]) != set(model.states):
-            self.refuse("equations", ", ".join(values["equations"]), f"one for each of {', '.join(model.states)}")
+            self.refuse(
+                "equations",
+                ", ".join(values["equations"]),
+                f"one for each of {', '.join(model.states)}",
+            )
         for state in model.states:
             model.texts[state] = str(values["equations"][state])
             model.equations[state] = self.expression(f"equation of {state}", model.texts[state])
@@ -220,7 +224,11 @@ class _Reader:
         ]:
             low = name.lower()
             if not NAME.match(name) or low in TAKEN or keyword.iskeyword(name):
-                self.refuse("name", name, "a letter, then letters, digits or _, no name of the generated code")
+                self.refuse(
+                    "name",
+                    name,
+                    "a letter, then letters, digits or _, no name of the generated code",
+                )
             if low in seen:
                 self.refuse("name", name, "each name once, whatever its case")
             seen.add(low)
@@ -257,7 +265,9 @@ class _Reader:
         model.fast = fast
         for state, window in (values.get("domain") or {}).items():
             if state not in model.states or not isinstance(window, list) or len(window) != 2:
-                self.refuse(f"domain of {state}", window, "a state with its least and largest value")
+                self.refuse(
+                    f"domain of {state}", window, "a state with its least and largest value"
+                )
             model.domain[state] = (float(window[0]), float(window[1]))
 
     def expression(self, place: str, text) -> sympy.Expr:
@@ -353,7 +363,9 @@ class _Expression:
             return model.by_state(self.value(args[0]), args[1].id)
         if name not in FUNCTIONS or len(args) != 1:
             expected = f"one of {', '.join(FUNCTIONS)} of one argument, or STATE(t - delay)"
-            self.refuse(node, f"{expected}: other functions are not analytic or have no series here")
+            self.refuse(
+                node, f"{expected}: other functions are not analytic or have no series here"
+            )
         argument = self.value(args[0])
         for auxiliary, state in model.auxiliary.items():
             of, value = model.symbol(state), model.symbol(auxiliary)

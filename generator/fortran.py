@@ -79,7 +79,12 @@ class _Printer:
                     above.append(literal(sympy.Integer(factor.p)))
                 if factor.q != 1:
                     below.append(literal(sympy.Integer(factor.q)))
-            elif factor.is_Pow and factor.exp.is_Rational and factor.exp < 0 and factor not in self.names:
+            elif (
+                factor.is_Pow
+                and factor.exp.is_Rational
+                and factor.exp < 0
+                and factor not in self.names
+            ):
                 below.append(self.text(1 / factor, ATOM if not (1 / factor).is_Pow else POWER))
             else:
                 above.append(self.text(factor, POWER))
@@ -101,7 +106,7 @@ class _Printer:
 
 
 def wrapped(line: str, width: int = WIDTH) -> list[str]:
-    """A statement or comment on as many lines as it takes, broken at blanks outside of constants."""
+    """A statement or comment on some lines, broken at blanks outside of character constants."""
     indent = line[: len(line) - len(line.lstrip())]
     comment = line.lstrip().startswith("!")
     mark = line.lstrip().split(" ")[0] + " " if comment else "   "
@@ -110,7 +115,9 @@ def wrapped(line: str, width: int = WIDTH) -> list[str]:
         places = [
             at
             for at, letter in enumerate(line[: width - 1])
-            if letter == " " and at > len(indent) + 20 and (comment or line[:at].count('"') % 2 == 0)
+            if letter == " "
+            and at > len(indent) + 20
+            and (comment or line[:at].count('"') % 2 == 0)
         ]
         if not places:
             break

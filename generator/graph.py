@@ -46,7 +46,9 @@ class Graph:
 
     def add(self, kind: str, *args: Node, **rest) -> Node:
         """A new node with a name after its kind."""
-        word = {"exp": "exponential", "log": "logarithm", "sin": "sine", "cos": "cosine"}.get(kind, kind)
+        word = {"exp": "exponential", "log": "logarithm", "sin": "sine", "cos": "cosine"}.get(
+            kind, kind
+        )
         self.counts[word] = self.counts.get(word, 0) + 1
         return Node(kind, f"{word}_{self.counts[word]}", args, **rest)
 
@@ -65,7 +67,9 @@ class Graph:
             return self.add("sum", constant=one)
         if one.is_Add:
             constant = sympy.Add(*(term for term in one.args if self.is_constant(term)))
-            parts = [self.scaled(term) for term in one.as_ordered_terms() if not self.is_constant(term)]
+            parts = [
+                self.scaled(term) for term in one.as_ordered_terms() if not self.is_constant(term)
+            ]
             return self.add(
                 "sum",
                 *(node for _, node in parts),

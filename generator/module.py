@@ -98,7 +98,10 @@ def description_lines(model: Model) -> list[str]:
             if getattr(one, key) is not None:
                 value = text_of(sympy.Rational(str(getattr(one, key))))
                 lines.append(f"description%parameters({place})%{key} = {value}")
-    lines += [f"description%equations({place}) = {quoted(text)}" for place, text in enumerate(equations, 1)]
+    lines += [
+        f"description%equations({place}) = {quoted(text)}"
+        for place, text in enumerate(equations, 1)
+    ]
     return lines
 
 
@@ -111,10 +114,11 @@ def delayed_procedure(model: Model) -> Procedure:
     """Delays and components of the delayed states."""
     parameters = series.uses_parameters(model, [one.lag for one in model.delayed])
     states = list(model.states)
+    components = [str(states.index(one.state) + 1) for one in model.delayed]
     lines = [
         *fetch_parameters(model, parameters),
         f"lag = [real(wp) :: {', '.join(text_of(one.lag) for one in model.delayed)}]",
-        f"component = [integer :: {', '.join(str(states.index(one.state) + 1) for one in model.delayed)}]",
+        f"component = [integer :: {', '.join(components)}]",
     ]
     return Procedure(parameters, [], [], lines)
 

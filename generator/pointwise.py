@@ -1,6 +1,5 @@
 """Procedures that need one state: the right-hand side, its derivatives, and the linear part."""
 
-
 import sympy
 
 from generator.definition import Model
@@ -9,7 +8,9 @@ from generator.recurrences import fetch_parameters
 from generator.series import Balance, Procedure, guarded, refusals, uses_parameters
 
 
-def fetch_states(model: Model, expressions: list[sympy.Expr]) -> tuple[list[str], list[str], list[str]]:
+def fetch_states(
+    model: Model, expressions: list[sympy.Expr]
+) -> tuple[list[str], list[str], list[str]]:
     """Statements that set states, delayed states and auxiliaries; and the names that they set.
 
     The auxiliaries are by themselves: they may have no value.
@@ -32,7 +33,9 @@ def fetch_states(model: Model, expressions: list[sympy.Expr]) -> tuple[list[str]
             ]
             names.append(name)
     auxiliary = [
-        f"{name} = exp({state})" for name, state in model.auxiliary.items() if model.symbol(name) in symbols
+        f"{name} = exp({state})"
+        for name, state in model.auxiliary.items()
+        if model.symbol(name) in symbols
     ]
     names += [name for name in model.auxiliary if model.symbol(name) in symbols]
     return states, auxiliary, names
@@ -64,7 +67,6 @@ def rhs_procedure(model: Model) -> Procedure:
 def jacobian_procedure(model: Model) -> Procedure:
     """Derivatives of the equations by states and delayed states."""
     entries: dict[str, sympy.Expr] = {}
-    absent: dict[int, list[str]] = {}
     for row, equation in enumerate(model.equations.values(), 1):
         for column, state in enumerate(model.states, 1):
             entries[f"by_y({row}, {column})"] = model.by_state(equation, state)
@@ -89,14 +91,19 @@ def jacobian_procedure(model: Model) -> Procedure:
     # without its delay a delayed state is the present one
     for number, one in enumerate(model.delayed, 1):
         column = list(model.states).index(one.state) + 1
-        rows = [row for row in range(1, len(model.states) + 1) if f"delayed_{row}_{number}" in texts]
-        lines += [f"if (self%place({number}) > 0) then", f"   by_z(:, self%place({number})) = 0.0_wp"]
-        lines += [f"   by_z({row}, self%place({number})) = {texts[f'delayed_{row}_{number}']}" for row in rows]
-        absent[number] = [
-            f"   by_y({row}, {column}) = by_y({row}, {column}) + {braced(texts[f'delayed_{row}_{number}'])}"
-            for row in rows
-        ]
-        lines += ["else", *absent[number], "end if"]
+        rows = {
+            row: texts[f"delayed_{row}_{number}"]
+            for row in range(1, len(model.states) + 1)
+            if f"delayed_{row}_{number}" in texts
+        }
+        place = f"self%place({number})"
+        lines += [f"if ({place} > 0) then", f"   by_z(:, {place}) = 0.0_wp"]
+        lines += [f"   by_z({row}, {place}) = {text}" for row, text in rows.items()]
+        lines += ["else"]
+        for row, text in rows.items():
+            entry = f"by_y({row}, {column})"
+            lines.append(f"   {entry} = {entry} + {braced(text)}")
+        lines += ["end if"]
     # no number in all of them
     lines = [line.replace("   return", "   by_z = by_y(1, 1)\n   return") for line in lines]
     lines = [part for line in lines for part in line.split("\n")]
@@ -189,4 +196,3 @@ def characteristic_procedure(model: Model) -> Procedure:
                 if slope != 0:
                     lines.append(f"{array}({i}, {j}) = {text_of(slope)}")
     return Procedure(parameters, [], [], lines)
-

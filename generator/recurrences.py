@@ -26,7 +26,7 @@ from generator.graph import Node
 
 @dataclass
 class Constants:
-    """What does not change in time: parameters in use, and numbers computed from them once a call."""
+    """What does not change in time: parameters, and numbers computed from them once a call."""
 
     model: Model
     names: dict[sympy.Expr, str] = field(default_factory=dict)
@@ -212,7 +212,11 @@ class Recurrences:
 
     def power(self, node, name, zero):
         a = self.text(node.args[0])
-        exponent = text_of(node.exponent) if node.exponent.is_Integer else self.constants.text(node.exponent)
+        exponent = (
+            text_of(node.exponent)
+            if node.exponent.is_Integer
+            else self.constants.text(node.exponent)
+        )
         own, given, inverse = self.multiple(name), self.multiple(a), self.define(f"by_{a}")
         grows, rest = self.convolved(name, given), self.convolved(a, own)
         return (
@@ -232,7 +236,10 @@ class Recurrences:
         sign = "-" if node.kind == "cos" else ""
         return (
             [f"{zero} = {node.kind}({a}_0)"],
-            [f"{multiple} = k*{a}", f"{name} = {sign}reciprocal(k)*({rest} + {other}_0*{multiple})"],
+            [
+                f"{multiple} = k*{a}",
+                f"{name} = {sign}reciprocal(k)*({rest} + {other}_0*{multiple})",
+            ],
         )
 
     def loop(self) -> list[str]:

@@ -70,7 +70,9 @@ def flow_with(model: Model, integrated: dict[str, str]) -> Flow:
     for auxiliary, state in integrated.items():
         rate, symbol = rate_of_auxiliary(model, auxiliary), model.symbol(auxiliary)
         rates[auxiliary] = graph.node(rate)
-        graph.known[model.equations[state]] = graph.add("quotient", rates[auxiliary], graph.known[symbol])
+        graph.known[model.equations[state]] = graph.add(
+            "quotient", rates[auxiliary], graph.known[symbol]
+        )
     rates |= {state: graph.node(equation) for state, equation in model.equations.items()}
     return Flow(graph, {state: rates[state] for state in [*model.states, *integrated]}, integrated)
 
@@ -87,7 +89,9 @@ def conditions_of(model: Model, expressions: list[sympy.Expr], names: dict) -> l
             for delayed in model.delayed:
                 if delayed.symbol == one.args[0] and delayed.state in model.domain:
                     text = window_condition(names[delayed.symbol], model.domain[delayed.state])
-        elif one.func is sympy.log or (one.is_Pow and not one.exp.is_Integer and one.base is not sympy.E):
+        elif one.func is sympy.log or (
+            one.is_Pow and not one.exp.is_Integer and one.base is not sympy.E
+        ):
             text = f".not. {text_of(one.args[0], names)} > 0.0_wp"
         elif one.is_Pow and one.exp.is_Integer and one.exp < 0 and not one.base.is_Symbol:
             text = f".not. abs({text_of(one.base, names)}) > 0.0_wp"
@@ -104,7 +108,10 @@ def conditions_of(model: Model, expressions: list[sympy.Expr], names: dict) -> l
             levels.append([])
         if text not in levels[depth]:
             levels[depth].append(text)
-    outer = [window_condition(names[model.symbol(state)], window) for state, window in model.domain.items()]
+    outer = [
+        window_condition(names[model.symbol(state)], window)
+        for state, window in model.domain.items()
+    ]
     return [level for level in [outer, *levels] if level]
 
 
@@ -180,7 +187,8 @@ def series_procedure(model: Model) -> Procedure:
     first = [line for node in nodes for line in recurrences.first.get(node, [])]
     later = [line for node in nodes for line in recurrences.later.get(node, [])]
     steps_first = [
-        f"{name} = unit*({recurrences.rate_text(node, first=True)})" for name, node in flow.rates.items()
+        f"{name} = unit*({recurrences.rate_text(node, first=True)})"
+        for name, node in flow.rates.items()
     ]
     rates = [f"{name}_rate = {recurrences.rate_text(node)}" for name, node in flow.rates.items()]
     body = [
@@ -198,7 +206,9 @@ def series_procedure(model: Model) -> Procedure:
         *fetch_places(model),
         *(f"{state}_0 = y(0, {place})" for place, state in enumerate(states, 1)),
         *known,
-        *fetch_parameters(model, [name for name in guard_parameters if name not in constants.parameters()]),
+        *fetch_parameters(
+            model, [name for name in guard_parameters if name not in constants.parameters()]
+        ),
         *constants.fetched(),
         *guards,
         "if (degree == 0) return",
@@ -227,7 +237,9 @@ def guarded(model: Model) -> list[sympy.Expr]:
     """Arguments of functions that have no value everywhere."""
     kinds = (sympy.exp, sympy.log, sympy.Pow)
     return [
-        part.args[0] for equation in model.equations.values() for part in sympy.preorder_traversal(equation)
+        part.args[0]
+        for equation in model.equations.values()
+        for part in sympy.preorder_traversal(equation)
         if isinstance(part, kinds) and part.free_symbols & model.variables
     ]
 
@@ -264,12 +276,17 @@ def integral_of(model: Model, auxiliary: str) -> tuple[int, sympy.Expr] | None:
     v = model.symbol(auxiliary)
     for place, equation in enumerate(model.equations.values(), 1):
         by_v = equation.diff(v)
-        if by_v != 0 and not (by_v.free_symbols | (equation - by_v * v).free_symbols) & model.variables:
+        if (
+            by_v != 0
+            and not (by_v.free_symbols | (equation - by_v * v).free_symbols) & model.variables
+        ):
             return place, by_v
     return None
 
 
-def exponential_lines(model: Model, auxiliary: str, y: str, series: str, constants: Constants) -> list[str]:
+def exponential_lines(
+    model: Model, auxiliary: str, y: str, series: str, constants: Constants
+) -> list[str]:
     """Statements that compute the series of v = exp(w) from those of the states.
 
     Where x' = c v + constant they are those of x, but for the last, by v' = v w'.
@@ -367,7 +384,9 @@ def slow_series_procedure(model: Model, balance: Balance) -> Procedure:
         ),
     ]
     guard_parameters = [
-        name for name in uses_parameters(model, guarded(model)) if name not in constants.parameters()
+        name
+        for name in uses_parameters(model, guarded(model))
+        if name not in constants.parameters()
     ]
     lines = [
         *fetch_places(model),

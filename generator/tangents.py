@@ -4,9 +4,9 @@
     q = a/b       b dq = da - q db            l = log(a)    a dl = da
     p = a**c      dp = (c p/a) da             v = exp(w), integrated    v dw = dv
 
-Disturbances are computed in lanes, several at a time: the recurrences of one wait for their own last
-terms, those of several overlap. One product of each sum is one statement: compilers then keep the
-sums in registers.
+Disturbances are computed in lanes, several at a time: the recurrences of one wait for their own
+last terms, those of several overlap. One product of each sum is one statement: compilers then keep
+the sums in registers.
 """
 
 from dataclasses import dataclass, field
@@ -87,7 +87,9 @@ class Disturbances:
 
     def sum_text(self, node: Node) -> str:
         """The sum of a node."""
-        parts = [(weight, self.text(one)) for weight, one in zip(node.weights, node.args, strict=True)]
+        parts = [
+            (weight, self.text(one)) for weight, one in zip(node.weights, node.args, strict=True)
+        ]
         return weighted_sum(parts, self.constants) or "0.0_wp"
 
     def rate_text(self, node: Node) -> str:
@@ -138,7 +140,9 @@ class Disturbances:
             case "power":
                 ratio = self.ratio(node, a)
                 exponent = (
-                    text_of(node.exponent) if node.exponent.is_Integer else self.constants.text(node.exponent)
+                    text_of(node.exponent)
+                    if node.exponent.is_Integer
+                    else self.constants.text(node.exponent)
                 )
                 return f"{exponent}*({self.times(ratio, a)})"
             case "sin":
@@ -158,10 +162,17 @@ class Disturbances:
             return []
         names = [f"d_total_{i + 1}" for i in range(len(self.sums))]
         return [
-            *(f"d_{node.name}_all(:, k) = 0.0_wp" for node in self.stored if node not in self.early),
+            *(
+                f"d_{node.name}_all(:, k) = 0.0_wp"
+                for node in self.stored
+                if node not in self.early
+            ),
             *(f"{name} = 0.0_wp" for name in names),
             "do j = 0, k",
-            *(f"   {n} = {n} + {left}*{right}" for n, (left, right) in zip(names, self.sums, strict=True)),
+            *(
+                f"   {n} = {n} + {left}*{right}"
+                for n, (left, right) in zip(names, self.sums, strict=True)
+            ),
             "end do",
         ]
 
@@ -205,10 +216,14 @@ def base_series(model: Model, wanted: list[Node], flow: Flow, constants: Constan
     def fetched(order: str) -> list[str]:
         end = "_0" if order == "0" else ""
         found = []
-        states = {one.state for one in model.delayed if one.symbol.name in {node.name for node in inputs}}
+        states = {
+            one.state for one in model.delayed if one.symbol.name in {node.name for node in inputs}
+        }
         for name in [*model.states, *model.auxiliary]:
             if name in states or name in {node.name for node in inputs}:
-                source = f"{y}({order}, {places[name]})" if name in places else f"{name}_series({order})"
+                source = (
+                    f"{y}({order}, {places[name]})" if name in places else f"{name}_series({order})"
+                )
                 found.append(f"{name}{end} = {source}")
                 reals.append(f"{name}{end}")
         more, names = fetch_inputs(model, inputs, order)
@@ -301,7 +316,8 @@ def tangent_series_procedure(model: Model) -> Procedure:
     steps = Disturbances(flow, nodes, roots, constants)
     # of v = exp(w), integrated: v_0 dw_(k+1) = dv_(k+1) - sum over j <= k of v_(k+1-j) dw_j
     shifted = {
-        state: steps.total(known[auxiliary], known[state], "k + 1 - j") for state, auxiliary in driven.items()
+        state: steps.total(known[auxiliary], known[state], "k + 1 - j")
+        for state, auxiliary in driven.items()
     }
     before, at_order, delayed = lane_inputs(model, steps)
     steps.early += [node for node in known.values() if node not in steps.early]
@@ -324,7 +340,10 @@ def tangent_series_procedure(model: Model) -> Procedure:
             f"{later[state]} = by_{auxiliary}*({later[auxiliary]} - {shifted[state]})"
             for state, auxiliary in driven.items()
         ),
-        *(f"dy(k + 1, {place}, first:last) = {part[state]}" for place, state in enumerate(states, 1)),
+        *(
+            f"dy(k + 1, {place}, first:last) = {part[state]}"
+            for place, state in enumerate(states, 1)
+        ),
     ]
     lines = [
         *fetch_places(model),
@@ -338,7 +357,10 @@ def tangent_series_procedure(model: Model) -> Procedure:
                 "used = last - first + 1",
                 *before,
                 *(f"{start[state]} = 0.0_wp" for state in states),
-                *(f"{start_part[state]} = dy(0, {place}, first:last)" for place, state in enumerate(states, 1)),
+                *(
+                    f"{start_part[state]} = dy(0, {place}, first:last)"
+                    for place, state in enumerate(states, 1)
+                ),
                 *(
                     f"{start[auxiliary]} = {auxiliary}_series(0)*{start[state]}"
                     for state, auxiliary in driven.items()
@@ -398,7 +420,8 @@ def slow_tangent_series_procedure(model: Model, balance: Balance) -> Procedure:
     else:
         growth = [
             "do k = 0, degree - 2",
-            f"   d_rate_before(:used, k) = (by_unit*((k + 1)*(k + 2)))*dy(k + 2, {integral[0]}, first:last)",
+            "   d_rate_before(:used, k) = (by_unit*((k + 1)*(k + 2)))"
+            f"*dy(k + 2, {integral[0]}, first:last)",
             "end do",
             "do j = 0, degree",
             "   d_rate_before(:used, degree - 1) = d_rate_before(:used, degree - 1) &",

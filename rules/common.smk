@@ -4,7 +4,7 @@ import hashlib
 from os.path import normpath
 from pathlib import Path
 
-from scripts.config import laws
+from scripts.namelists import laws
 from scripts.figures import registry
 from scripts.namelists.study_cases import measured_study
 from scripts.results.programs import BUILD, PAPER, RUNS
@@ -45,7 +45,9 @@ def code_of(script, *others):
 def files_in(*folders, endings):
     """Files with these endings in folders of the Fortran code, in order."""
     files = [
-        path for folder in folders for path in Path(normpath(f"fortran/{folder}")).rglob("*")
+        path
+        for folder in folders
+        for path in Path(normpath(f"fortran/{folder}")).rglob("*")
     ]
     return sorted(str(path) for path in files if path.suffix in endings)
 

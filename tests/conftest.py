@@ -18,7 +18,7 @@ import pytest
 import xarray as xr
 from namelist_groups import CASES, EXPONENTS, MEASURE, OBSERVATION, POINTS, REFERENCE, in_groups
 
-from scripts.config.read_config import read
+from scripts.files.read_config import read
 from scripts.namelists.write_namelist import write_namelist
 from scripts.results import manifest
 from scripts.workflow.plan import Plan, read_plan
@@ -330,7 +330,7 @@ def good_inputs(filled_config, trajectory_file) -> dict[str, dict]:
             **{"t_transient": 500.0, "intervals": 20, "most_orbits": 5},
         },
         "linear_stability": {
-            **{key: scene[key] for key in ("tau", "epsilon", "xi", "gamma")},
+            **{key: scene[key] for key in ("tau", "epsilon", "xi", "gamma", "law")},
             **config["linear_stability"],
         },
         "velocity_step": config["velocity_step"],

@@ -3,13 +3,14 @@
 Tests name the keys of a group without the groups within it.
 """
 
+from scripts.namelists.laws import PAPER
 from scripts.namelists.program_groups import LAW, case_groups, nested
 from scripts.namelists.study_cases import HISTORY, PARAMETERS
 
 PARTS = {
-    "scene": {"parameters": PARAMETERS},
-    "linear_stability": {"parameters": PARAMETERS},
-    "cycles": {"parameters": PARAMETERS},
+    "scene": {"parameters": [*PARAMETERS, "law"]},
+    "linear_stability": {"parameters": [*PARAMETERS, "law"]},
+    "cycles": {"parameters": [*PARAMETERS, "law"]},
     "velocity_step": {"law": LAW},
 }
 """For a group: the groups within it and their keys."""
@@ -38,7 +39,8 @@ def in_groups(given: dict[str, dict]) -> dict[str, dict]:
             values = {key: value for key, value in values.items() if key != "trajectory"}
         if name == "cases":
             rows = zip(*values.values(), strict=True)
-            groups |= case_groups([dict(zip(values, row, strict=True)) for row in rows])
+            cases = [dict(zip(values, row, strict=True)) for row in rows]
+            groups |= case_groups({"laws": {}}, cases)
             continue
         groups[name] = values
     return groups
@@ -74,6 +76,7 @@ POINTS = {
     "theta": [0.0, 0.5],
     "u": [0.0, -0.5],
     "v": [1.1, 1.5],
+    "law": PAPER,
     "sweep": "none",
     "refinements": 0,
     "kept": 100,
@@ -84,6 +87,7 @@ CASES = {
     "epsilon": [0.3, 0.7],
     "xi": [0.8, 0.5],
     "gamma": [0.8, 100.0],
+    "law": [PAPER, PAPER],
     "theta": [0.1, 0.0],
     "u": [0.2, 0.0],
     "v": [1.5, 1.1],

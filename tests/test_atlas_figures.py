@@ -1,5 +1,6 @@
 """Figures of the atlas and of cycles, from small made-up results."""
 
+import copy
 import math
 
 import numpy as np
@@ -144,21 +145,25 @@ def test_special_points_have_markers_by_kind(cycles_drawn):
         assert hopf.get_xydata().tolist() == [[0.1, 1.0]]
 
 
-def test_sweeps_and_planes_of_lines_are_found_by_their_parameters(config):
-    """Sweeps of routes with the same parameter and fixed values; planes of the same gamma, xi."""
-    at = {"along": "tau", "epsilon": 0.7, "xi": 0.5, "gamma": 0.8}
+def test_sweeps_and_planes_of_lines_are_found_by_their_parameters(filled_config):
+    """Sweeps of routes with the same law, parameter and fixed values; planes of the same ones."""
+    config = copy.deepcopy(filled_config)
+    law = {"law": "slip_delayed_logarithm"}
+    at = {"along": "tau", "epsilon": 0.7, "xi": 0.5, "gamma": 0.8, **law}
     config["cycles"]["lines"] = {
         "mine": at,
         "beside": {**at, "xi": 0.6},
         "faster": {**at, "gamma": 0.9},
-        "across": {"along": "epsilon", "tau": 7.0, "xi": 0.5, "gamma": 0.8},
-        "in_xi": {"along": "xi", "tau": 7.0, "epsilon": 0.9, "gamma": 0.8},
+        "ageing": {**at, "law": "ageing_delayed_velocity"},
+        "across": {"along": "epsilon", "tau": 7.0, "xi": 0.5, "gamma": 0.8, **law},
+        "in_xi": {"along": "xi", "tau": 7.0, "epsilon": 0.9, "gamma": 0.8, **law},
     }
     folder = "<results>/attractors/routes"
     assert paths.sweeps_on_lines(config) == {
         "mine": [f"{folder}/chaos_in_tau/up.nc", f"{folder}/chaos_in_tau/down.nc"],
         "beside": [],
         "faster": [],
+        "ageing": [],
         "across": [f"{folder}/chaos_in_epsilon/up.nc", f"{folder}/chaos_in_epsilon/down.nc"],
         "in_xi": [],
     }

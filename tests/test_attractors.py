@@ -9,6 +9,7 @@ import pytest
 import xarray as xr
 
 from scripts.namelists import attractor_surveys
+from scripts.namelists.laws import PAPER
 from scripts.namelists.study_cases import HISTORY, PARAMETERS
 from scripts.results import paths
 from scripts.tables import attractor_tables, basins_table
@@ -72,7 +73,7 @@ def test_runs_of_a_route_go_along_its_parameter(full, run, sweep):
 def test_route_along_a_value_of_the_history(full):
     """One set of parameters and a history for each value; there are no sweeps."""
     line = {"along": "v", "window": [0.5, 1.5], "count": 3, "tau": 7.0, "epsilon": 0.5}
-    full["routes"]["lines"]["mine"] = line | {"xi": 0.5, "gamma": 0.8}
+    full["routes"]["lines"]["mine"] = line | {"xi": 0.5, "gamma": 0.8, "law": PAPER}
     groups = attractor_surveys.route_groups(full, "mine", "slip")
     points, histories = groups["points"], groups["histories"]
     assert histories["v"] == [0.5, 1.0, 1.5]

@@ -11,8 +11,8 @@ from scripts.claims import declare, ledger
 from scripts.claims.claims_of_routes import route
 from scripts.claims.claims_results import NOT_TESTABLE, VERDICTS, Finding, read_results
 from scripts.config.check_config import checked
-from scripts.config.read_config import ConfigError
 from scripts.files.marked_words import to_plain
+from scripts.files.read_config import ConfigError
 
 CLAIMS = {
     "moves": {

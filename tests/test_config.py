@@ -9,7 +9,7 @@ from conftest import ROOT
 
 from scripts.config.check_attractors import FEWEST_SAMPLES
 from scripts.config.check_config import checked
-from scripts.config.read_config import ConfigError, read
+from scripts.files.read_config import ConfigError, read
 from scripts.namelists.study_cases import case_of, measured_study
 
 NO_NUMBERS = ["0.5", True, None, [0.5], {"a": 0.5}, math.nan, math.inf, -math.inf]
@@ -102,6 +102,7 @@ def test_missing_keys_get_their_defaults(config):
         **{"tau": 1, "epsilon": 0.5, "xi": 1, "gamma": 1, "t_end": 10},
         "history": {"theta": 0.0, "u": 0.0, "v": 1.1},
         **{"t_transient": 0.0, "sample_interval": 0.05, "tolerance": 1e-9, "method": "auto"},
+        "law": "slip_delayed_logarithm",
     }
     scenes["mine"]["history"]["v"] = 2.0
     assert scenes["other"]["history"]["v"] == 1.1
@@ -184,7 +185,7 @@ def test_bad_value_is_refused(whole, path, value, words):
 
 def test_unknown_keys_are_refused(whole):
     """In every section of fixed keys: the line names section and key, and lists what is known."""
-    named = ["scenes", "hopf_curves", "dimensions", "claims"]
+    named = ["scenes", "hopf_curves", "dimensions", "claims", "laws", "parameters"]
     named += ["planes", "families", "histories", "lines", "places", "cases", "rows"]
     sections = [path for path in sections_in(whole) if not path or path[-1] not in named]
     sections = [path for path in sections if path[:1] != ("claims",)]

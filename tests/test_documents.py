@@ -14,8 +14,8 @@ from snakemake.utils import update_config
 
 from scripts.claims.ledger import check_user_claims
 from scripts.config.check_config import checked
-from scripts.config.read_config import parse, read
 from scripts.figures.registry import FIGURES
+from scripts.files.read_config import parse, read
 from scripts.results.programs import RUNS
 
 RESULTS = "results/README.md"

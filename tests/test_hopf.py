@@ -14,9 +14,9 @@ PLANES = ["tau_of_epsilon", "xi_of_epsilon"]
 
 
 @pytest.fixture(params=PLANES)
-def plane(request, config) -> dict:
+def plane(request, filled_config) -> dict:
     """Settings of a plane as in the config."""
-    return config["hopf_curves"][request.param] | {"cells": 20}
+    return filled_config["hopf_curves"][request.param] | {"cells": 20}
 
 
 @pytest.fixture

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from scripts.config.read_config import ConfigError, merge, parse, read
+from scripts.files.read_config import ConfigError, merge, parse, read
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ import subprocess
 import pytest
 from conftest import ROOT, project_files
 
-from scripts.config.read_config import read
+from scripts.files.read_config import read
 from scripts.results.programs import RUNS
 
 SCRIPTS = [

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from scripts.files.tsv import read_table, write_table
+from scripts.namelists.laws import PAPER
 from scripts.namelists.program_groups import case_groups, work_precision_groups
 from scripts.namelists.study_cases import cases_of_family
 from scripts.namelists.write_namelist import end_at_horizons
@@ -61,14 +62,16 @@ def test_family_is_all_combinations():
     """Names say what differs, sample times divide the run."""
     lists = {"tau": [0.0, 1.0], "epsilon": [0.7], "xi": [0.5], "gamma": [1e4, 0.8]}
     history = {"theta": [0.0], "u": [0.0], "v": [1.1]}
-    cases = cases_of_family("made", {**lists, **history, "t_end": 100.0, "samples": 200})
+    family = {**lists, **history, "law": PAPER, "t_end": 100.0, "samples": 200}
+    config = {"laws": {}, "stability": {"families": {"made": family}}}
+    cases = cases_of_family(config, "made")
     assert [case["name"] for case in cases] == [
         "made tau=0 gamma=10000",
         "made tau=0 gamma=0.8",
         "made tau=1 gamma=10000",
         "made tau=1 gamma=0.8",
     ]
-    assert [case["sample_interval"] for case in case_groups(cases)["cases"]] == 4 * [0.5]
+    assert [case["sample_interval"] for case in case_groups(config, cases)["cases"]] == 4 * [0.5]
 
 
 def test_errors_are_relative_above_one():
@@ -134,9 +137,7 @@ def test_every_case_is_a_row_of_each_method(tables, smoke_config):
     """And ends ok or with a reason; no number only where there is none."""
     study = smoke_config["stability"]
     cases = [
-        case["name"]
-        for name in study["families"]
-        for case in cases_of_family(name, study["families"][name])
+        case["name"] for name in study["families"] for case in cases_of_family(smoke_config, name)
     ]
     rows = tables["stability"]
     assert [row["case"] for row in rows[:: len(study["methods"])]] == cases

@@ -10,7 +10,7 @@ import pytest
 import xarray as xr
 from conftest import ROOT, Project, rules_in, write_script
 
-from scripts.config.read_config import ConfigError, merge, parse, read
+from scripts.files.read_config import ConfigError, merge, parse, read
 from scripts.workflow.plan import CONFIG, added, name_of, read_plan
 
 SMALL = """

@@ -18,9 +18,9 @@ from scripts.claims import (  # noqa: F401  (they declare the claims)
 from scripts.claims.claims_results import FILES, NOT_TESTABLE, Finding, Results, read_results
 from scripts.claims.declare import TESTS, Names, Test, paper_claims  # noqa: F401
 from scripts.config.check_config import in_words, validator_for
-from scripts.config.read_config import ConfigError
 from scripts.files import marked_words
 from scripts.files.outputs import logged, written
+from scripts.files.read_config import ConfigError
 from scripts.files.tsv import write_table
 from scripts.results.paths import cycles_of_lines, exponents_of_scenes, runs_of_basins
 

@@ -9,7 +9,7 @@ import jsonschema
 from scripts.config import check_attractors, check_laws
 from scripts.config.check_attractors import wrong
 from scripts.config.ranges import range_of, rules
-from scripts.config.read_config import ConfigError, parse
+from scripts.files.read_config import ConfigError, parse
 from scripts.namelists.study_cases import cases_of_family, number_of_cases
 
 EQUATIONS = 3

@@ -2,8 +2,8 @@
 
 import copy
 
-from scripts.config.laws import check_law, definitions, own_parameters
-from scripts.config.read_config import ConfigError
+from scripts.files.read_config import ConfigError
+from scripts.namelists.laws import check_law, definitions, own_parameters
 
 
 def with_own_parameters(schema: dict, config: dict) -> dict:

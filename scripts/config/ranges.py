@@ -3,7 +3,7 @@
 from functools import cache
 from pathlib import Path
 
-from scripts.config.read_config import read
+from scripts.files.read_config import read
 
 SCHEMA = Path(__file__).parents[2] / "config" / "schema.yaml"
 

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from scripts.config.laws import law_group
+from scripts.namelists.laws import law_group
 from scripts.namelists.study_cases import HISTORY, PARAMETERS
 
 

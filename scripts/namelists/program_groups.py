@@ -5,8 +5,8 @@ program's namelist by name: for each, its values by key. A group is a variable o
 the program, and a group within a group a component of that variable.
 """
 
-from scripts.config.laws import law_group, own_parameters
 from scripts.namelists import attractor_surveys
+from scripts.namelists.laws import law_group, own_parameters
 from scripts.namelists.study_cases import (
     HISTORY,
     case_of,

@@ -3,7 +3,7 @@
 import math
 from itertools import product
 
-from scripts.config.laws import law_group, own_parameters, own_place
+from scripts.namelists.laws import law_group, own_parameters, own_place
 
 PARAMETERS = ["tau", "epsilon", "xi", "gamma"]
 HISTORY = ["theta", "u", "v"]

@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, VERDICTS
-from scripts.config.read_config import read as read_yaml
+from scripts.files.read_config import read as read_yaml
 from scripts.page import captions, mathematics
 from scripts.results.manifest import is_measured
 

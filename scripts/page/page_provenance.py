@@ -4,8 +4,8 @@ from collections import Counter
 from importlib import metadata
 from pathlib import Path
 
-from scripts.config.read_config import read as read_yaml
 from scripts.files.inputs import read
+from scripts.files.read_config import read as read_yaml
 from scripts.files.tsv import read_table
 
 PACKAGES = [

@@ -3,7 +3,7 @@
 In paths `<results>` stands for the folder of the results.
 """
 
-from scripts.config.laws import own_place
+from scripts.namelists.laws import own_place
 from scripts.namelists.study_cases import HISTORY, PARAMETERS, place_of
 
 

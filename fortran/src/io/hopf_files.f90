@@ -80,8 +80,9 @@ contains
    subroutine write_curves(path, settings, plane, points, special, pairs, error)
       !> Path of the file
       character(len=*), intent(in) :: path
-      !> The plane, as the namelist gives it and as it is drawn
+      !> The plane as the namelist gives it
       type(hopf_settings_type), intent(in) :: settings
+      !> The plane
       type(curve_plane_type), intent(in) :: plane
       !> Points
       type(curve_point_type), intent(in) :: points(:)

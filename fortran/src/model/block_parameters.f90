@@ -113,6 +113,7 @@ contains
    subroutine describe_law(law, description)
       !> Name of a law that there is
       character(len=*), intent(in) :: law
+      !> What it says
       type(description_type), intent(out) :: description
       class(model_type), allocatable :: model
 

@@ -35,6 +35,7 @@ module hopf_condition
       procedure :: polynomials
       procedure :: epsilon_at
       procedure :: largest_omega
+      procedure :: least_omega
       procedure :: xi_at
       procedure :: miss_along_xi
       procedure :: gamma_at
@@ -202,6 +203,26 @@ contains
          end if
       end do
    end function largest_omega
+
+   !> A frequency below those of pairs i omega at this epsilon or a smaller one. As omega falls to 0,
+   !> 1 + epsilon = |P|/|Q/d| grows as |P(0)|/(omega |Q'(0)/d|); a block that is much slower than its
+   !> spring has pairs near gamma alone.
+   pure real(wp) function least_omega(self, epsilon, xi, gamma) result(omega)
+      class(hopf_condition_type), intent(in) :: self
+      !> Sensitivity of the velocity relaxation; spring constant; frequency of the block
+      real(wp), intent(in) :: epsilon, xi, gamma
+      !> How far below
+      real(wp), parameter :: share = 0.25_wp, far_share = 1.0e-6_wp
+      real(wp) :: at_0(0:self%n, 2), by_d(0:self%n, 2)
+
+      at_0 = self%polynomials(0.0_wp, 1.0_wp/xi, gamma**2)
+      by_d = self%polynomials(1.0_wp, 1.0_wp/xi, gamma**2) - at_0
+      associate (left => abs(at_0(0, 1)) - (1.0_wp + epsilon)*abs(by_d(0, 2)), &
+                 right => (1.0_wp + epsilon)*abs(by_d(1, 2)))
+         omega = far_share*gamma
+         if (left > 0.0_wp .and. right > 0.0_wp) omega = share*min(left/right, gamma)
+      end associate
+   end function least_omega
 
    !> The xi of a pair i omega at delay tau, whatever its epsilon; (9) for the paper's law. It
    !> holds where `tau_at` gives tau back. Not above 0 where there is none.

@@ -70,7 +70,6 @@ contains
 
       if (present(history)) past = history
       call make_model(trim(parameters%law), model)
-      if (.not. allocated(model)) error stop "find_model: no such law"
       call model%set(law_parameters(parameters, model), [past%theta, past%u, log(past%v)], &
                      keep_delays)
    end subroutine find_model

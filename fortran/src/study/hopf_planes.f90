@@ -84,8 +84,8 @@ contains
       slopes = [c%root_by(along_epsilon, s), c%root_by(self%along, s)]
    end function root_slopes
 
-   !> Least and largest omega and highest branch in the window. At the least xi epsilon grows
-   !> without bound as omega falls to 0. On branch k, 2 pi k - pi <= omega tau.
+   !> Least and largest omega and highest branch in the window. On branch k,
+   !> 2 pi k - pi <= omega tau.
    pure subroutine bounds(self, omega_least, omega_most, k_most)
       class(curve_plane_type), intent(in) :: self
       !> Least and largest omega
@@ -98,26 +98,13 @@ contains
       xi_least = self%fixed%xi
       if (self%along == along_tau) tau_most = self%ordinate_window(2)
       if (self%along == along_xi) xi_least = self%ordinate_window(1)
-      associate (epsilon_most => self%epsilon_window(2), gamma => self%fixed%gamma)
-         omega_most = self%condition%largest_omega(epsilon_most)
-         omega_least = min(omega_most, gamma)
-         do while (omega_least > tiny(1.0_wp))
-            if (all(far_epsilons(self, omega_least, xi_least) > epsilon_most)) exit
-            omega_least = 0.5_wp*omega_least
-         end do
-         ! the same beyond gamma, where the inertia of the block holds the spring's place
+      associate (c => self%condition, epsilon_most => self%epsilon_window(2), &
+                 gamma => self%fixed%gamma)
+         omega_most = c%largest_omega(epsilon_most)
+         omega_least = min(c%least_omega(epsilon_most, xi_least, gamma), omega_most)
+         ! beyond gamma the inertia of the block holds the spring's place
          omega_most = min(omega_most, gamma**2/omega_least)
       end associate
       k_most = ceiling(tau_most*omega_most/two_pi + 0.5_wp)
    end subroutine bounds
-
-   !> The epsilons of pairs at this and at some lower frequencies.
-   pure function far_epsilons(self, omega, xi) result(epsilons)
-      class(curve_plane_type), intent(in) :: self
-      real(wp), intent(in) :: omega, xi
-      real(wp) :: epsilons(0:3)
-      integer :: i
-
-      epsilons = [(self%condition%epsilon_at(omega/4**i, xi, self%fixed%gamma), i=0, 3)]
-   end function far_epsilons
 end module hopf_planes

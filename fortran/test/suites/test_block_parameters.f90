@@ -44,7 +44,7 @@ contains
       type(block_history_type), allocatable :: history(:)
       type(failure_type), allocatable :: failure
       real(wp) :: infinity, no_number
-      integer :: i, status
+      integer :: i
 
       infinity = ieee_value(1.0_wp, ieee_positive_inf)
       no_number = ieee_value(1.0_wp, ieee_quiet_nan)
@@ -65,7 +65,7 @@ contains
       history = [block_history_type(theta=infinity), block_history_type(u=no_number), &
                  block_history_type(v=0.0_wp)]
       do i = 1, size(history)
-         deallocate (failure, stat=status)
+         if (allocated(failure)) deallocate (failure)
          call history(i)%check("input.nml", failure)
          call expect_failure(error, failure, trim(words(i)))
       end do

@@ -3,7 +3,7 @@
 from functools import cache
 from pathlib import Path
 
-from scripts.config.read_config import ConfigError, read
+from scripts.files.read_config import ConfigError, read
 
 MODEL = Path(__file__).parents[2] / "fortran" / "src" / "model"
 BLOCK = MODEL / "spring_block.yaml"
@@ -71,8 +71,8 @@ def _named_laws(value) -> set[str]:
 def check_law(name: str, law: dict) -> None:
     """Refuse a law from which no model can be made; raise ConfigError saying why."""
     # needs SymPy, which takes half a second to load
-    from generator.definition import ModelError, overlaid, read_model  # noqa: PLC0415
-    from generator.module import write_module  # noqa: PLC0415
+    from generator.definition import ModelError, overlaid, read_model
+    from generator.module import write_module
 
     place = f"config laws {name}"
     if name in built_in():
