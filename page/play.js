@@ -266,7 +266,7 @@ function playView(view) {
   }
 
   playData.planes.forEach((plane, i) => {
-    select.append(new Option(`ξ = ${signed(plane.xi, 6)}, γ = ${plane.gamma < 1e4 ? signed(plane.gamma, 6) : plane.gamma.toExponential().replace("e+", "e")}`, i));
+    select.append(new Option(`ξ = ${signed(plane.xi, 6)}, γ = ${plane.gamma < 1e4 ? signed(plane.gamma, 6) : plane.gamma.toExponential().replace("e+", "e")}${plane.law && `, law ${plane.law.replaceAll("_", " ")}`}`, i));
   });
   view.querySelector(".play-scenes").hidden = playData.scenes.length === 0;
   for (const scene of playData.scenes) {

@@ -145,6 +145,8 @@ rule claims:
     localrule: True
     params:
         claims=plan.claims,
+        # the paper's claims are about its law
+        law=None if plan.is_users else laws.PAPER,
         code=code_of("claims/ledger.py"),
     script:
         "../scripts/claims/ledger.py"

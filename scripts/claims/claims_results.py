@@ -7,7 +7,9 @@ from pathlib import Path
 
 import xarray as xr
 
+from scripts.files.inputs import read
 from scripts.files.tsv import read_table
+from scripts.namelists.laws import law_of
 
 REPRODUCED = "reproduced"
 CORRECTED = "reproduced with a correction"
@@ -104,15 +106,22 @@ class Results:
         return _rows_about(self.routes, f"routes/{name}.tsv", "route", name)
 
 
-def read_results(files: Mapping[str, str | list[str]]) -> Results:
-    """Read the files, one or several of each kind, by the names of `FILES`."""
+def read_results(files: Mapping[str, str | list[str]], law: str | None = None) -> Results:
+    """Read the files, one or several of each kind, by the names of `FILES`.
+
+    Of a law alone if it is given: claims about it do not take results of another one.
+    """
     given = {}
     for name, listed in files.items():
         paths = [listed] if isinstance(listed, str) else listed
         if FILES[name].endswith(".tsv"):
-            given[name] = [row for path in paths for row in read_table(path)]
+            rows = [row for path in paths for row in read_table(path)]
+            given[name] = [row for row in rows if law in (None, law_of(row))]
         else:
-            given[name] = {Path(path).stem: xr.load_dataset(path) for path in paths}
+            data = {Path(path).stem: read(path) for path in paths}
+            given[name] = {
+                key: one for key, one in data.items() if law in (None, law_of(one.attrs))
+            }
     return Results(**given)
 
 

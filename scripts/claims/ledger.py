@@ -189,7 +189,7 @@ def write_ledger(rows: list[dict], tsv: str | Path, data: str | Path) -> None:
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         output = snakemake.output
-        results = read_results(dict(snakemake.input.items()))
+        results = read_results(dict(snakemake.input.items()), snakemake.params.law)
         folder = str(Path(output.tsv).parents[1])
         table = rows_of(snakemake.params.claims, results, folder)
         write_ledger(table, output.tsv, output.json)

@@ -5,6 +5,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from scripts.drawing.style import FAINT
+from scripts.namelists.laws import law_of
 from scripts.namelists.study_cases import PARAMETERS
 
 
@@ -14,6 +15,7 @@ def mark_scenes(axes: Axes, scenes: dict[str, dict], place: dict, along: str) ->
     middle = 0.5 * (first + last)
     for name, scene in scenes.items() if along in PARAMETERS else ():
         fixed = all(scene[key] == place[key] for key in PARAMETERS if key != along)
+        fixed = fixed and law_of(scene) == law_of(place)
         if fixed and first <= scene[along] <= last:
             axes.axvline(scene[along], color=FAINT, lw=0.6, zorder=0)
             axes.annotate(

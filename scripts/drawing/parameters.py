@@ -1,5 +1,6 @@
 """Parameters and numbers as figures write them, with true minus signs."""
 
+from scripts.namelists.laws import PAPER, law_of
 from scripts.namelists.study_cases import PARAMETERS
 
 SYMBOLS = {
@@ -36,10 +37,13 @@ def true_minus(text: str) -> str:
 
 
 def in_words(place: dict, *left_out: str) -> str:
-    """The parameters of a place as formulas, without some of them."""
-    return ", ".join(
+    """The parameters of a place as formulas, without some of them, and a law not the paper's."""
+    words = [
         f"${SYMBOLS[key]} = {number(place[key])}$" for key in PARAMETERS if key not in left_out
-    )
+    ]
+    if law_of(place) != PAPER:
+        words.append(f"law {law_of(place).replace('_', ' ')}")
+    return ", ".join(words)
 
 
 def axis_of(parameter: str) -> str:

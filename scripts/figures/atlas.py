@@ -19,12 +19,14 @@ from scripts.drawing.hopf_plane import SCENE, SUBCRITICAL, draw_piece, mark_scen
 from scripts.drawing.special_points import STYLES, in_words, words_of
 from scripts.drawing.style import INK
 from scripts.figures.wording import place_in_words, short, with_error
+from scripts.namelists.laws import PAPER
 from scripts.results.paths import curves_of_atlas, cycles_in_atlas, places_in_atlas, table_of_atlas
 from scripts.tables.motion_rows import (
     count_in_words,
     is_computed,
     kind_of,
     nearest_alike,
+    plane_of,
     planes_of,
 )
 
@@ -70,20 +72,18 @@ def draw(
     letters = iter(ascii_lowercase)
     drawn: set[str] = set()
     for (at, shown), (left, right) in zip(planes.items(), panels, strict=True):
-        inside = {
-            name: scene for name, scene in scenes.items() if (scene["gamma"], scene["xi"]) == at
-        }
+        inside = {name: scene for name, scene in scenes.items() if plane_of(scene) == at}
         draw_classes(left, shown, "tau")
         mesh = draw_exponents(right, shown)
         for axes in (left, right):
             for plane in curves:
-                if (plane.attrs["gamma"], plane.attrs["xi"]) == at:
+                if plane_of(plane.attrs) == at:
                     draw_curves(axes, plane)
             mark_scenes(axes, inside, "tau", named=axes is left)
         for line in cycles:
-            if (line.attrs["gamma"], line.attrs["xi"]) == at:
+            if plane_of(line.attrs) == at:
                 drawn |= draw_curves_of_cycles(left, line)
-        symbols = parameters.in_words({"gamma": at[0], "xi": at[1]}, "tau", "epsilon")
+        symbols = parameters.in_words(shown[0], "tau", "epsilon")
         left.set_title(f"$\\bf{{{next(letters)}}}$  {symbols}\n{count_in_words(shown)}")
         right.set_title(f"$\\bf{{{next(letters)}}}$  the same: largest Lyapunov exponent")
         left.set_ylabel(parameters.axis_of("tau"))
@@ -154,7 +154,8 @@ def draw_curves_of_cycles(axes: Axes, cycles: xr.Dataset) -> set[str]:
 def numbers(table: list[dict]) -> dict:
     """Shares of the classes and the largest exponent in each plane."""
     planes = []
-    for number, ((gamma, xi), rows) in enumerate(planes_of(table).items()):
+    for number, ((gamma, xi, law), rows) in enumerate(planes_of(table).items()):
+        of_law = "" if law == PAPER else f", law {law.replace('_', ' ')}"
         counts = Counter(row["class"] for row in rows).most_common()
         shares = [(kind, 100 * count / len(rows)) for kind, count in counts]
         computed = [row for row in rows if not math.isnan(row["exponent_1"])]
@@ -162,7 +163,7 @@ def numbers(table: list[dict]) -> dict:
         planes.append(
             {
                 "panels": ", ".join(ascii_lowercase[2 * number : 2 * number + 2]),
-                "place": f":math:`\\xi` = {short(xi)} and :math:`\\gamma` = {short(gamma)}",
+                "place": f":math:`\\xi` = {short(xi)} and :math:`\\gamma` = {short(gamma)}{of_law}",
                 "shares": ", ".join(f"{kind} {short(share, 2)} %" for kind, share in shares),
                 "largest": with_error(most["exponent_1"], most["error_1"]) if most else "",
                 "at": place_in_words(most, "xi", "gamma") if most else "",

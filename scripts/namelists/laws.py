@@ -1,5 +1,6 @@
 """Laws of friction: those of the project, and a user's in the configuration under `laws`."""
 
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
@@ -51,6 +52,18 @@ def law_group(config: dict, settings: dict) -> dict:
 def own_place(config: dict, settings: dict) -> dict:
     """Law and own parameters of an entry by name, to be compared with others."""
     return {key: settings[key] for key in ("law", *own_parameters(config, settings["law"]))}
+
+
+def law_in_words(config: dict, settings: dict) -> str:
+    """Name of the law of an entry, with the values of its own parameters, as results have it."""
+    own = own_parameters(config, settings["law"])
+    values = ", ".join(f"{name} = {settings[name]:g}" for name in own)
+    return settings["law"] + (f" ({values})" if values else "")
+
+
+def law_of(place: Mapping) -> str:
+    """The law of a row, of attributes or of a place; the paper's if it has none."""
+    return str(place.get("law", PAPER))
 
 
 def users_definitions(config: dict, groups) -> dict[str, dict]:

@@ -14,8 +14,9 @@ import xarray as xr
 from scripts.files.inputs import read
 from scripts.files.outputs import logged, written
 from scripts.files.tsv import read_table
+from scripts.namelists.laws import PAPER, law_of
 from scripts.page.page_views import exponents, motion
-from scripts.tables.motion_rows import COLOURS, is_computed, kind_of, nearest_alike
+from scripts.tables.motion_rows import COLOURS, is_computed, kind_of, nearest_alike, plane_of
 
 KINDS = list(COLOURS)
 """A kind of motion is stored as its place here."""
@@ -35,9 +36,9 @@ def list_planes(
     There is one row, one path and one length of the path in time for each point.
     """
     points = list(zip(rows, paths, times, strict=True))
-    places = dict.fromkeys((row["xi"], row["gamma"]) for row in rows)
+    places = dict.fromkeys(map(plane_of, rows))
     return [
-        describe_plane([point for point in points if (point[0]["xi"], point[0]["gamma"]) == place])
+        describe_plane([point for point in points if plane_of(point[0]) == place])
         for place in places
     ]
 
@@ -55,6 +56,7 @@ def describe_plane(points: list[tuple[dict, np.ndarray | None, float]]) -> dict:
     return {
         "xi": rows[0]["xi"],
         "gamma": rows[0]["gamma"],
+        "law": "" if law_of(rows[0]) == PAPER else law_of(rows[0]),
         "epsilon": columns,
         "tau": lines,
         "time": float(max(time for _, _, time in points)),
@@ -130,7 +132,7 @@ def write_script(rows: list[dict], runs: list[xr.Dataset], scenes: dict[str, dic
     of_runs = [(path, run.attrs.get("t_path", 0.0)) for run in runs for path in paths_of(run)]
     paths, times = zip(*of_runs, strict=True)
     found = list_planes(rows, paths, times)
-    places = {(one["xi"], one["gamma"]): i for i, one in enumerate(found)}
+    places = {plane_of({**one, "law": one["law"] or PAPER}): i for i, one in enumerate(found)}
     on_planes = [
         {
             "name": name.replace("_", " "),
@@ -138,7 +140,7 @@ def write_script(rows: list[dict], runs: list[xr.Dataset], scenes: dict[str, dic
             **{key: scene[key] for key in ("epsilon", "tau")},
         }
         for name, scene in scenes.items()
-        if (at := (scene["xi"], scene["gamma"])) in places
+        if (at := plane_of(scene)) in places
     ]
     data = {"steps": STEPS, "levels": LEVELS, "planes": found, "scenes": on_planes}
     text = json.dumps(data, ensure_ascii=False, separators=(",", ":"))

@@ -3,8 +3,8 @@
 In paths `<results>` stands for the folder of the results.
 """
 
-from scripts.namelists.laws import own_place
-from scripts.namelists.study_cases import HISTORY, PARAMETERS, place_of
+from scripts.namelists.laws import law_in_words, own_place
+from scripts.namelists.study_cases import HISTORY, PARAMETERS
 
 
 def scenes_of(config: dict, figure: str) -> list[str]:
@@ -120,7 +120,10 @@ def _plane(config: dict, settings: dict, fixed: str) -> dict:
 def places_in_atlas(config: dict) -> dict[str, dict]:
     """Parameters of the scenes that the atlas marks: those whose attractors are looked for."""
     return {
-        scene: place_of(config, config["scenes"][scene])
+        scene: {
+            **{key: config["scenes"][scene][key] for key in PARAMETERS},
+            "law": law_in_words(config, config["scenes"][scene]),
+        }
         for scene in scenes_with(config, "attractors")
     }
 
@@ -132,5 +135,5 @@ def places_in_plane(config: dict, plane: str) -> dict[str, dict]:
     return {
         scene: place
         for scene, place in places_in_atlas(config).items()
-        if _plane(config, place, fixed) == _plane(config, settings, "fixed")
+        if _plane(config, config["scenes"][scene], fixed) == _plane(config, settings, "fixed")
     }

@@ -9,7 +9,7 @@ from scripts.files.inputs import read
 from scripts.files.tsv import read_table
 
 STATE = ["theta", "u", "ln_v"]
-WORDS = ["case", "method", "status", "reason"]
+WORDS = ["case", "method", "status", "reason", "law"]
 
 
 @dataclass(kw_only=True)

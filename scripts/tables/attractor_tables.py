@@ -8,6 +8,7 @@ import xarray as xr
 from scripts.files.inputs import read
 from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
+from scripts.namelists.laws import law_of
 from scripts.namelists.study_cases import HISTORY, PARAMETERS
 from scripts.tables.motion_rows import AXES_FIRST, has_problem
 
@@ -16,7 +17,7 @@ SAME_MAXIMUM = 0.02
 approached slowly."""
 ERROR_BARS = 3.0
 """Greatest number of error bars by which exponents differ on one chaotic attractor."""
-NOT_COMPUTED = {*PARAMETERS, *HISTORY, "computed", "class", "period"}
+NOT_COMPUTED = {*PARAMETERS, "law", *HISTORY, "computed", "class", "period"}
 """Columns of points of the atlas that were not computed; the others are empty."""
 
 
@@ -24,6 +25,7 @@ def rows_of(run: xr.Dataset, **flags: list[str]) -> list[dict]:
     """Rows of a file, with columns of further flags before the class; values not found are NaN."""
     columns = {
         **{key: numbers(run[key]) for key in AXES_FIRST},
+        "law": [law_of(run.attrs)] * run.sizes["point"],
         **{key: numbers(run[f"history_{key}"]) for key in HISTORY},
         **flags,
         "class": words(run["class"]),

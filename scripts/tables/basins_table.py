@@ -9,6 +9,7 @@ import xarray as xr
 from scripts.files.inputs import read
 from scripts.files.outputs import logged
 from scripts.files.tsv import read_table, write_table
+from scripts.namelists.laws import law_of
 from scripts.namelists.study_cases import PARAMETERS
 from scripts.tables.attractor_tables import same_attractor, scene_rows
 from scripts.tables.motion_rows import UNDECIDED
@@ -38,6 +39,7 @@ def basin_rows(place: str, run: xr.Dataset, on_routes: list[dict]) -> list[dict]
         {
             "place": place,
             **{key: rows[0][key] for key in PARAMETERS},
+            "law": law_of(rows[0]),
             "motion": motion,
             **{key: one[key] for key in MOTION_KEYS},
             "shown_by": f"{one['route']} {one['run']}" if count == 0 else "histories",
@@ -55,6 +57,7 @@ def motions_beside(known: list[dict], place: dict, on_routes: list[dict]) -> lis
     for row in on_routes:
         here = all(np.isclose(row[key], place[key], rtol=1e-6, atol=0) for key in PARAMETERS)
         alike = any(same_attractor(row, other) for other in [*known, *others])
+        here = here and law_of(row) == law_of(place)
         if here and row["class"] != UNDECIDED and not alike:
             others.append(row)
     return others

@@ -7,6 +7,7 @@ import xarray as xr
 from scripts.files.inputs import read
 from scripts.files.outputs import logged
 from scripts.files.tsv import as_digits, read_table, write_table
+from scripts.namelists.laws import law_of
 from scripts.namelists.study_cases import PARAMETERS
 from scripts.tables.attractor_tables import SAME_MAXIMUM
 from scripts.tables.cycle_branches import cycles_there
@@ -17,7 +18,7 @@ NUMBERS = [*PARAMETERS, "period", "v_most"]
 ERRORS = ["multiplier_error", "mesh_error"]
 """Columns with two digits."""
 COLUMNS = [
-    *("of", "branch", "origin", "kind", *NUMBERS, "angle", "resonance"),
+    *("of", "law", "branch", "origin", "kind", *NUMBERS, "angle", "resonance"),
     *("unstable_before", "unstable_behind", "criticality", "coefficient", "amplitude"),
     *("confirmed", *ERRORS, "coefficient_error"),
 ]
@@ -35,7 +36,7 @@ def rows_of(line: str, cycles: xr.Dataset, swept: list[dict]) -> list[dict]:
     for i in range(cycles.sizes["cusp"]):
         cusp = place(cycles.isel(cusp=i), "cusp")
         rows.append({"kind": "cusp", **cusp, "confirmed": "not simulated"})
-    return [{"of": line, **row} for row in rows]
+    return [{"of": line, "law": law_of(cycles.attrs), **row} for row in rows]
 
 
 def place(point: xr.Dataset, name: str) -> dict:
@@ -110,7 +111,9 @@ def sweeps_over(cycles: xr.Dataset, routes: list[dict]) -> list[dict]:
     return [
         row
         for row in routes
-        if row["run"] in ("up", "down") and all(row[key] == cycles.attrs[key] for key in fixed)
+        if row["run"] in ("up", "down")
+        and all(row[key] == cycles.attrs[key] for key in fixed)
+        and law_of(row) == law_of(cycles.attrs)
     ]
 
 

@@ -5,6 +5,7 @@ import xarray as xr
 from scripts.files.inputs import read
 from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
+from scripts.namelists.laws import law_of
 
 
 def rows_of(run: xr.Dataset) -> list[dict]:
@@ -12,6 +13,7 @@ def rows_of(run: xr.Dataset) -> list[dict]:
     return [
         {
             "scene": run.attrs["scene"],
+            "law": law_of(run.attrs),
             "i": i + 1,
             "exponent": float(at.value[i]),
             "error": float(at.error[i]),

@@ -7,11 +7,12 @@ import xarray as xr
 from scripts.files.inputs import read
 from scripts.files.outputs import logged
 from scripts.files.tsv import as_digits, write_table
+from scripts.namelists.laws import law_of
 from scripts.tables.linear_stability_table import amplitude_death
 from scripts.tables.motion_rows import AXES_FIRST
 
 COLUMNS = [
-    *("of", "kind", *AXES_FIRST, "unstable_pairs"),
+    *("of", "law", "kind", *AXES_FIRST, "unstable_pairs"),
     *("omega_1", "branch_1", "l1_1", "omega_2", "branch_2", "l1_2"),
     *("l2", "g2100", "g1011", "g1110", "g0021", "theta", "delta", "unfolding"),
     *("start_epsilon_1", "start_tau_1", "start_xi_1", "angle_1", "criticality_1", "torus_1"),
@@ -30,7 +31,8 @@ def rows_of(plane: str, curves: xr.Dataset) -> list[dict]:
     """The special points of one plane; a row has the columns that its kind of points fills."""
     points = [curves.isel(special=i) for i in range(curves.sizes["special"])]
     gamma = as_digits(curves.attrs["gamma"])
-    return [{"of": plane, **row_of(point), "gamma": gamma} for point in points]
+    law = law_of(curves.attrs)
+    return [{"of": plane, "law": law, **row_of(point), "gamma": gamma} for point in points]
 
 
 def row_of(point: xr.Dataset) -> dict:
@@ -70,6 +72,7 @@ def death_rows_of(scene: str, stability: xr.Dataset) -> list[dict]:
                 omega = stability.tau_change_omega.values[crossing][0]
                 row = {
                     "of": scene,
+                    "law": law_of(stability.attrs),
                     "kind": f"amplitude_death_{kind}",
                     **known,
                     "tau": as_digits(tau),

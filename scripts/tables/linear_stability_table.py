@@ -7,6 +7,7 @@ import xarray as xr
 from scripts.files.inputs import read
 from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
+from scripts.namelists.laws import law_of
 from scripts.namelists.study_cases import PARAMETERS
 
 ROOTS_SHOWN = 3
@@ -19,6 +20,7 @@ def row_of(scene: str, stability: xr.Dataset) -> dict:
     return {
         "scene": scene,
         **{key: float(known[key]) for key in PARAMETERS},
+        "law": law_of(known),
         "unstable_pairs": int(known["unstable_pairs"]),
         "root_bound": float(known["root_bound"]),
         "roots_above_bound": stability.sizes["root"],

@@ -1,7 +1,10 @@
 """What rows of attractors, of the atlas and of routes say."""
 
+from collections.abc import Mapping
+
 import numpy as np
 
+from scripts.namelists.laws import law_of
 from scripts.namelists.study_cases import HISTORY, PARAMETERS
 
 UNDECIDED = "undecided"
@@ -58,10 +61,15 @@ def nearest_alike(kinds: np.ndarray, computed: np.ndarray) -> np.ndarray:
     return nearest
 
 
-def planes_of(rows: list[dict]) -> dict[tuple[float, float], list[dict]]:
-    """Rows of the atlas by their plane, its gamma and xi, in ascending order."""
-    planes = sorted({(row["gamma"], row["xi"]) for row in rows})
-    return {at: [row for row in rows if (row["gamma"], row["xi"]) == at] for at in planes}
+def plane_of(place: Mapping) -> tuple[float, float, str]:
+    """The plane of a place: its gamma, xi and law."""
+    return place["gamma"], place["xi"], law_of(place)
+
+
+def planes_of(rows: list[dict]) -> dict[tuple[float, float, str], list[dict]]:
+    """Rows of the atlas by their plane, in ascending order."""
+    planes = sorted({plane_of(row) for row in rows})
+    return {at: [row for row in rows if plane_of(row) == at] for at in planes}
 
 
 def parameter_of(rows: list[dict]) -> str:

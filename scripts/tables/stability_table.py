@@ -4,6 +4,7 @@ import numpy as np
 
 from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
+from scripts.namelists.laws import law_of
 from scripts.namelists.study_cases import HISTORY, PARAMETERS
 from scripts.tables.accuracy import (
     Reference,
@@ -39,6 +40,7 @@ def row_of(family: str, kind: str, run: dict, reference: Reference | None) -> di
     return {
         "case": run["case"],
         "family": family,
+        "law": law_of(run),
         **{name: run[name] for name in (*PARAMETERS, *(f"history_{key}" for key in HISTORY))},
         **{name: run[name] for name in ("t_end", "method")},
         "tolerance": run["setting"],

@@ -175,8 +175,9 @@ def added(said: dict, whole: dict) -> dict[str, list[str]]:
     If the file changes shared settings of a section only, all entries of the section.
     """
     names = {section: list(_inside(said, path)) for section, path in SECTIONS.items()}
+    named = {path[:-1] for section, path in SECTIONS.items() if names[section]}
     for section, path in SECTIONS.items():
-        if not names[section] and len(path) > 1 and _inside(said, path[:-1]):
+        if len(path) > 1 and path[:-1] not in named and _inside(said, path[:-1]):
             names[section] = list(_inside(whole, path))
     return names
 

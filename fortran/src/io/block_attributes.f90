@@ -19,7 +19,7 @@ contains
       !> Parameters with their law
       type(block_parameters_type), intent(in) :: parameters
       type(description_type) :: law
-      character(len=:), allocatable :: equations
+      character(len=:), allocatable :: equations, own
       integer :: i
 
       call describe_law(parameters%law, law)
@@ -30,10 +30,14 @@ contains
          equations = equations//"; "//trim(law%equations(i))
       end do
       call file%attribute("law_equations", equations)
+      own = ""
       do i = size(parameter_names) + 1, size(law%parameters)
-         call file%attribute(trim(law%parameters(i)%name), &
+         own = own//" "//trim(law%parameters(i)%name)
+         ! other attributes may have the bare name
+         call file%attribute("law_"//trim(law%parameters(i)%name), &
                              parameters%own(i - size(parameter_names)))
       end do
+      if (own /= "") call file%attribute("law_parameters", own(2:))
    end subroutine put_law
 
    !> Write the parameters and their law as attributes.
