@@ -22,6 +22,7 @@ def main() -> None:
         formatter_class=argparse.RawTextHelpFormatter,
     )
     parser.add_argument("--registry", action="store_true", help="write the module of all names")
+    parser.add_argument("--name", help="name of the model, in place of that of the definition")
     parser.add_argument("sources", nargs="+", help="files of one definition, or names of models")
     parser.add_argument("module", type=Path, help="file to write")
     arguments = parser.parse_args()
@@ -29,7 +30,7 @@ def main() -> None:
         if arguments.registry:
             text = write_registry(arguments.sources)
         else:
-            text = write_module(read_files(map(Path, arguments.sources)))
+            text = write_module(read_files(map(Path, arguments.sources), arguments.name))
         unfinished = arguments.module.with_suffix(".unfinished")
         unfinished.write_text(text, encoding="utf-8")
     except (ModelError, OSError) as problem:

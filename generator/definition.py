@@ -118,7 +118,7 @@ class Model:
         return expression.subs(values)
 
 
-def read_files(paths: Iterable[Path]) -> Model:
+def read_files(paths: Iterable[Path], name: str | None = None) -> Model:
     """The model that files define together: later ones add to earlier ones and replace."""
     whole: dict = {}
     for path in paths:
@@ -129,7 +129,7 @@ def read_files(paths: Iterable[Path]) -> Model:
         if not isinstance(part, dict):
             raise ModelError(f"{path}: expected keys with values below them")
         whole = overlaid(whole, part)
-    return read_model(whole)
+    return read_model(whole if name is None else {**whole, "name": name})
 
 
 def overlaid(whole: dict, part: dict) -> dict:

@@ -12,6 +12,8 @@ from generator.graph import Graph, in_order
 from generator.recurrences import Constants, Recurrences, fetch_parameters
 from generator.series import Procedure
 
+LONGEST = 70
+"""Letters of a character constant on one line."""
 TEMPLATES = jinja2.Environment(
     loader=jinja2.FileSystemLoader(Path(__file__).parent),
     trim_blocks=True,
@@ -106,8 +108,9 @@ def description_lines(model: Model) -> list[str]:
 
 
 def quoted(text: str) -> str:
-    """A character constant."""
-    return '"' + text.replace('"', '""') + '"'
+    """A character constant, in parts that fit on a line."""
+    parts = [text[at : at + LONGEST] for at in range(0, max(1, len(text)), LONGEST)]
+    return " // ".join('"' + part.replace('"', '""') + '"' for part in parts)
 
 
 def delayed_procedure(model: Model) -> Procedure:

@@ -152,6 +152,11 @@ def derivative_procedure(model: Model) -> Procedure:
     return Procedure(parameters, [], [], lines, lanes=names)
 
 
+def shortest(expression: sympy.Expr) -> sympy.Expr:
+    """The sum or the product of an expression, whatever takes fewer operations."""
+    return min(sympy.expand(expression), sympy.factor(expression), key=sympy.count_ops)
+
+
 def characteristic_terms(model: Model) -> list[tuple[sympy.Expr, int, sympy.Expr]]:
     """The terms c s^m exp(-s d) of det(s I - A_0 - sum of A_k exp(-s lag_k)): c, m and d."""
     s = sympy.Symbol("s_")
@@ -169,7 +174,7 @@ def characteristic_terms(model: Model) -> list[tuple[sympy.Expr, int, sympy.Expr
     terms = []
     for (power, *times), coefficient in polynomial.terms():
         delay = sympy.Add(*(n * one.lag for n, one in zip(times, model.delayed, strict=True)))
-        terms.append((sympy.expand(coefficient), power, delay))
+        terms.append((shortest(coefficient), power, delay))
     return terms
 
 
@@ -192,7 +197,7 @@ def characteristic_procedure(model: Model) -> Procedure:
         ]
         for j, one in enumerate(model.parameters, 1):
             for array, value in (("coefficient_by", coefficient), ("delay_by", delay)):
-                slope = sympy.expand(value.diff(model.symbol(one.name)))
+                slope = shortest(value.diff(model.symbol(one.name)))
                 if slope != 0:
                     lines.append(f"{array}({i}, {j}) = {text_of(slope)}")
     return Procedure(parameters, [], [], lines)

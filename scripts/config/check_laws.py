@@ -10,7 +10,7 @@ def with_own_parameters(schema: dict, config: dict) -> dict:
     """The schema in which whatever has a law may have the own parameters of any law."""
     laws = config.get("laws")
     users = laws if isinstance(laws, dict) else {}
-    known = definitions({"laws": {}}).values()
+    known = definitions({}).values()
     own = {
         str(name): {"type": "number", "description": str((entry or {}).get("meaning", name))}
         for law in [*known, *(law for law in users.values() if isinstance(law, dict))]

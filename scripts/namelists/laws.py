@@ -11,6 +11,8 @@ BLOCK = MODEL / "spring_block.yaml"
 """The equations of the block, to which a law adds its own."""
 PAPER = "slip_delayed_logarithm"
 """The law of equation (4)."""
+PREFIX = "quasistatic_"
+"""What stands before the name of a law without inertia."""
 
 
 @cache
@@ -32,9 +34,20 @@ def definition(name: str, law: dict) -> dict:
 
 
 def definitions(config: dict) -> dict[str, dict]:
-    """Definitions of all laws by name."""
+    """Definitions of all laws by name, those without inertia last."""
     users = config.get("laws", {})
-    return {**built_in(), **{name: definition(name, law) for name, law in users.items()}}
+    laws = {**built_in(), **{name: definition(name, law) for name, law in users.items()}}
+    return laws | {f"{PREFIX}{name}": without_inertia(law) for name, law in laws.items()}
+
+
+def without_inertia(law: dict) -> dict:
+    """A law with radiation damping in place of mass: what the generator makes of it."""
+    own = {
+        key: entry
+        for key, entry in read(MODEL / "quasistatic.yaml")["parameters"].items()
+        if key != "gamma"
+    }
+    return {**law, "parameters": {**(law.get("parameters") or {}), **own}}
 
 
 def own_parameters(config: dict, law: str) -> dict[str, dict]:
@@ -69,7 +82,8 @@ def law_of(place: Mapping) -> str:
 def users_definitions(config: dict, groups) -> dict[str, dict]:
     """The user's laws that groups of a namelist name."""
     users = config.get("laws", {})
-    return {name: users[name] for name in sorted(_named_laws(groups)) if name in users}
+    named = {name.removeprefix(PREFIX) for name in _named_laws(groups)}
+    return {name: users[name] for name in sorted(named) if name in users}
 
 
 def _named_laws(value) -> set[str]:
@@ -90,6 +104,10 @@ def check_law(name: str, law: dict) -> None:
     place = f"config laws {name}"
     if name in built_in():
         raise ConfigError(f"{place}: the project has a law of this name; expected another name")
+    if name.startswith(PREFIX):
+        raise ConfigError(
+            f"{place}: {PREFIX}NAME is the law NAME without inertia; expected another"
+        )
     try:
         write_module(read_model(overlaid(read(BLOCK), definition(name, law))))
     except (ModelError, TypeError) as problem:

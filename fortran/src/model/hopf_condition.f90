@@ -4,9 +4,10 @@
 !>
 !> of the block, P and Q are polynomials in s whose coefficients have no power above the first of
 !> d = 1 + epsilon, x = 1/xi and g = gamma^2, for any law of friction of which epsilon enters the
-!> linear part in this way. On the Hopf set |P| = |Q| and exp(i omega tau) = -Q/P. For the paper's
-!> law these are (7) to (10), corrected where docs/method.md, "What was corrected", says so; the
-!> tests compare them. All quantities are nondimensional.
+!> linear part in this way; without inertia x = xi and g = gamma. On the Hopf set |P| = |Q| and
+!> exp(i omega tau) = -Q/P. For the paper's law these are (7) to (10), corrected where
+!> docs/method.md, "What was corrected", says so; the tests compare them. All quantities are
+!> nondimensional.
 module hopf_condition
    use block_parameters, only: block_parameters_type
    use characteristic_function, only: characteristic_type
@@ -18,8 +19,8 @@ module hopf_condition
    public :: find_hopf_condition, hopf_condition_type, printed_tau, two_pi
 
    real(wp), parameter :: two_pi = 2.0_wp*acos(-1.0_wp)
-   !> xi that stands for 1/xi = 0.
-   real(wp), parameter :: infinite = 1.0e100_wp
+   !> xi and gamma that stand for 1/xi = 0 and gamma = 0; xi of a spring that does not matter.
+   real(wp), parameter :: infinite = 1.0e100_wp, none = 1.0e-100_wp, weak = 1.0e-6_wp
    !> Where the coefficients are compared: d, x, g.
    real(wp), parameter :: probe(3) = [1.7_wp, 2.3_wp, 0.6_wp]
    !> Largest difference there, relative to the largest coefficient.
@@ -29,6 +30,8 @@ module hopf_condition
    type :: hopf_condition_type
       !> Degree of P
       integer :: n = 0
+      !> Whether the block has inertia: x = 1/xi and g = gamma^2, or x = xi and g = gamma
+      logical :: has_inertia = .true.
       !> Coefficients of d**a x**b g**c in those of P and Q, shape (0:n, 2, a: 0:1, b: 0:1, c: 0:1)
       real(wp), allocatable :: term(:, :, :, :, :)
    contains
@@ -55,40 +58,54 @@ contains
       !> The law is outside of this form
       type(error_type), allocatable, intent(out) :: error
       real(wp), allocatable :: expected(:, :), met(:, :)
+      integer :: form
+
+      met = coefficients(parameters, .true., 1.0_wp, 1.0_wp, 1.0_wp)
+      if (size(met, 2) /= 2) then
+         call raise(error, "find_hopf_condition: the law '"//trim(parameters%law) &
+                    //"' has several delays in its characteristic function; expected one")
+         return
+      end if
+      do form = 1, 2
+         condition%has_inertia = form == 1
+         call find_terms(parameters, condition)
+         expected = condition%polynomials(probe(1), probe(2), probe(3))
+         met = coefficients(parameters, condition%has_inertia, probe(1), probe(2), probe(3))
+         if (all(abs(met - expected) <= affine_error*maxval(abs(expected)))) return
+      end do
+      call raise(error, "find_hopf_condition: in the law '"//trim(parameters%law) &
+                 //"' epsilon has powers or functions in the linear part; expected its first " &
+                 //"power alone")
+   end subroutine find_hopf_condition
+
+   !> The terms from the corners of the cube.
+   subroutine find_terms(parameters, condition)
+      type(block_parameters_type), intent(in) :: parameters
+      type(hopf_condition_type), intent(inout) :: condition
+      real(wp), allocatable :: corner(:, :), term(:, :, :, :, :)
       integer :: a, b, c
 
-      condition%n = size(coefficients(parameters, 1.0_wp, 1.0_wp, 1.0_wp), 1) - 1
-      allocate (condition%term(0:condition%n, 2, 0:1, 0:1, 0:1))
       do c = 0, 1
          do b = 0, 1
             do a = 0, 1
-               met = coefficients(parameters, real(a, wp), real(b, wp), real(c, wp))
-               if (size(met, 2) /= 2) then
-                  call raise(error, "find_hopf_condition: the law '"//trim(parameters%law) &
-                             //"' has several delays in its characteristic function; expected one")
-                  return
-               end if
-               condition%term(:, :, a, b, c) = met
+               corner = coefficients(parameters, condition%has_inertia, real(a, wp), real(b, wp), &
+                                     real(c, wp))
+               condition%n = size(corner, 1) - 1
+               if (.not. allocated(term)) allocate (term(0:condition%n, 2, 0:1, 0:1, 0:1))
+               term(:, :, a, b, c) = corner
             end do
          end do
       end do
-      associate (t => condition%term)
-         t(:, :, 1, :, :) = t(:, :, 1, :, :) - t(:, :, 0, :, :)
-         t(:, :, :, 1, :) = t(:, :, :, 1, :) - t(:, :, :, 0, :)
-         t(:, :, :, :, 1) = t(:, :, :, :, 1) - t(:, :, :, :, 0)
-      end associate
-      expected = condition%polynomials(probe(1), probe(2), probe(3))
-      met = coefficients(parameters, probe(1), probe(2), probe(3))
-      if (any(abs(met - expected) > affine_error*maxval(abs(expected)))) then
-         call raise(error, "find_hopf_condition: in the law '"//trim(parameters%law) &
-                    //"' epsilon has powers or functions in the linear part; expected its first " &
-                    //"power alone")
-      end if
-   end subroutine find_hopf_condition
+      term(:, :, 1, :, :) = term(:, :, 1, :, :) - term(:, :, 0, :, :)
+      term(:, :, :, 1, :) = term(:, :, :, 1, :) - term(:, :, :, 0, :)
+      term(:, :, :, :, 1) = term(:, :, :, :, 1) - term(:, :, :, :, 0)
+      call move_alloc(term, condition%term)
+   end subroutine find_terms
 
-   !> Coefficients of P and Q at d = 1 + epsilon, x = 1/xi, g = gamma^2.
-   function coefficients(parameters, d, x, g) result(values)
+   !> Coefficients of P and Q at d = 1 + epsilon, and x and g of xi and gamma.
+   function coefficients(parameters, has_inertia, d, x, g) result(values)
       type(block_parameters_type), intent(in) :: parameters
+      logical, intent(in) :: has_inertia
       real(wp), intent(in) :: d, x, g
       real(wp), allocatable :: values(:, :)
       type(block_parameters_type) :: there
@@ -97,17 +114,40 @@ contains
       there = parameters
       there%tau = 1.0_wp
       there%epsilon = d - 1.0_wp
-      there%xi = infinite
-      if (x > 0.0_wp) there%xi = 1.0_wp/x
-      there%gamma = sqrt(g)
+      if (has_inertia) then
+         there%xi = infinite
+         if (x > 0.0_wp) there%xi = 1.0_wp/x
+         there%gamma = sqrt(g)
+      else
+         there%xi = max(x, none)
+         there%gamma = max(g, none)
+      end if
       c = block_characteristic(there)
       values = c%coefficient
    end function coefficients
 
+   !> x of xi.
+   elemental real(wp) function x_of(self, xi) result(x)
+      class(hopf_condition_type), intent(in) :: self
+      real(wp), intent(in) :: xi
+
+      x = xi
+      if (self%has_inertia) x = 1.0_wp/xi
+   end function x_of
+
+   !> g of gamma.
+   elemental real(wp) function g_of(self, gamma) result(g)
+      class(hopf_condition_type), intent(in) :: self
+      real(wp), intent(in) :: gamma
+
+      g = gamma
+      if (self%has_inertia) g = gamma**2
+   end function g_of
+
    !> Coefficients of P and Q, shape (0:n, 2).
    pure function polynomials(self, d, x, g) result(values)
       class(hopf_condition_type), intent(in) :: self
-      !> 1 + epsilon, 1/xi, gamma^2
+      !> 1 + epsilon, x, g
       real(wp), intent(in) :: d, x, g
       real(wp) :: values(0:self%n, 2)
       real(wp) :: plane(0:self%n, 2, 0:1, 0:1), line(0:self%n, 2, 0:1)
@@ -137,8 +177,8 @@ contains
       complex(wp) :: p, p_by_d, q, q_by_d
       real(wp) :: at_0(0:self%n, 2), middle, square, rest, by_d(0:self%n, 2)
 
-      at_0 = self%polynomials(0.0_wp, 1.0_wp/xi, gamma**2)
-      by_d = self%polynomials(1.0_wp, 1.0_wp/xi, gamma**2) - at_0
+      at_0 = self%polynomials(0.0_wp, x_of(self, xi), g_of(self, gamma))
+      by_d = self%polynomials(1.0_wp, x_of(self, xi), g_of(self, gamma)) - at_0
       p = on_axis(at_0(:, 1), omega)
       q = on_axis(at_0(:, 2), omega)
       p_by_d = on_axis(by_d(:, 1), omega)
@@ -177,8 +217,8 @@ contains
    end function larger_root
 
    !> Largest frequency of a pair i omega at this epsilon or a smaller one: a pair needs the least
-   !> epsilon where gamma = omega, and the spring then does not matter. For the paper's law this is
-   !> 1 + epsilon = sqrt(1 + omega^2).
+   !> epsilon where gamma = omega, and the spring then does not matter, or without inertia on a weak
+   !> spring. For the paper's law this is 1 + epsilon = sqrt(1 + omega^2).
    pure real(wp) function largest_omega(self, epsilon) result(omega)
       class(hopf_condition_type), intent(in) :: self
       !> Sensitivity of the velocity relaxation
@@ -188,7 +228,7 @@ contains
 
       omega = 0.0_wp
       above = 1.0_wp
-      do while (self%epsilon_at(above, 1.0_wp, above) <= epsilon .and. above < infinite)
+      do while (self%epsilon_at(above, weak, above) <= epsilon .and. above < infinite)
          omega = above
          above = 2.0_wp*above
       end do
@@ -196,7 +236,7 @@ contains
       do i = 1, 2*digits(1.0_wp)
          middle = 0.5_wp*(omega + above)
          if (middle <= omega .or. middle >= above) exit
-         if (self%epsilon_at(middle, 1.0_wp, middle) <= epsilon) then
+         if (self%epsilon_at(middle, weak, middle) <= epsilon) then
             omega = middle
          else
             above = middle
@@ -204,9 +244,9 @@ contains
       end do
    end function largest_omega
 
-   !> A frequency below those of pairs i omega at this epsilon or a smaller one. As omega falls to 0,
-   !> 1 + epsilon = |P|/|Q/d| grows as |P(0)|/(omega |Q'(0)/d|); a block that is much slower than its
-   !> spring has pairs near gamma alone.
+   !> A frequency below those of pairs i omega at this epsilon or a smaller one. As omega falls to
+   !> 0, 1 + epsilon = |P|/|Q/d| grows as |P(0)|/(omega |Q'(0)/d|); a block that is much slower than
+   !> its spring has pairs near gamma alone.
    pure real(wp) function least_omega(self, epsilon, xi, gamma) result(omega)
       class(hopf_condition_type), intent(in) :: self
       !> Sensitivity of the velocity relaxation; spring constant; frequency of the block
@@ -215,8 +255,8 @@ contains
       real(wp), parameter :: share = 0.25_wp, far_share = 1.0e-6_wp
       real(wp) :: at_0(0:self%n, 2), by_d(0:self%n, 2)
 
-      at_0 = self%polynomials(0.0_wp, 1.0_wp/xi, gamma**2)
-      by_d = self%polynomials(1.0_wp, 1.0_wp/xi, gamma**2) - at_0
+      at_0 = self%polynomials(0.0_wp, x_of(self, xi), g_of(self, gamma))
+      by_d = self%polynomials(1.0_wp, x_of(self, xi), g_of(self, gamma)) - at_0
       associate (left => abs(at_0(0, 1)) - (1.0_wp + epsilon)*abs(by_d(0, 2)), &
                  right => (1.0_wp + epsilon)*abs(by_d(1, 2)))
          omega = far_share*gamma
@@ -237,20 +277,23 @@ contains
       integer :: i
 
       do i = 0, 1
-         a(i) = delta_at(self, omega, 0.0_wp, real(i, wp), gamma**2, tau)
-         b(i) = delta_at(self, omega, 1.0_wp, real(i, wp), gamma**2, tau) - a(i)
+         a(i) = delta_at(self, omega, 0.0_wp, real(i, wp), g_of(self, gamma), tau)
+         b(i) = delta_at(self, omega, 1.0_wp, real(i, wp), g_of(self, gamma), tau) - a(i)
       end do
       ! parts without x and with x
       a(1) = a(1) - a(0)
       b(1) = b(1) - b(0)
-      if (size_of(b(0)) <= 0.0_wp) then
+      if (abs(b(0)) <= affine_error*abs(b(1))) then
          x = -aimag(a(0)*conjg(b(1)))/aimag(a(1)*conjg(b(1)))
+      else if (abs(b(1)) <= affine_error*abs(b(0))) then
+         x = -aimag(a(0)*conjg(b(0)))/aimag(a(1)*conjg(b(0)))
       else
          x = larger_root(aimag(a(1)*conjg(b(1))), &
                          -0.5_wp*(aimag(a(0)*conjg(b(1))) + aimag(a(1)*conjg(b(0)))), &
                          -aimag(a(0)*conjg(b(0))))
       end if
-      xi = 1.0_wp/x
+      xi = x
+      if (self%has_inertia) xi = 1.0_wp/x
    end function xi_at
 
    !> Delta(i omega).
@@ -271,8 +314,8 @@ contains
       real(wp), intent(in) :: omega, epsilon, tau, gamma
       complex(wp) :: a, b
 
-      a = delta_at(self, omega, 1.0_wp + epsilon, 0.0_wp, gamma**2, tau)
-      b = delta_at(self, omega, 1.0_wp + epsilon, 1.0_wp, gamma**2, tau) - a
+      a = delta_at(self, omega, 1.0_wp + epsilon, 0.0_wp, g_of(self, gamma), tau)
+      b = delta_at(self, omega, 1.0_wp + epsilon, 1.0_wp, g_of(self, gamma), tau) - a
       miss = aimag(a*conjg(b))/(abs(a)*abs(b) + tiny(1.0_wp))
    end function miss_along_xi
 
@@ -283,8 +326,8 @@ contains
       real(wp), intent(in) :: omega, epsilon, tau, xi
       complex(wp) :: a, b
 
-      a = delta_at(self, omega, 1.0_wp + epsilon, 1.0_wp/xi, 0.0_wp, tau)
-      b = delta_at(self, omega, 1.0_wp + epsilon, 1.0_wp/xi, 1.0_wp, tau) - a
+      a = delta_at(self, omega, 1.0_wp + epsilon, x_of(self, xi), 0.0_wp, tau)
+      b = delta_at(self, omega, 1.0_wp + epsilon, x_of(self, xi), 1.0_wp, tau) - a
       miss = aimag(a*conjg(b))/(abs(a)*abs(b) + tiny(1.0_wp))
    end function miss_along_gamma
 
@@ -294,13 +337,15 @@ contains
       !> Frequency of the pair, > 0; sensitivity of the velocity relaxation; delay; spring constant
       real(wp), intent(in) :: omega, epsilon, tau, xi
       complex(wp) :: a, b
-      real(wp) :: square
+      real(wp) :: g
 
-      a = delta_at(self, omega, 1.0_wp + epsilon, 1.0_wp/xi, 0.0_wp, tau)
-      b = delta_at(self, omega, 1.0_wp + epsilon, 1.0_wp/xi, 1.0_wp, tau) - a
-      square = -real(a*conjg(b))
+      a = delta_at(self, omega, 1.0_wp + epsilon, x_of(self, xi), 0.0_wp, tau)
+      b = delta_at(self, omega, 1.0_wp + epsilon, x_of(self, xi), 1.0_wp, tau) - a
+      g = -real(a*conjg(b))
       gamma = -1.0_wp
-      if (square > 0.0_wp .and. size_of(b) > 0.0_wp) gamma = sqrt(square/size_of(b))
+      if (.not. (g > 0.0_wp .and. size_of(b) > 0.0_wp)) return
+      gamma = g/size_of(b)
+      if (self%has_inertia) gamma = sqrt(gamma)
    end function gamma_at
 
    !> The delay of a pair i omega on branch k, by exp(i omega tau) = -Q/P; (10) for the paper's law,
@@ -315,7 +360,7 @@ contains
       complex(wp) :: turn
       real(wp) :: c(0:self%n, 2)
 
-      c = self%polynomials(1.0_wp + epsilon, 1.0_wp/xi, gamma**2)
+      c = self%polynomials(1.0_wp + epsilon, x_of(self, xi), g_of(self, gamma))
       turn = -on_axis(c(:, 2), omega)/on_axis(c(:, 1), omega)
       tau = (atan2(aimag(turn), real(turn)) + two_pi*k)/omega
    end function tau_at
@@ -329,7 +374,7 @@ contains
       real(wp), intent(in) :: omega, epsilon, xi, gamma
       real(wp) :: c(0:self%n, 2), half_sum, product, root, second_highest
 
-      c = self%polynomials(1.0_wp + epsilon, 1.0_wp/xi, gamma**2)
+      c = self%polynomials(1.0_wp + epsilon, x_of(self, xi), g_of(self, gamma))
       c = c/c(self%n, 1)
       product = (c(0, 1)**2 - c(0, 2)**2)/omega**2
       if (self%n == 2) then

@@ -2,7 +2,7 @@
 module cycle_lines
    use block_family, only: along_epsilon, along_gamma, along_tau, along_xi, vector_of
    use block_parameters, only: block_parameters_type
-   use dde_errors, only: error_type
+   use dde_errors, only: error_type, raise
    use dde_kinds, only: wp
    use gsl_roots, only: find_root, scalar_function_type
    use hopf_condition, only: find_hopf_condition, hopf_condition_type, two_pi
@@ -63,6 +63,11 @@ contains
       miss%line = line
       call find_hopf_condition(line%parameters, miss%condition, error)
       if (allocated(error)) return
+      if (line%along == along_gamma .and. .not. miss%condition%has_inertia) then
+         call raise(error, "find_hopf_starts: along gamma, on which the law '" &
+                    //trim(line%parameters%law)//"' does not depend; expected a law with inertia")
+         return
+      end if
       associate (p => line%parameters)
          largest = miss%condition%largest_omega(p%epsilon)
          select case (line%along)

@@ -103,7 +103,7 @@ contains
          omega_most = c%largest_omega(epsilon_most)
          omega_least = min(c%least_omega(epsilon_most, xi_least, gamma), omega_most)
          ! beyond gamma the inertia of the block holds the spring's place
-         omega_most = min(omega_most, gamma**2/omega_least)
+         if (c%has_inertia) omega_most = min(omega_most, gamma**2/omega_least)
       end associate
       k_most = ceiling(tau_most*omega_most/two_pi + 0.5_wp)
    end subroutine bounds

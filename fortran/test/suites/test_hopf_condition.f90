@@ -85,6 +85,7 @@ contains
          call random_point(i, p, s)
          ! without its cut-off, that law is the paper's
          p%law = model_names(1 + modulo(i, size(model_names)))
+         if (index(p%law, "quasistatic") > 0) cycle
          c = block_characteristic(p)
          call expect_close(error, abs(c%value(s) - delta(p, s))/size_of(p, s), 0.0_wp, &
                            1.0e-14_wp, "relative misfit of "//trim(p%law)//", point "//text(i))
@@ -228,12 +229,17 @@ contains
                                  "1 + epsilon of the partner, point "//text(i))
                call expect_close(error, condition%xi_at(omega, p%tau, p%gamma)/p%xi, 1.0_wp, &
                                  1.0e-8_wp, "xi over xi, point "//text(i))
-               call expect_close(error, condition%gamma_at(omega, p%epsilon, p%tau, p%xi)/p%gamma, &
-                                 1.0_wp, 1.0e-7_wp, "gamma over gamma, point "//text(i))
+               ! without inertia pairs are the same for all gamma
+               if (condition%has_inertia) then
+                  call expect_close(error, condition%gamma_at(omega, p%epsilon, p%tau, p%xi) &
+                                    /p%gamma, 1.0_wp, 1.0e-7_wp, "gamma over gamma, point " &
+                                    //text(i))
+                  call expect_close(error, condition%miss_along_gamma(omega, p%epsilon, p%tau, &
+                                                                      p%xi), 0.0_wp, 1.0e-11_wp, &
+                                    "miss along gamma, point "//text(i))
+               end if
                call expect_close(error, condition%miss_along_xi(omega, p%epsilon, p%tau, p%gamma), &
                                  0.0_wp, 1.0e-11_wp, "miss along xi, point "//text(i))
-               call expect_close(error, condition%miss_along_gamma(omega, p%epsilon, p%tau, p%xi), &
-                                 0.0_wp, 1.0e-11_wp, "miss along gamma, point "//text(i))
                call expect_between(error, condition%largest_omega(p%epsilon)/omega, &
                                    1.0_wp - 1.0e-12_wp, huge(1.0_wp), "largest omega, point " &
                                    //text(i))
