@@ -1,0 +1,125 @@
+"""Laws of friction in the configuration: what is refused, and what programs get."""
+
+import copy
+
+import numpy as np
+import pytest
+from conftest import torus
+
+from scripts.config.check_config import checked
+from scripts.files.inputs import read
+from scripts.files.read_config import ConfigError
+from scripts.namelists import laws
+from scripts.namelists.program_groups import hopf_groups, scene_groups
+
+MINE = {
+    "evolution": "-speed*v*(theta + (1 + epsilon)*log(v(t - tau)))",
+    "parameters": {"speed": {"above": 0, "default": 1.0}},
+}
+
+
+@pytest.fixture
+def with_law(config) -> dict:
+    config["laws"] = {"mine": copy.deepcopy(MINE)}
+    config["scenes"]["torus"]["law"] = "mine"
+    return config
+
+
+def test_default_of_a_parameter_reaches_the_program(with_law):
+    groups = scene_groups(checked(with_law), "torus")
+    assert groups["scene"]["parameters"]["law"] == "mine"
+    assert groups["scene"]["parameters"]["own"] == [1.0]
+    assert "speed" not in groups["scene"]
+    assert list(laws.users_definitions(with_law, groups)) == ["mine"]
+
+
+def test_law_without_inertia_has_one_parameter_more(with_law):
+    with_law["hopf_curves"]["tau_of_epsilon"] |= {"law": "quasistatic_mine", "zeta": 0.1}
+    groups = hopf_groups(checked(with_law), "tau_of_epsilon")
+    assert groups["hopf_curves"]["own"] == [1.0, 0.1]
+    assert list(laws.users_definitions(with_law, groups)) == ["mine"]
+    words = laws.law_in_words(with_law, with_law["hopf_curves"]["tau_of_epsilon"])
+    assert words == "quasistatic_mine (speed = 1, zeta = 0.1)"
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "line"),
+    [
+        (
+            ("scenes", "torus", "law"),
+            "yours",
+            "scenes torus: law = 'yours'; expected one of:",
+        ),
+        (("scenes", "torus", "speed"), 0, "scenes torus: speed = 0; expected a finite number > 0"),
+        (
+            ("scenes", "chaos", "speed"),
+            1,
+            "scenes chaos: speed is no parameter of the law slip_delayed_logarithm; it has none",
+        ),
+        (
+            ("scenes", "torus", "law"),
+            "quasistatic_mine",
+            "scenes torus: key ['zeta'] is missing: a parameter of the law quasistatic_mine",
+        ),
+        (("laws", "mine", "evolution"), "1 - theta", "laws mine: equation of theta at the steady"),
+        (
+            ("laws", "mine", "evolution"),
+            "-max(v, 1)",
+            "laws mine: definition of evolution: 'max(v, 1)'",
+        ),
+        (("laws", "slip_cut_off"), MINE, "laws slip_cut_off: the project has a law of this name"),
+        (("laws", "quasistatic_a"), MINE, "laws quasistatic_a: quasistatic_NAME is the law NAME"),
+        (("laws", "mine", "colour"), 1, "laws mine: unknown key ['colour']"),
+    ],
+)
+def test_wrong_law_is_refused(with_law, path, value, line):
+    """Place, what was met, and what is expected."""
+    *place, key = path
+    section = with_law
+    for step in place:
+        section = section[step]
+    section[key] = copy.deepcopy(value)
+    with pytest.raises(ConfigError, match="config") as refused:
+        checked(with_law)
+    assert f"config {line}" in str(refused.value)
+
+
+def test_results_say_which_law_they_have(programs, filled_config):
+    """Name, source, equations and the values of its parameters."""
+    values = torus(filled_config, t_end=5.0, t_transient=1.0, variables=["v"])
+    values["law"] = "slip_cut_off"
+    groups = {"scene": values}
+    folder = programs.write(groups)
+    text = folder.read_text().replace("/\n", "    scene%parameters%own = 0.25\n/\n")
+    folder.write_text(text)
+    run = programs.run("trajectory", folder.name, programs.output.name)
+    assert (run.returncode, run.stderr) == (0, "")
+    attributes = read(programs.output).attrs
+    assert attributes["law"] == "slip_cut_off (c = 0.25)"
+    assert attributes["law_c"] == 0.25
+    assert "log((1 + c)*v(t - tau)/(1 + c*v(t - tau)))" in attributes["law_equations"]
+
+
+EXPONENTS = {
+    ("ageing_delayed_velocity", 0.5, 10.0, 0.8): [0.0, -0.017564, -0.07104, -0.07104],
+    ("ageing_delayed_velocity", 0.7, 7.0, 0.5): [0.0, -0.03836, -0.03836, -0.05836],
+    ("ageing_delayed_logarithm", 1.2, 3.0, 0.5): [0.0, -0.01488, -0.13379, -0.13379],
+    ("slip_delayed_velocity", 0.7, 7.0, 0.5): [0.0, -0.05366, -0.05366, -0.06297],
+}
+"""By law, epsilon, tau and xi at gamma = 0.8: exponents of cycles by a Radau method and tangent
+vectors of another program, which shares nothing with this project."""
+
+
+@pytest.mark.parametrize("place", EXPONENTS)
+def test_exponents_of_other_laws(programs, good_groups, place):
+    law, epsilon, tau, xi = place
+    groups = good_groups["exponents"]
+    groups["scene"] |= {"law": law, "epsilon": epsilon, "tau": tau, "xi": xi, "gamma": 0.8}
+    groups["scene"] |= {"history": {"theta": 0.0, "u": 0.0, "v": 1.5}}
+    groups["scene"] |= {"t_end": 2500.0, "t_transient": 2000.0, "tolerance": 1e-9}
+    groups["exponents"] |= {"count": 4, "t_end": 6000.0, "t_turning": 500.0, "interval": 10.0}
+    groups["exponents"] |= {"blocks": 10, "check_tolerances": [1e-7]}
+    measured = programs.made_of("exponents", groups)
+    found, errors = measured.value.values[0], measured.error.values[0]
+    assert np.abs(found - EXPONENTS[place]).max() < 3e-5 + 4 * errors.max()
+    assert errors.max() < 1e-3
