@@ -33,8 +33,8 @@ module characteristic_function
 
 contains
 
-   !> The characteristic function of a model. Terms of one delay in the definition are one part, also
-   !> where that delay is 0.
+   !> The characteristic function of a model. Terms of one delay in the definition are one part,
+   !> also where that delay is 0.
    pure function characteristic_of(model) result(function_of_model)
       !> The model
       class(model_type), intent(in) :: model

@@ -255,8 +255,8 @@ contains
    end function circle
 
    !> A function of a number, from its derivatives at a_0. Let F_m be derivative m of it, as a
-   !> number. With the lowest unit i of S, F_m has the coefficient S that is the sum over all parts T
-   !> of S that have i of a_T (F_(m + 1))_(S without T).
+   !> number. With the lowest unit i of S, F_m has the coefficient S that is the sum over all parts
+   !> T of S that have i of a_T (F_(m + 1))_(S without T).
    pure type(nilpotent_type) function composed(a, slopes) result(c)
       type(nilpotent_type), intent(in) :: a
       !> Derivatives of orders 0 to `most_units` at a_0

@@ -184,7 +184,8 @@ contains
       expected = slope_at(0.0_wp*x(:, :, 1), x(:, :, 1))
       call compare(error, real(model%derivative(cmplx(x(:, :, :1), kind=wp))), expected, good, &
                    name//", first form")
-      expected = (slope_at(h*x(:, :, 2), x(:, :, 1)) - slope_at(-h*x(:, :, 2), x(:, :, 1)))/(2.0_wp*h)
+      expected = (slope_at(h*x(:, :, 2), x(:, :, 1)) &
+                  - slope_at(-h*x(:, :, 2), x(:, :, 1)))/(2.0_wp*h)
       call compare(error, real(model%derivative(cmplx(x(:, :, :2), kind=wp))), expected, good, &
                    name//", second form")
       do i = 1, 2
