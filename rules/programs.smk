@@ -34,15 +34,15 @@ rule build:
     threads: 2
     params:
         digest=lambda wildcards: digest_of(wildcards.program),
-        folder=BUILT,
         laws=";".join(
             str(Path.cwd() / BUILT / f"laws/{law}.yaml") for law in config["laws"]
         ),
     # two builds must not write one build folder at the same time
     shell:
         "(flock 9"
-        " && cmake --preset release -S fortran -B {params.folder:q} -DUSERS_LAWS={params.laws:q}"
-        " && cmake --build {params.folder:q} --parallel {threads} --target {wildcards.program:q}_program)"
+        " && folder=$(dirname {output:q})/.."
+        " && cmake --preset release -S fortran -B $folder -DUSERS_LAWS={params.laws:q}"
+        " && cmake --build $folder --parallel {threads} --target {wildcards.program:q}_program)"
         " > {log:q} 2>&1 9> build/lock || {{ cat {log:q} >&2; exit 1; }}"
 
 
