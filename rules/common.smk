@@ -18,7 +18,7 @@ wildcard_constraints:
     cycle_line="|".join(config["cycles"]["lines"]),
     line="|".join(config["routes"]["lines"]),
     atlas_plane="|".join(config["atlas"]["planes"]),
-    survey=r"basins|routes/\w+|atlas/\w+",
+    survey=r"basins|routes/\w+|atlas/\w+|laws/\w+",
     part=r"\w+",
     study="stability|trust",
     case=r"\w+",

@@ -34,6 +34,7 @@ rule page:
         claims="<results>/tables/claims.json" if plan.claims else [],
         attractors="<results>/tables/attractors.tsv" if config["scenes"] else [],
         fault_limit=[] if plan.is_users else "<results>/tables/fault-limit.tsv",
+        friction_laws=[] if plan.is_users else "<results>/tables/friction-laws.tsv",
         hopf_points=[] if plan.is_users else "<results>/tables/hopf-points.tsv",
         stability=[] if plan.is_users else "<results>/tables/stability.tsv",
         tables=plan.tables() if plan.is_users else [],

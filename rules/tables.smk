@@ -36,6 +36,12 @@ TABLES = {
         {"of": "atlas"},
         runs=lambda wildcards: paths.parts_of_plane(config, wildcards.atlas_plane),
     ),
+    "friction_laws_table": table(
+        "friction-laws.tsv",
+        "friction_laws_table",
+        {"scenes": config["friction_laws"]["scenes"]},
+        runs=paths.runs_of_laws(config),
+    ),
     "basins_table": table(
         "basins.tsv",
         "basins_table",

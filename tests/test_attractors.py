@@ -136,7 +136,8 @@ def test_points_that_were_not_computed_have_class_and_period_only():
     assert (first["computed"], second["computed"]) == ("yes", "no")
     assert first["by_section"] == "cycle"
     empty = {key for key, value in second.items() if isinstance(value, float) and math.isnan(value)}
-    assert set(columns) - empty == {*PARAMETERS, *HISTORY, "computed", "class", "period"}
+    there = {*PARAMETERS, "law", *HISTORY, "computed", "class", "period"}
+    assert set(columns) - empty == there
     assert (second["class"], second["period"]) == ("cycle", 3.0)
 
 

@@ -5,6 +5,7 @@ import pytest
 import xarray as xr
 from made_up_results import PLACE, cycles_to_a_torus, followed_cycles
 
+from scripts.namelists.laws import PAPER
 from scripts.tables.cycle_branches import cycles_there
 from scripts.tables.cycle_points_table import COLUMNS, rows_of, sweeps_over
 
@@ -106,7 +107,7 @@ def test_a_cusp_lies_beside_the_line():
     row = rows_of("mine", cycles_to_a_torus(cusps=1), [])[1]
     place = {"tau": "3.5", "epsilon": "0.5", "xi": "0.8", "gamma": "0.8"}
     assert row == {
-        **{"of": "mine", "kind": "cusp", "period": "9", "v_most": "2.5", **place},
+        **{"of": "mine", "kind": "cusp", "period": "9", "v_most": "2.5", **place, "law": PAPER},
         **{"confirmed": "not simulated", "multiplier_error": "0.0001", "mesh_error": "1e-10"},
     }
 

@@ -83,9 +83,9 @@ def test_printed_formula_is_kept_with_its_residual(curves):
     assert np.median(recomputed) > 1e-3
 
 
-def test_window_without_a_curve_makes_an_empty_file(programs, config):
+def test_window_without_a_curve_makes_an_empty_file(programs, filled_config):
     """Below epsilon = 0.1 nothing oscillates by itself at small delays."""
-    plane = config["hopf_curves"]["tau_of_epsilon"] | {"cells": 20}
+    plane = filled_config["hopf_curves"]["tau_of_epsilon"] | {"cells": 20}
     plane |= {"epsilon_window": [0.0, 0.05], "ordinate_window": [0.0, 1.0]}
     curves = programs.made_by("hopf", plane)
     assert curves.sizes["point"] == curves.sizes["special"] == 0

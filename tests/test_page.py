@@ -132,6 +132,10 @@ def tables_of_findings() -> dict[str, list[dict]]:
             limit | {"gamma": gamma, "depth": depth}
             for gamma, depth in ((0.8, 0.0481), (1e4, 9.3e-18))
         ],
+        "friction_laws": [
+            {"gamma": 0.8, "xi": 0.5, "law": law, "of": "plane", "place": "a", "class": kind, "period": 1.0}
+            for law, kind in (("slip", "chaos"), ("slip", "torus"), ("ageing", "cycle"))
+        ],
     }  # fmt: skip
 
 
@@ -143,7 +147,10 @@ def test_findings_follow_the_tables(holds):
         _, true_torus = tables["attractors"]
         tables["attractors"] = [true_torus | {"scene": "torus"}, true_torus]
         tables["stability"] = tables["stability"][1:]
-    limit, torus, faults = findings.list_findings([claim("figure_5a")], tables)
+        tables["friction_laws"] = tables["friction_laws"][:2]
+    limit, torus, faults, laws = findings.list_findings([claim("figure_5a")], tables)
+    assert laws["title"].startswith("Whether" if holds else "A delay makes chaos under every law")
+    assert "1 (slip)" in laws["words"]
     assert torus["title"] == f"The paper's torus is a {'limit cycle' if holds else 'torus'}."
     assert ("not" in faults["title"]) is not holds
     assert [given["id"] for given in torus["claims"]] == ["figure_5a"]

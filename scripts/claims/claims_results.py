@@ -28,11 +28,13 @@ FILES = {
         name.replace("-", "_"): f"<results>/tables/{name}.tsv"
         for name in (
             *("hopf-points", "fault-limit", "linear-stability", "stability", "attractors"),
-            *("exponents", "atlas", "basins", "cycle-points"),
+            *("exponents", "atlas", "basins", "cycle-points", "friction-laws"),
         )
     },
 }
 """Files of the data that tests read, one or one for each entry of a kind."""
+OF_ALL_LAWS = ("friction_laws",)
+"""Data that compare laws."""
 
 
 @dataclass
@@ -116,7 +118,8 @@ def read_results(files: Mapping[str, str | list[str]], law: str | None = None) -
         paths = [listed] if isinstance(listed, str) else listed
         if FILES[name].endswith(".tsv"):
             rows = [row for path in paths for row in read_table(path)]
-            given[name] = [row for row in rows if law in (None, law_of(row))]
+            one_law = law if name not in OF_ALL_LAWS else None
+            given[name] = [row for row in rows if one_law in (None, law_of(row))]
         else:
             data = {Path(path).stem: read(path) for path in paths}
             given[name] = {

@@ -10,6 +10,7 @@ from scripts.claims import (  # noqa: F401  (they declare the claims)
     claims_of_events,
     claims_of_formulas,
     claims_of_friction,
+    claims_of_laws,
     claims_of_routes,
     claims_of_runs,
     claims_of_spectra,

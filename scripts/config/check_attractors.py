@@ -5,6 +5,7 @@ from collections.abc import Iterator
 
 from scripts.config.ranges import range_of
 from scripts.namelists.attractor_surveys import part_of
+from scripts.namelists.laws import definitions, own_parameters
 from scripts.namelists.study_cases import PARAMETERS
 
 LEAST_LN_V, LARGEST_LN_V = -700.0, 700.0
@@ -29,10 +30,11 @@ def contradictions(config: dict) -> Iterator[str]:
         for key in ("theta", "u"):
             yield from window(place, key, ranges[key])
         yield from window(place, "ln_v", ranges["ln_v"], least=LEAST_LN_V, most=LARGEST_LN_V)
-    for section in ("attractors", "atlas", "routes", "basins"):
+    for section in ("attractors", "atlas", "friction_laws", "routes", "basins"):
         observation = config[section]["observation"]
         yield from _check_samples(f"config {section} observation", observation, config["spectra"])
     yield from _check_atlas("config atlas", config["atlas"])
+    yield from _check_laws("config friction_laws", config["friction_laws"], config)
     for name in set(config["routes"]["histories"]) & {"up", "down"}:
         yield (
             f"config routes histories: name {name!r}; expected another, this is the name of a sweep"
@@ -63,6 +65,24 @@ def _check_atlas(place: str, atlas: dict) -> Iterator[str]:
     points = columns * max(last - first + 1 for first, last in ends)
     if points > MOST_POINTS:
         yield f"{place}: parts = {parts} of {points} points; expected at most {MOST_POINTS} in each"
+
+
+def _check_laws(place: str, study: dict, config: dict) -> Iterator[str]:
+    """Laws without parameters of their own; planes and scenes by different names."""
+    yield from window(place, "epsilon_window", study["epsilon_window"], **range_of("epsilon"))
+    for name, plane in study["planes"].items():
+        yield from window(
+            f"{place} planes {name}", "tau_window", plane["tau_window"], **range_of("tau")
+        )
+    bare = [law for law in definitions(config) if not own_parameters(config, law)]
+    for law in study["laws"]:
+        if law not in bare:
+            yield f"{place} laws: {law!r}; expected some of: {', '.join(bare)}"
+    for scene in study["scenes"]:
+        if scene not in config["scenes"]:
+            yield f"{place} scenes: {scene!r}; expected some of: {', '.join(config['scenes'])}"
+    for name in set(study["planes"]) & set(config["scenes"]):
+        yield f"{place} planes: {name!r}; expected a name that no scene has"
 
 
 def _check_line(inside: str, line: dict) -> Iterator[str]:

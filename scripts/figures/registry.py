@@ -34,6 +34,7 @@ from scripts.figures import (
     figure_4,
     figure_6,
     figure_8,
+    friction_laws,
     plane,
     routes,
     scene,
@@ -75,6 +76,7 @@ OF_THE_PAPER = {
     "true_torus": Figure("Atlas", true_torus),
     "routes": Figure("Atlas", routes),
     "cycles": Figure("Atlas", cycles),
+    "friction_laws": Figure("Atlas", friction_laws),
 }
 """By name, in the order of the page."""
 FIGURES = list(OF_THE_PAPER)

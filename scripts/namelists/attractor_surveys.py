@@ -90,6 +90,26 @@ def atlas_groups(config: dict, plane: str, part: int) -> dict:
     )
 
 
+def law_groups(config: dict, law: str, part: str) -> dict:
+    """Namelist of a plane, or of a scene, under a law of friction."""
+    study = config["friction_laws"]
+    if part in study["planes"]:
+        plane = study["planes"][part]
+        columns = {"window": study["epsilon_window"], "count": study["epsilon_count"]}
+        lines = {"window": plane["tau_window"], "count": study["tau_count"]}
+        place, histories = {**plane, "epsilon": columns, "tau": lines}, [study["history"]]
+    else:
+        place = config["scenes"][part]
+        histories = [place["history"]]
+    return survey_groups(
+        config,
+        "friction_laws",
+        f"{part} with {law}",
+        place={**place, "law": law},
+        histories=histories,
+    )
+
+
 def route_groups(config: dict, line: str, run: str) -> dict:
     """Namelist of a run of a route: from one history, or a sweep.
 

@@ -84,6 +84,8 @@ def attractors_groups(config: dict, survey: str, part: str) -> dict[str, dict]:
     kind, _, name = survey.partition("/")
     if kind == "basins":
         return attractor_surveys.basin_groups(config, part)
+    if kind == "laws":
+        return attractor_surveys.law_groups(config, name, part)
     if kind == "routes":
         return attractor_surveys.route_groups(config, name, part)
     return attractor_surveys.atlas_groups(config, name, int(part))

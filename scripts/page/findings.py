@@ -1,10 +1,12 @@
-"""The three findings at the top of the page, with numbers from the tables."""
+"""The findings at the top of the page, with numbers from the tables."""
 
 from collections.abc import Callable
 
+from scripts.claims.claims_of_laws import LAWS
 from scripts.claims.claims_results import short
 from scripts.figures.wording import count
 from scripts.tables.fault_limit_table import FAULTS, PAPER
+from scripts.tables.friction_laws_table import shares_of
 from scripts.tables.motion_rows import class_in_words, own_rows
 
 TORUS, TRUE_TORUS = "torus", "true_torus"
@@ -76,6 +78,28 @@ def describe_real_faults(tables: dict[str, list[dict]]) -> dict:
     }
 
 
+def describe_laws(tables: dict[str, list[dict]]) -> dict:
+    """How many points are chaotic under each law, in each plane."""
+    shares = shares_of(tables["friction_laws"])
+    parts = []
+    for place in dict.fromkeys((share["gamma"], share["xi"]) for share in shares):
+        here = [share for share in shares if (share["gamma"], share["xi"]) == place]
+        numbers = [
+            f"{share['kinds']['chaos']} ({share['law'].replace('_', ' ')})" for share in here
+        ]
+        parts.append(
+            f"At $gamma = {short(place[0])}$ and $xi = {short(place[1])}$, of {here[0]['points']}"
+            f" points are chaotic: {', '.join(numbers)}."
+        )
+    without = any(share["kinds"]["chaos"] == 0 for share in shares)
+    return {
+        "title": "Whether a delay makes chaos depends on the law of friction."
+        if without
+        else "A delay makes chaos under every law of friction tried.",
+        "words": f"All these laws have the linear stability of the paper's. {' '.join(parts)}",
+    }
+
+
 def describe_motion(row: dict) -> str:
     """How many exponents are zero, and the fundamental frequencies."""
     pairs = [(row[f"exponent_{i}"], row[f"error_{i}"]) for i in (1, 2, 3)]
@@ -93,5 +117,6 @@ FINDINGS: dict[Callable, list[str]] = {
     ],
     describe_torus: ["figure_5a", "figure_6b", "second_hopf"],
     describe_real_faults: ["real_gamma_left_out", "very_stiff_at_real_gamma"],
+    describe_laws: [f"delay_alone_makes_chaos_{law}" for law in LAWS],
 }
 """Functions that describe the findings, each with its claims."""

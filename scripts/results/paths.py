@@ -84,6 +84,16 @@ def parts_of_atlas(config: dict) -> list[str]:
     return [path for plane in config["atlas"]["planes"] for path in parts_of_plane(config, plane)]
 
 
+def runs_of_laws(config: dict) -> list[str]:
+    """Runs of all laws of friction that are compared: a plane or a scene each."""
+    study = config["friction_laws"]
+    return [
+        f"<results>/attractors/laws/{law}/{part}.nc"
+        for law in study["laws"]
+        for part in [*study["planes"], *study["scenes"]]
+    ]
+
+
 def table_of_atlas(config: dict) -> str:
     """The table of all planes of the atlas; that of a plane if it is the only one."""
     planes = list(config["atlas"]["planes"])

@@ -16,7 +16,7 @@ module hopf_condition
    use spring_block, only: block_characteristic
    implicit none (type, external)
    private
-   public :: find_hopf_condition, hopf_condition_type, printed_tau, two_pi
+   public :: find_hopf_condition, hopf_condition_type, two_pi
 
    real(wp), parameter :: two_pi = 2.0_wp*acos(-1.0_wp)
    !> xi and gamma that stand for 1/xi = 0 and gamma = 0; xi of a spring that does not matter.
@@ -326,10 +326,19 @@ contains
       real(wp), intent(in) :: omega, epsilon, tau, xi
       complex(wp) :: a, b
 
-      a = delta_at(self, omega, 1.0_wp + epsilon, x_of(self, xi), 0.0_wp, tau)
-      b = delta_at(self, omega, 1.0_wp + epsilon, x_of(self, xi), 1.0_wp, tau) - a
+      call split_by_g(self, omega, epsilon, tau, xi, a, b)
       miss = aimag(a*conjg(b))/(abs(a)*abs(b) + tiny(1.0_wp))
    end function miss_along_gamma
+
+   !> Delta = a + g b.
+   pure subroutine split_by_g(self, omega, epsilon, tau, xi, a, b)
+      class(hopf_condition_type), intent(in) :: self
+      real(wp), intent(in) :: omega, epsilon, tau, xi
+      complex(wp), intent(out) :: a, b
+
+      a = delta_at(self, omega, 1.0_wp + epsilon, x_of(self, xi), 0.0_wp, tau)
+      b = delta_at(self, omega, 1.0_wp + epsilon, x_of(self, xi), 1.0_wp, tau) - a
+   end subroutine split_by_g
 
    !> The gamma of a pair i omega where `miss_along_gamma` is 0; -1 where there is none.
    pure real(wp) function gamma_at(self, omega, epsilon, tau, xi) result(gamma)
@@ -339,8 +348,7 @@ contains
       complex(wp) :: a, b
       real(wp) :: g
 
-      a = delta_at(self, omega, 1.0_wp + epsilon, x_of(self, xi), 0.0_wp, tau)
-      b = delta_at(self, omega, 1.0_wp + epsilon, x_of(self, xi), 1.0_wp, tau) - a
+      call split_by_g(self, omega, epsilon, tau, xi, a, b)
       g = -real(a*conjg(b))
       gamma = -1.0_wp
       if (.not. (g > 0.0_wp .and. size_of(b) > 0.0_wp)) return
@@ -390,15 +398,4 @@ contains
          partner = sqrt(product/(root - half_sum))
       end if
    end function partner_omega
-
-   !> Equation (10) as printed: numerator without + gamma^2, plain arctangent.
-   elemental real(wp) function printed_tau(omega, xi, gamma, k) result(tau)
-      !> Frequency of the pair, > 0; spring constant; frequency of the block
-      real(wp), intent(in) :: omega, xi, gamma
-      !> Branch
-      integer, intent(in) :: k
-
-      tau = (atan(-omega**2*(gamma**2/xi + 1.0_wp) &
-                          /(-omega**3 + omega*gamma**2*(1.0_wp + xi)/xi)) + two_pi*k)/omega
-   end function printed_tau
 end module hopf_condition

@@ -6,9 +6,9 @@ module hopf_curves
    use characteristic_function, only: characteristic_type
    use dde_errors, only: error_type
    use gsl_roots, only: find_root, scalar_function_type
-   use hopf_condition, only: printed_tau
    use hopf_planes, only: curve_plane_type
    use dde_kinds, only: wp
+   use printed_delay, only: printed_tau
    use spring_block, only: block_characteristic
    implicit none (type, external)
    private

@@ -7,11 +7,12 @@ module test_hopf_condition
    use closed_form, only: closed_epsilon, closed_tau
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect_between, expect_close, expect_success
-   use hopf_condition, only: find_hopf_condition, hopf_condition_type, printed_tau
+   use hopf_condition, only: find_hopf_condition, hopf_condition_type
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use model_registry, only: model_names
    use paper_equations, only: delta, hopf_epsilon, hopf_tau, hopf_xi, relative_residual
+   use printed_delay, only: printed_tau
    use pseudo_random, only: uniform
    use spring_block, only: block_characteristic, spring_block_type
    implicit none (type, external)
