@@ -121,6 +121,7 @@ def tables_of_findings() -> dict[str, list[dict]]:
     kinds = ("a", "hopf_without_delay"), ("b", "generalised_hopf"), ("c", "amplitude_death_begin")
     runs = ((1e4, "auto", "ok"), (1e12, "explicit", "stopped"), (0.8, "auto", "stopped"))
     limit = {"xi": 0.5, "without_delay": 0.25}
+    plane = {"gamma": 0.8, "xi": 0.5, "of": "plane", "place": "a"}
     return {
         "attractors": [torus, true_torus],
         "hopf_points": [{"of": of, "kind": kind} for of, kind in kinds],
@@ -133,7 +134,7 @@ def tables_of_findings() -> dict[str, list[dict]]:
             for gamma, depth in ((0.8, 0.0481), (1e4, 9.3e-18))
         ],
         "friction_laws": [
-            {"gamma": 0.8, "xi": 0.5, "law": law, "of": "plane", "place": "a", "class": kind, "period": 1.0}
+            {**plane, "law": law, "class": kind, "period": 1.0}
             for law, kind in (("slip", "chaos"), ("slip", "torus"), ("ageing", "cycle"))
         ],
     }  # fmt: skip

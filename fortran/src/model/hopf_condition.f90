@@ -184,18 +184,11 @@ contains
       p_by_d = on_axis(by_d(:, 1), omega)
       q_by_d = on_axis(by_d(:, 2), omega)
       ! square d^2 - 2 middle d - rest = 0
-      square = size_of(q_by_d) - size_of(p_by_d)
+      square = abs(q_by_d)**2 - abs(p_by_d)**2
       middle = real(p*conjg(p_by_d)) - real(q*conjg(q_by_d))
-      rest = size_of(p) - size_of(q)
+      rest = abs(p)**2 - abs(q)**2
       epsilon = -1.0_wp + larger_root(square, middle, rest)
    end function epsilon_at
-
-   !> |z|^2.
-   pure real(wp) function size_of(z) result(value)
-      complex(wp), intent(in) :: z
-
-      value = real(z)**2 + aimag(z)**2
-   end function size_of
 
    !> The larger root of square d^2 - 2 middle d - rest = 0; 0 where there is none.
    pure real(wp) function larger_root(square, middle, rest) result(d)
@@ -351,8 +344,8 @@ contains
       call split_by_g(self, omega, epsilon, tau, xi, a, b)
       g = -real(a*conjg(b))
       gamma = -1.0_wp
-      if (.not. (g > 0.0_wp .and. size_of(b) > 0.0_wp)) return
-      gamma = g/size_of(b)
+      if (.not. (g > 0.0_wp .and. abs(b) > 0.0_wp)) return
+      gamma = g/abs(b)**2
       if (self%has_inertia) gamma = sqrt(gamma)
    end function gamma_at
 
