@@ -91,19 +91,22 @@ def atlas_groups(config: dict, plane: str, part: int) -> dict:
 
 
 def law_groups(config: dict, law: str, part: str) -> dict:
-    """Namelist of a plane, or of a scene, under a law of friction."""
-    study = config["friction_laws"]
+    """Namelist of a plane, or of a scene, under a law of friction.
+
+    Scenes are judged as their attractors are.
+    """
+    study, section = config["friction_laws"], "friction_laws"
     if part in study["planes"]:
         plane = study["planes"][part]
         columns = {"window": study["epsilon_window"], "count": study["epsilon_count"]}
         lines = {"window": plane["tau_window"], "count": study["tau_count"]}
         place, histories = {**plane, "epsilon": columns, "tau": lines}, [study["history"]]
     else:
-        place = config["scenes"][part]
+        place, section = config["scenes"][part], "attractors"
         histories = [place["history"]]
     return survey_groups(
         config,
-        "friction_laws",
+        section,
         f"{part} with {law}",
         place={**place, "law": law},
         histories=histories,

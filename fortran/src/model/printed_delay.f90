@@ -5,6 +5,8 @@ module printed_delay
    private
    public :: printed_tau
 
+   real(wp), parameter :: two_pi = 2.0_wp*acos(-1.0_wp)
+
 contains
 
    !> Equation (10) as printed: numerator without + gamma^2, plain arctangent.
@@ -15,6 +17,6 @@ contains
       integer, intent(in) :: k
 
       tau = (atan(-omega**2*(gamma**2/xi + 1.0_wp) &
-                          /(-omega**3 + omega*gamma**2*(1.0_wp + xi)/xi)) + 2.0_wp*acos(-1.0_wp)*k)/omega
+                          /(-omega**3 + omega*gamma**2*(1.0_wp + xi)/xi)) + two_pi*k)/omega
    end function printed_tau
 end module printed_delay
