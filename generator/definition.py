@@ -236,29 +236,17 @@ class _Reader:
     def read_rest(self, values: dict) -> None:
         """What a definition may leave out."""
         model = self.model
-        if values.get("steady_state") is not None:
-            steady = values["steady_state"]
-            if set(steady) != set(model.states):
-                self.refuse("steady_state", ", ".join(steady), "a value for each state")
-            model.steady_state = {
-                state: self.expression(f"steady state of {state}", steady[state])
-                for state in model.states
-            }
-            for state, equation in model.equations.items():
-                if (left := sympy.simplify(model.at_steady_state(equation))) != 0:
-                    text = f"{model.texts[state]} = {left}"
-                    self.refuse(f"equation of {state} at the steady state", text, "0")
-        if values.get("history") is not None:
-            history = values["history"]
-            if set(history) != set(model.states):
-                self.refuse("history", ", ".join(history), "an expression of t for each state")
-            model.history = {
-                state: self.expression(f"history of {state}", history[state])
-                for state in model.states
-            }
-            for state, value in model.history.items():
-                if value.free_symbols & (model.variables - {TIME}):
-                    self.refuse(f"history of {state}", history[state], "an expression of t alone")
+        model.steady_state = self.of_each_state(values, "steady_state", "a value for each state")
+        for state, equation in model.equations.items() if model.steady_state else ():
+            if (left := sympy.simplify(model.at_steady_state(equation))) != 0:
+                text = f"{model.texts[state]} = {left}"
+                self.refuse(f"equation of {state} at the steady state", text, "0")
+        expected = "an expression of t for each state"
+        model.history = self.of_each_state(values, "history", expected)
+        for state, value in model.history.items() if model.history else ():
+            if value.free_symbols & (model.variables - {TIME}):
+                text = values["history"][state]
+                self.refuse(f"history of {state}", text, "an expression of t alone")
         fast = values.get("fast")
         if fast is not None and fast not in model.states:
             self.refuse("fast", fast, f"one of the states {', '.join(model.states)}")
@@ -269,6 +257,19 @@ class _Reader:
                     f"domain of {state}", window, "a state with its least and largest value"
                 )
             model.domain[state] = (float(window[0]), float(window[1]))
+
+    def of_each_state(self, values: dict, key: str, expected: str) -> dict[str, sympy.Expr] | None:
+        """An expression for each state, in their order; None where there are none."""
+        texts = values.get(key)
+        if texts is None:
+            return None
+        if set(texts) != set(self.model.states):
+            self.refuse(key, ", ".join(texts), expected)
+        place = key.replace("_", " ")
+        return {
+            state: self.expression(f"{place} of {state}", texts[state])
+            for state in self.model.states
+        }
 
     def expression(self, place: str, text) -> sympy.Expr:
         """An expression from its text."""

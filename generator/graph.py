@@ -132,8 +132,8 @@ class Graph:
         return weight, self.known[key]
 
 
-def in_order(roots: list[Node]) -> list[Node]:
-    """All nodes that some nodes take, each after its arguments."""
+def in_order(roots: list[Node], given: frozenset[Node] = frozenset()) -> list[Node]:
+    """All nodes that some nodes take, each after its arguments; not what given ones take."""
     found: dict[Node, None] = {}
     started: set[Node] = set()
 
@@ -141,7 +141,7 @@ def in_order(roots: list[Node]) -> list[Node]:
         if node in started:
             return
         started.add(node)
-        for one in node.args:
+        for one in () if node in given else node.args:
             visit(one)
         found[node] = None
 

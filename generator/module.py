@@ -5,7 +5,7 @@ from pathlib import Path
 import jinja2
 import sympy
 
-from generator import pointwise, series, tangents
+from generator import pointwise, series, slow, tangents
 from generator.definition import TIME, Model
 from generator.fortran import text_of, wrapped
 from generator.graph import Graph, in_order
@@ -26,7 +26,7 @@ TEMPLATES = jinja2.Environment(
 
 def write_module(model: Model) -> str:
     """The text of the module."""
-    balance = series.balance_of(model)
+    balance = slow.balance_of(model)
     flow = series.flow_of(model)
     parts = {
         "rhs": pointwise.rhs_procedure(model),
@@ -44,8 +44,8 @@ def write_module(model: Model) -> str:
     }
     if balance:
         parts["relaxation_rate"] = pointwise.relaxation_procedure(model, balance)
-        parts["slow_series"] = series.slow_series_procedure(model, balance)
-        parts["slow_tangent_series"] = tangents.slow_tangent_series_procedure(model, balance)
+        parts["slow_series"] = slow.slow_series_procedure(model, balance)
+        parts["slow_tangent_series"] = slow.slow_tangent_series_procedure(model, balance)
     if model.steady_state:
         parts["derivative"] = pointwise.derivative_procedure(model)
         parts["characteristic"] = pointwise.characteristic_procedure(model)

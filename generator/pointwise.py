@@ -5,7 +5,8 @@ import sympy
 from generator.definition import Model
 from generator.fortran import text_of
 from generator.recurrences import fetch_parameters
-from generator.series import Balance, Procedure, guarded, refusals, uses_parameters
+from generator.series import Procedure, guarded, refusals, uses_parameters
+from generator.slow import Balance
 
 
 def fetch_states(

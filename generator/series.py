@@ -1,4 +1,4 @@
-"""Procedures that compute Taylor series of solutions: the usual ones, and those of slow solutions.
+"""Procedures that compute Taylor series of solutions, and what all procedures share.
 
 For each state w of which exp(w) is taken, v = exp(w) may be integrated beside w, by v' = v w'.
 This pays where v' needs fewer convolutions than the recurrence of the exponential: in the block
@@ -51,11 +51,11 @@ class Flow:
     """Integrated auxiliaries and their states."""
 
 
-def flow_of(model: Model, *, may_integrate: bool = True) -> Flow:
+def flow_of(model: Model) -> Flow:
     """The cheapest way to the rates."""
     integrated: dict[str, str] = {}
     best = flow_with(model, integrated)
-    for auxiliary, state in model.auxiliary.items() if may_integrate else ():
+    for auxiliary, state in model.auxiliary.items():
         other = flow_with(model, {**integrated, auxiliary: state})
         if convolutions(list(other.rates.values())) < convolutions(list(best.rates.values())):
             integrated, best = {**integrated, auxiliary: state}, other
@@ -244,33 +244,6 @@ def guarded(model: Model) -> list[sympy.Expr]:
     ]
 
 
-@dataclass
-class Balance:
-    """A fast state w near its balance: w' = (rate/v) (balance - w), with v = exp(w)."""
-
-    state: str
-    auxiliary: str
-    rate: sympy.Expr
-    value: sympy.Expr
-
-
-def balance_of(model: Model) -> Balance | None:
-    """The balance of the fast state; None where it would hold the state itself."""
-    if model.fast is None:
-        return None
-    for auxiliary, state in model.auxiliary.items():
-        if state != model.fast:
-            continue
-        w, v = model.symbol(state), model.symbol(auxiliary)
-        rate = sympy.simplify(-model.equations[state].diff(w) * v)
-        if rate == 0 or rate.free_symbols & model.variables:
-            return None
-        value = sympy.expand(w + model.equations[state] * v / rate)
-        of_fast = {w, v, *(one.symbol for one in model.delayed if one.state == state)}
-        return None if value.free_symbols & of_fast else Balance(state, auxiliary, rate, value)
-    return None
-
-
 def integral_of(model: Model, auxiliary: str) -> tuple[int, sympy.Expr] | None:
     """The place of a state x with x' = c v + constant, and c: its series holds that of v."""
     v = model.symbol(auxiliary)
@@ -323,97 +296,3 @@ def weighted_unit(factor: sympy.Expr, constants: Constants) -> str:
     """A unit of time times a factor."""
     sign = "-" if factor.could_extract_minus_sign() else ""
     return f"{sign}{constants.text(-factor if sign else factor)}*unit"
-
-
-def slow_series_procedure(model: Model, balance: Balance) -> Procedure:
-    """Coefficients of the slow solution: w is its balance less v'/rate, with v' as it was."""
-    flow = flow_with(model, {})
-    fast, places = balance.state, {name: i for i, name in enumerate(model.states, 1)}
-    others = [state for state in model.states if state != fast]
-    target = flow.graph.node(balance.value)
-    before_w = in_order([target])
-    roots = [target, *(flow.rates[state] for state in others)]
-    nodes = in_order(roots)
-    after_w = [node for node in nodes if node not in before_w]
-    constants = Constants(model)
-    recurrences = Recurrences(nodes, roots, constants)
-    inertia = constants.text(1 / balance.rate)
-    v = balance.auxiliary
-    exponential = exponential_lines(model, v, "y", f"{v}_series", constants)
-    names = {model.symbol(state): f"{state}_0" for state in model.states}
-    names |= {one.symbol: f"{one.symbol.name}_0" for one in model.delayed}
-    names |= {model.symbol(name): f"exp({state}_0)" for name, state in model.auxiliary.items()}
-    names[TIME] = "time_0"
-
-    def statements(some, which):
-        return [line for node in some for line in which.get(node, [])]
-
-    input_names_set: list[str] = []
-
-    def inputs(some, order):
-        lines, set_names = fetch_inputs(model, some, order)
-        input_names_set.extend(set_names)
-        return lines
-
-    guards = refusals(model, [model.equations[state] for state in others], names, "y")
-    body = [
-        *recurrences.loop(),
-        *inputs(before_w, "k"),
-        *statements(before_w, recurrences.later),
-        f"{fast} = {recurrences.rate_text(target)} - inertia*rate_before(k)",
-        *inputs(after_w, "k"),
-        *statements(after_w, recurrences.later),
-        *recurrences.stores(),
-        *(f"y(k, {places[state]}) = {state}" for state in model.states),
-        *(f"{state}_rate = {recurrences.rate_text(flow.rates[state])}" for state in others),
-        "step = unit*reciprocal(k + 1)",
-        *(f"{state} = step*{state}_rate" for state in others),
-    ]
-    start = [
-        *(f"{state}_0 = y(0, {places[state]})" for state in others),
-        *inputs(before_w, "0"),
-        *statements(before_w, recurrences.first),
-        f"{fast}_0 = {recurrences.rate_text(target, first=True)} - inertia*rate_before(0)",
-        *inputs(after_w, "0"),
-        *guards,
-        *statements(after_w, recurrences.first),
-        *(f"y(0, {places[state]}) = {state}_0" for state in model.states),
-        *(
-            f"{state} = unit*({recurrences.rate_text(flow.rates[state], first=True)})"
-            for state in others
-        ),
-    ]
-    guard_parameters = [
-        name
-        for name in uses_parameters(model, guarded(model))
-        if name not in constants.parameters()
-    ]
-    lines = [
-        *fetch_places(model),
-        *fetch_parameters(model, guard_parameters),
-        *constants.fetched(),
-        f"inertia = {inertia}/unit",
-        *exponential,
-        "do k = 0, degree - 1",
-        f"   rate_before(k) = (k + 1)*{v}_series(k + 1)",
-        "end do",
-        "rate_before(degree) = 0.0_wp",
-        *start,
-        "do k = 1, degree",
-        *indented(body),
-        "end do",
-    ]
-    reals = [
-        *constants.scalars(),
-        *guard_parameters,
-        *["by_unit"] * (integral_of(model, v) is not None),
-        "inertia",
-        *(f"{state}{end}" for state in model.states for end in ("", "_0")),
-        *(f"{state}_rate" for state in others),
-        *input_names_set,
-        *recurrences.scalars,
-        "step",
-    ]
-    arrays = [*recurrences.arrays(), "rate_before", f"{v}_series"]
-    integers = [*place_names(model), "j", "k"]
-    return Procedure(reals, arrays, integers, lines)

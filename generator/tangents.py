@@ -16,14 +16,12 @@ from generator.fortran import indented, text_of
 from generator.graph import Node, in_order
 from generator.recurrences import Constants, Recurrences, weighted_sum
 from generator.series import (
-    Balance,
     Flow,
     Procedure,
     exponential_lines,
     fetch_inputs,
     fetch_places,
     flow_of,
-    flow_with,
     integral_of,
     place_names,
 )
@@ -42,8 +40,6 @@ class Disturbances:
     nodes: list[Node]
     roots: list[Node]
     constants: Constants
-    late: set[Node] = field(default_factory=set)
-    """Inputs that are not early."""
     sums: list[tuple[str, str]] = field(default_factory=list)
     series: dict[Node, None] = field(default_factory=dict)
     """Nodes whose own series are needed."""
@@ -74,9 +70,7 @@ class Disturbances:
 
     def is_early(self, node: Node) -> bool:
         """Whether the disturbance follows without sums over lower orders."""
-        if node.kind == "input":
-            return node not in self.late
-        return node.kind == "sum" and all(map(self.is_early, node.args))
+        return node.kind == "input" or (node.kind == "sum" and all(map(self.is_early, node.args)))
 
     def text(self, node: Node) -> str:
         """The disturbance of a node at order k: its name, or the sum itself."""
@@ -195,7 +189,7 @@ class Disturbances:
 
 def base_series(model: Model, wanted: list[Node], flow: Flow, constants: Constants, y: str):
     """Statements that compute the series of nodes from those of the states, and their names."""
-    given = {flow.graph.known[model.symbol(name)] for name in model.auxiliary}
+    given = frozenset(flow.graph.known[model.symbol(name)] for name in model.auxiliary)
     auxiliaries = [node for node in given if node in in_order(wanted)]
     lines = [
         line
@@ -205,12 +199,12 @@ def base_series(model: Model, wanted: list[Node], flow: Flow, constants: Constan
     own = ["by_unit"] * any(integral_of(model, node.name) for node in auxiliaries)
     rest = [node for node in wanted if node not in given]
     # auxiliaries are inputs here
-    nodes = [node for node in in_order_but(rest, given) if node not in given]
+    nodes = [node for node in in_order(rest, given) if node not in given]
     if not rest:
         return lines, own, [f"{node.name}_series" for node in wanted]
     recurrences = Recurrences(nodes, rest, constants)
     places = {name: place for place, name in enumerate(model.states, 1)}
-    inputs = [node for node in in_order_but(rest, given) if node.kind == "input" or node in given]
+    inputs = [node for node in in_order(rest, given) if node.kind == "input" or node in given]
     reals: list[str] = []
 
     def fetched(order: str) -> list[str]:
@@ -248,24 +242,6 @@ def base_series(model: Model, wanted: list[Node], flow: Flow, constants: Constan
     arrays = [*recurrences.arrays(), *(f"{node.name}_series" for node in wanted)]
     arrays += [f"{node.name}_series" for node in auxiliaries]
     return lines, [*own, *reals, *recurrences.scalars], arrays
-
-
-def in_order_but(roots: list[Node], given: set[Node]) -> list[Node]:
-    """All nodes that some nodes take, without those that given ones take alone."""
-    found: dict[Node, None] = {}
-    started: set[Node] = set()
-
-    def visit(node: Node) -> None:
-        if node in started:
-            return
-        started.add(node)
-        for one in () if node in given else node.args:
-            visit(one)
-        found[node] = None
-
-    for root in roots:
-        visit(root)
-    return list(found)
 
 
 def lane_inputs(model: Model, steps: Disturbances) -> tuple[list[str], list[str], list[str]]:
@@ -383,97 +359,4 @@ def tangent_series_procedure(model: Model) -> Procedure:
             *steps.lane_names(),
         ],
         lane_arrays=[*steps.arrays(), *delayed],
-    )
-
-
-def slow_tangent_series_procedure(model: Model, balance: Balance) -> Procedure:
-    """Coefficients of disturbances of the slow solution: the derivative of its series."""
-    flow = flow_with(model, {})
-    fast, auxiliary = balance.state, balance.auxiliary
-    known = {name: flow.graph.known[model.symbol(name)] for name in model.states}
-    places = {name: place for place, name in enumerate(model.states, 1)}
-    others = [state for state in model.states if state != fast]
-    target = flow.graph.node(balance.value)
-    roots = [target, *(flow.rates[state] for state in others)]
-    nodes = in_order(roots)
-    constants = Constants(model)
-    steps = Disturbances(flow, nodes, roots, constants)
-    before, at_order, delayed = lane_inputs(model, steps)
-    rate_lines = [f"d_{state}_rate = {steps.rate_text(flow.rates[state])}" for state in others]
-    now = {name: steps.text(node) for name, node in known.items()}
-    fast_line = f"{now[fast]} = {steps.rate_text(target)} - inertia*d_rate_before(:, k)"
-    statements = [*steps.before_loop()], [*steps.after_loop()]
-    inertia = constants.text(1 / balance.rate)
-    exponential = exponential_lines(model, auxiliary, "before", f"{auxiliary}_before", constants)
-    base, reals, arrays = base_series(model, list(steps.series), flow, constants, "y")
-    integral = integral_of(model, auxiliary)
-    if integral is None:
-        growth = [
-            "do k = 0, degree - 1",
-            "   do j = 0, k + 1",
-            "      d_rate_before(:used, k) = d_rate_before(:used, k) &",
-            f"         + {auxiliary}_before(k + 1 - j)*dy(j, {places[fast]}, first:last)",
-            "   end do",
-            "   d_rate_before(:, k) = (k + 1)*d_rate_before(:, k)",
-            "end do",
-        ]
-    else:
-        growth = [
-            "do k = 0, degree - 2",
-            "   d_rate_before(:used, k) = (by_unit*((k + 1)*(k + 2)))"
-            f"*dy(k + 2, {integral[0]}, first:last)",
-            "end do",
-            "do j = 0, degree",
-            "   d_rate_before(:used, degree - 1) = d_rate_before(:used, degree - 1) &",
-            f"      + degree*{auxiliary}_before(degree - j)*dy(j, {places[fast]}, first:last)",
-            "end do",
-        ]
-    start, later = of_order(now, "0"), of_order(now, "k + 1")
-    start_part, part = of_used(start), of_used(now)
-    body = [
-        fast_line,
-        *at_order,
-        *statements[0],
-        *steps.loop(),
-        *statements[1],
-        *(f"dy(k, {places[state]}, first:last) = {part[state]}" for state in model.states),
-        *rate_lines,
-        "step = unit*reciprocal(k + 1)",
-        *(f"{later[state]} = step*d_{state}_rate" for state in others),
-    ]
-    lines = [
-        *fetch_places(model),
-        *constants.fetched(),
-        f"inertia = {inertia}/unit",
-        *exponential,
-        *base,
-        "do first = 1, vectors, lanes",
-        *indented(
-            [
-                "last = min(vectors, first + lanes - 1)",
-                "used = last - first + 1",
-                *before,
-                "d_rate_before = 0.0_wp",
-                *growth,
-                *(f"{start[state]} = 0.0_wp" for state in others),
-                *(f"{start_part[state]} = dy(0, {places[state]}, first:last)" for state in others),
-                "do k = 0, degree",
-                *indented(body),
-                "end do",
-            ]
-        ),
-        "end do",
-    ]
-    own = ["by_unit"] * (integral is not None)
-    return Procedure(
-        [*constants.scalars(), *reals, *own, "inertia", "step"],
-        [*arrays, f"{auxiliary}_before"],
-        [*place_names(model), "first", "j", "k", "last", "used"],
-        lines,
-        lanes=[
-            *(text for text in now.values() if "(" not in text),
-            *(f"d_{state}_rate" for state in others),
-            *steps.lane_names(),
-        ],
-        lane_arrays=["d_rate_before", *steps.arrays(), *delayed],
     )

@@ -15,7 +15,8 @@ from generator.definition import ModelError, overlaid, read_model
 from generator.fortran import literal, text_of, wrapped
 from generator.module import write_module
 from generator.pointwise import characteristic_terms
-from generator.series import balance_of, flow_of
+from generator.series import flow_of
+from generator.slow import balance_of
 from scripts.files.read_config import read
 from scripts.namelists.laws import BLOCK, PAPER, built_in
 
@@ -125,6 +126,9 @@ def test_velocity_of_the_block_is_integrated():
     balance = balance_of(model)
     assert str(balance.value) == "-theta - u*xi"
     assert str(balance.rate) == "gamma**2/xi"
+    # a balance that is not linear in the other states has no slow series
+    bent = overlaid(block(), {"definitions": {"friction": "theta + theta**2 + log(v)"}})
+    assert balance_of(read_model(bent)) is None
     # its logarithm of v has no part that is linear in w
     assert balance_of(read_model(block("slip_cut_off"))) is None
 

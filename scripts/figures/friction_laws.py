@@ -104,7 +104,7 @@ def draw_fastest(axes: Axes, by_law: dict[str, list[dict]], fault: dict) -> None
     years = fault["length"] / fault["v0"] / SECONDS_OF_YEAR
     above = axes.secondary_xaxis("top", functions=(lambda t: t * years, lambda t: t / years))
     above.set_xlabel("years on a fault", fontsize=7, labelpad=2)
-    above.tick_params(labelsize=6)
+    above.tick_params(labelsize=7)
 
 
 def numbers(table: list[dict], fault: dict) -> dict:

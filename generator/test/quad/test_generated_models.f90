@@ -6,6 +6,7 @@ module test_generated_models
    use expectations, only: expect_close
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use made_enzyme_model, only: made_enzyme_type
+   use made_fast_model, only: made_fast_type
    use made_infection_model, only: made_infection_type
    use made_mackey_glass_model, only: made_mackey_glass_type
    use made_zoo_model, only: made_zoo_type
@@ -25,6 +26,7 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("all functions, two delays, time", test_zoo), &
+                   new_unittest("a fast state", test_fast), &
                    new_unittest("histories", test_histories), &
                    new_unittest("Mackey-Glass", test_mackey_glass), &
                    new_unittest("infection", test_infection), &
@@ -44,6 +46,19 @@ contains
                           uniform(i + 1, size(zoo%lag), 0.1_wp, 0.9_wp), "zoo")
       end do
    end subroutine test_zoo
+
+   !> A balance with a constant part, from soft to stiff.
+   subroutine test_fast(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(made_fast_type) :: model
+      integer :: i
+
+      do i = 0, 3
+         call model%set([10.0_wp**(2*i), 1.5_wp*modulo(i, 2)], [0.0_wp, 0.0_wp])
+         call check_model(error, model, [0.4_wp, -0.7_wp], &
+                          uniform(i + 1, size(model%lag), 0.1_wp, 0.9_wp), "fast state")
+      end do
+   end subroutine test_fast
 
    !> An expression of t, its value and its series.
    subroutine test_histories(error)
