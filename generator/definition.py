@@ -42,6 +42,10 @@ LARGEST_EXPONENT = 300
 overflow."""
 
 
+LONGEST_TEXT, LONGEST_UNIT = 500, 60
+"""Letters of texts that stand in files of results."""
+
+
 class ModelError(ValueError):
     """What is wrong with a definition: what, where, and what is expected."""
 
@@ -164,16 +168,19 @@ class _Reader:
                 self.refuse(key, values.get(key), "at least one entry")
         self.model = Model(
             name=name,
-            about=str(values.get("about", f"The model {name}.")),
-            source=str(values.get("source", "")),
+            about=self.line("about", values.get("about", f"The model {name}.")),
+            source=self.line("source", values.get("source", "")),
             parameters=[
                 self.parameter(key, entry or {})
                 for key, entry in (values.get("parameters") or {}).items()
             ],
-            states={str(key): str(text) for key, text in values["states"].items()},
+            states={str(key): self.line(key, text) for key, text in values["states"].items()},
             auxiliary={},
             texts={},
-            definitions={key: str(text) for key, text in (values.get("definitions") or {}).items()},
+            definitions={
+                str(key): self.line(f"definition of {key}", text)
+                for key, text in (values.get("definitions") or {}).items()
+            },
             equations={},
         )
         model = self.model
@@ -191,12 +198,19 @@ class _Reader:
                 f"one for each of {', '.join(model.states)}",
             )
         for state in model.states:
-            model.texts[state] = str(values["equations"][state])
+            model.texts[state] = self.line(f"equation of {state}", values["equations"][state])
             model.equations[state] = self.expression(f"equation of {state}", model.texts[state])
         self.read_rest(values)
 
     def refuse(self, what: str, value, expected: str):
         raise ModelError(f"{self.place}: {what}: {value!r}; expected {expected}")
+
+    def line(self, what: str, text, longest: int = LONGEST_TEXT) -> str:
+        """A text on one line: as a comment of the generated code it must not begin another one."""
+        line = " ".join(str(text).split())
+        if len(line) > longest:
+            self.refuse(what, f"{line[:30]}...", f"at most {longest} letters")
+        return line
 
     def parameter(self, name: str, entry: dict) -> Parameter:
         allowed = {"meaning", "unit", "above", "at_least", "default"}
@@ -208,8 +222,8 @@ class _Reader:
                 self.refuse(f"{key} of parameter {name}", value, "a number")
         return Parameter(
             str(name),
-            str(entry.get("meaning", name)),
-            str(entry.get("unit", "nondimensional")),
+            self.line(f"meaning of {name}", entry.get("meaning", name)),
+            self.line(f"unit of {name}", entry.get("unit", "nondimensional"), LONGEST_UNIT),
             **{key: float(value) for key, value in numbers.items()},
         )
 

@@ -82,6 +82,30 @@ def test_definition_is_refused_in_words(changes, words):
         read_model(values)
 
 
+@pytest.mark.parametrize("end", ["\n", "\r", "\x0b", "\x0c", "\x1c", "\x85", "\u2028"])
+def test_text_of_a_definition_becomes_no_code(end):
+    """However its lines end: a shared file must not bring statements of its own."""
+    code = f"mine{end}call execute_command_line('true')"
+    # Python reads an expression over several lines of these two kinds alone
+    between = end if end in ("\n", "\r") else " "
+    values = {**DECAY, "about": code, "source": code, "states": {"a": code, "w": code}}
+    values["parameters"] = {"rate_of": {"meaning": code, "unit": code, "above": 0}}
+    values["equations"] = {"a": f"(-rate_of*a(t - 1){between}+ v - 1)", "w": "-a"}
+    for line in write_module(read_model(values)).splitlines():
+        if "execute_command_line" in line:
+            before = line.strip().partition("call")[0]
+            # a comment, or within a character constant
+            assert before.startswith("!>") or before.count('"') % 2 == 1
+
+
+def test_long_texts_are_refused():
+    """They would be cut in files of results."""
+    with pytest.raises(ModelError, match=r"source: 'xxx.*; expected at most 500 letters"):
+        read_model({**DECAY, "source": 501 * "x"})
+    with pytest.raises(ModelError, match=r"unit of p: .*; expected at most 60 letters"):
+        read_model({**DECAY, "parameters": {"p": {"unit": 61 * "x"}}})
+
+
 def test_later_files_add_and_replace():
     """An entry without a value goes, a whole section is joined."""
     whole = overlaid(DECAY, {"parameters": {"q": {}, "rate_of": None}, "fast": None, "name": "b"})
