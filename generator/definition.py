@@ -42,6 +42,8 @@ LARGEST_EXPONENT = 300
 overflow."""
 
 
+LARGEST_POWER = 64
+"""Largest exponent that is a number: 9**9**9 has more digits than there is memory for."""
 LONGEST_TEXT, LONGEST_UNIT = 500, 60
 """Letters of texts that stand in files of results."""
 
@@ -367,6 +369,8 @@ class _Expression:
             case ast.Pow():
                 if right.free_symbols & self.reader.model.variables:
                     self.refuse(node, "a power with a constant exponent; write exp(b*log(a))")
+                if right.is_number and abs(right) > LARGEST_POWER:
+                    self.refuse(node, f"an exponent of size <= {LARGEST_POWER}")
                 return left**right
         self.refuse(node, "+ - * / **")
 

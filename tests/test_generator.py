@@ -56,6 +56,7 @@ def block(law: str = PAPER) -> dict:
         ),
         ({"of_a": "exp(a, 2)"}, r"'exp\(a, 2\)'; expected one of exp"),
         ({"of_a": "a**w"}, r"'a\*\*w'; expected a power with a constant exponent"),
+        ({"of_a": "a*9**9**9"}, r"'9\*\*9\*\*9'; expected an exponent of size <= 64"),
         ({"of_a": "a % 2"}, r"'a % 2'; expected \+ - \* / \*\*"),
         ({"of_a": "a if w else v"}, r"'a if w else v'; expected numbers, names"),
         ({"of_a": "a(t - w)"}, r"'a\(t - w\)'; expected a\(t - DELAY\) with a delay >= 0"),
