@@ -1,6 +1,6 @@
 """Parameters and numbers as figures write them, with true minus signs."""
 
-from scripts.namelists.laws import PAPER, law_of
+from scripts.namelists.laws import PAPER, law_of, spoken
 from scripts.namelists.study_cases import PARAMETERS
 
 SYMBOLS = {
@@ -42,7 +42,7 @@ def in_words(place: dict, *left_out: str) -> str:
         f"${SYMBOLS[key]} = {number(place[key])}$" for key in PARAMETERS if key not in left_out
     ]
     if law_of(place) != PAPER:
-        words.append(f"law {law_of(place).replace('_', ' ')}")
+        words.append(f"law {spoken(law_of(place))}")
     return ", ".join(words)
 
 

@@ -19,7 +19,7 @@ from scripts.drawing.hopf_plane import SCENE, SUBCRITICAL, draw_piece, mark_scen
 from scripts.drawing.special_points import STYLES, in_words, words_of
 from scripts.drawing.style import INK
 from scripts.figures.wording import place_in_words, short, with_error
-from scripts.namelists.laws import PAPER
+from scripts.namelists.laws import PAPER, spoken
 from scripts.results.paths import curves_of_atlas, cycles_in_atlas, places_in_atlas, table_of_atlas
 from scripts.tables.motion_rows import (
     count_in_words,
@@ -155,7 +155,7 @@ def numbers(table: list[dict]) -> dict:
     """Shares of the classes and the largest exponent in each plane."""
     planes = []
     for number, ((gamma, xi, law), rows) in enumerate(planes_of(table).items()):
-        of_law = "" if law == PAPER else f", law {law.replace('_', ' ')}"
+        of_law = "" if law == PAPER else f", law {spoken(law)}"
         counts = Counter(row["class"] for row in rows).most_common()
         shares = [(kind, 100 * count / len(rows)) for kind, count in counts]
         computed = [row for row in rows if not math.isnan(row["exponent_1"])]

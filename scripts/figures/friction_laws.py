@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from scripts.drawing import parameters
 from scripts.drawing.class_map import draw_classes, legend_of
 from scripts.drawing.style import INK
+from scripts.namelists.laws import spoken
 from scripts.tables.friction_laws_table import (
     SECONDS_OF_YEAR,
     rows_of_planes,
@@ -52,7 +53,7 @@ def draw(table: list[dict], fault: dict) -> Figure:
             draw_classes(axes, here, "tau")
             chaotic = sum(row["class"] == "chaos" for row in here)
             axes.set_title(
-                f"$\\bf{{{next(letters)}}}$  {name_of(law)}\nchaos at {chaotic} of {len(here)}",
+                f"$\\bf{{{next(letters)}}}$  {spoken(law)}\nchaos at {chaotic} of {len(here)}",
                 fontsize=7,
             )
             if law == laws[-1]:
@@ -80,11 +81,6 @@ def draw(table: list[dict], fault: dict) -> Figure:
     return figure
 
 
-def name_of(law: str) -> str:
-    """A law as titles write it."""
-    return law.replace("_", " ")
-
-
 def draw_fastest(axes: Axes, by_law: dict[str, list[dict]], fault: dict) -> None:
     """The largest maximum of v over tau at the largest epsilon, with years of a fault above."""
     for number, (law, rows) in enumerate(by_law.items()):
@@ -97,7 +93,7 @@ def draw_fastest(axes: Axes, by_law: dict[str, list[dict]], fault: dict) -> None
             ms=2.5,
             lw=0.8,
             color=f"C{number}",
-            label=name_of(law),
+            label=spoken(law),
         )
     axes.axhline(1, color=INK, lw=0.5)
     axes.set_xlabel(r"delay $\tau$ ($L/v_0$)")
@@ -111,7 +107,7 @@ def numbers(table: list[dict], fault: dict) -> dict:
     """Shares of the classes of each law in each plane, and the classes of scenes."""
     return {
         "shares": [
-            {**share, "law": name_of(share["law"]), "kinds": in_words(share["kinds"])}
+            {**share, "law": spoken(share["law"]), "kinds": in_words(share["kinds"])}
             for share in shares_of(table)
         ],
         "scenes": [
@@ -130,6 +126,6 @@ def in_words(kinds: Counter) -> str:
 def motions_of(table: list[dict]) -> dict[str, str]:
     """What each scene is under each law, in words."""
     return {
-        scene: ", ".join(f"{kind_of(row)} ({name_of(row['law'])})" for row in rows)
+        scene: ", ".join(f"{kind_of(row)} ({spoken(row['law'])})" for row in rows)
         for scene, rows in scenes_of(table).items()
     }

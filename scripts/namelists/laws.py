@@ -79,6 +79,11 @@ def law_of(place: Mapping) -> str:
     return str(place.get("law", PAPER))
 
 
+def spoken(law: str) -> str:
+    """A law as figures and sentences write it."""
+    return law.replace("_", " ")
+
+
 def users_definitions(config: dict, groups) -> dict[str, dict]:
     """The user's laws that groups of a namelist name."""
     users = config.get("laws", {})

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from scripts.claims.claims_of_laws import LAWS
 from scripts.claims.claims_results import short
 from scripts.figures.wording import count
+from scripts.namelists.laws import spoken
 from scripts.tables.fault_limit_table import FAULTS, PAPER
 from scripts.tables.friction_laws_table import shares_of
 from scripts.tables.motion_rows import class_in_words, own_rows
@@ -84,12 +85,10 @@ def describe_laws(tables: dict[str, list[dict]]) -> dict:
     parts = []
     for place in dict.fromkeys((share["gamma"], share["xi"]) for share in shares):
         here = [share for share in shares if (share["gamma"], share["xi"]) == place]
-        numbers = [
-            f"{share['kinds']['chaos']} ({share['law'].replace('_', ' ')})" for share in here
-        ]
+        numbers = [f"{share['kinds']['chaos']} ({spoken(share['law'])})" for share in here]
         parts.append(
-            f"At $gamma = {short(place[0])}$ and $xi = {short(place[1])}$, of {here[0]['points']}"
-            f" points are chaotic: {', '.join(numbers)}."
+            f"At $gamma = {short(place[0])}$ and $xi = {short(place[1])}$ the number of chaotic"
+            f" points among {here[0]['points']} is {', '.join(numbers)}."
         )
     without = any(share["kinds"]["chaos"] == 0 for share in shares)
     return {
