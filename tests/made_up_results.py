@@ -76,6 +76,7 @@ def attractor_row(met: str, scene: str = "mine", history: int = 1, **given) -> d
         "f2": 0.17 if met.endswith("torus") else math.nan,
         "f3": 0.13 if met == "3-torus" else math.nan,
         "largest_maximum": 1.0 if met == "fixed point" else 2.0,
+        "recurrence_variation": math.nan if met == "fixed point" else 0.1,
         **given,
     }
 

@@ -110,6 +110,7 @@ def a_run(classes: list[str], **given) -> xr.Dataset:
         **dict.fromkeys([*PARAMETERS, *(f"history_{key}" for key in HISTORY)], 1.0),
         **{"period": 1, "base_1": 0.1, "base_2": 0.0, "base_3": 0.0},
         **{"roughness": 0.5, "time": 900.0, "smallest_maximum": 1.0, "largest_maximum": 2.0},
+        **{"recurrence_time": 8.0, "recurrence_variation": 0.1},
         **given,
     }
     exponents = {key: points.pop(key, 0.0) for key in ("lyapunov_exponent", "lyapunov_error")}

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from namelist_groups import OBSERVATION
+from scipy.integrate import solve_ivp
 
 from scripts.files.tsv import read_table, write_table
 from scripts.namelists.study_cases import HISTORY
@@ -76,6 +77,26 @@ def test_fixed_point_has_the_roots_and_no_more(programs, groups):
     assert (np.diff(found.maximum.values[1, : kept[1]]) < 0).all()
     np.testing.assert_array_equal(found.maximum.min("kept"), found.smallest_maximum)
     np.testing.assert_array_equal(found.maximum.max("kept"), found.largest_maximum)
+
+
+def test_recurrence_time_of_a_cycle_is_its_period(programs, groups):
+    """Without delay, beside SciPy's solution; a fixed point has none."""
+    groups["observation"]["t_transient"] = 400.0
+    groups["points"] |= {"tau_part": [1, 1], **ONE_HISTORY}
+    at_rest, of_cycle = programs.made_of("attractors", groups).recurrence_time.values
+    assert math.isnan(at_rest)
+
+    def slopes(_t, y):
+        theta, u, v = y[0], y[1], math.exp(y[2])
+        return [-v * (theta + 1.5 * y[2]), v - 1, -0.64 * (u + (theta + y[2]) / 0.8) / v]
+
+    def rise(_t, y):
+        return y[2]
+
+    rise.direction = 1
+    start = [0.0, 0.0, math.log(1.1)]
+    run = solve_ivp(slopes, (0.0, 600.0), start, method="DOP853", rtol=1e-9, events=rise)
+    np.testing.assert_allclose(of_cycle, np.diff(run.t_events[0])[-1], rtol=1e-6)
 
 
 def test_table_shows_runs_that_failed_as_no_attractors(programs, groups):

@@ -11,16 +11,18 @@ from scripts.drawing import parameters
 from scripts.drawing.class_map import draw_classes, legend_of
 from scripts.drawing.style import INK
 from scripts.namelists.laws import spoken
+from scripts.tables.dimensions_table import row_of
 from scripts.tables.friction_laws_table import (
     SECONDS_OF_YEAR,
     rows_of_planes,
     scenes_of,
     shares_of,
 )
-from scripts.tables.motion_rows import kind_of, planes_of
+from scripts.tables.motion_rows import COLOURS, kind_of, planes_of
 
 SHOWS_CLASSES = True
 MARKS = ["o", "s", "^", "D", "v", "P"]
+DELAY = r"delay $\tau$ ($L/v_0$)"
 
 
 def inputs(_config: dict) -> dict:
@@ -29,81 +31,114 @@ def inputs(_config: dict) -> dict:
 
 
 def params(config: dict) -> dict:
-    """The values for (2) by which nondimensional ones are times and velocities of a fault."""
-    return {"fault": config["dimensions"]["fault"]}
+    """The values for (2) by which nondimensional times are those of a fault and a laboratory."""
+    return {"dimensions": config["dimensions"]}
 
 
-def draw(table: list[dict], fault: dict) -> Figure:
-    """A law a row, a plane a column; below, the fastest slip over tau at the largest epsilon."""
+def draw(table: list[dict], dimensions: dict) -> Figure:
+    """A law a row, a plane a column; below, motions over tau at the largest epsilon."""
     rows = rows_of_planes(table)
     laws = list(dict.fromkeys(row["law"] for row in rows))
     planes = list(dict.fromkeys((row["gamma"], row["xi"]) for row in rows))
     figure, panels = plt.subplots(
-        len(laws) + 1,
+        len(laws) + 2,
         len(planes),
-        figsize=(6.7, 1.5 + 1.55 * (len(laws) + 1)),
+        figsize=(6.7, 1.5 + 1.55 * (len(laws) + 2)),
         squeeze=False,
-        height_ratios=[1] * len(laws) + [1.25],
+        height_ratios=[1] * len(laws) + [1.2, 1.2],
     )
     letters = iter(ascii_lowercase)
+    *maps, fastest, recurrence = panels
     shown = planes_of(rows)
-    for law, line in zip(laws, panels, strict=False):
+    for law, line in zip(laws, maps, strict=True):
         for (gamma, xi), axes in zip(planes, line, strict=True):
             here = shown[gamma, xi, law]
             draw_classes(axes, here, "tau")
+            draw_scenes(axes, table, law, (gamma, xi))
             chaotic = sum(row["class"] == "chaos" for row in here)
-            axes.set_title(
-                f"$\\bf{{{next(letters)}}}$  {spoken(law)}\nchaos at {chaotic} of {len(here)}",
-                fontsize=7,
-            )
-            if law == laws[-1]:
-                axes.set_xlabel(r"sensitivity $\varepsilon$")
-        line[0].set_ylabel(r"delay $\tau$ ($L/v_0$)")
-    for (gamma, xi), axes in zip(planes, panels[-1], strict=True):
-        place = {"gamma": gamma, "xi": xi}
-        words = parameters.in_words(place, "tau", "epsilon")
-        draw_fastest(axes, {law: shown[gamma, xi, law] for law in laws}, fault)
-        axes.set_title(f"$\\bf{{{next(letters)}}}$  {words}", fontsize=7, pad=26)
-    for axes, (gamma, xi) in zip(panels[0], planes, strict=True):
+            words = f"{spoken(law)}\nchaos at {chaotic} of {len(here)}"
+            axes.set_title(f"$\\bf{{{next(letters)}}}$  {words}", fontsize=7)
+        line[0].set_ylabel(DELAY)
+    for column, (gamma, xi) in enumerate(planes):
         words = parameters.in_words({"gamma": gamma, "xi": xi}, "tau", "epsilon")
-        axes.annotate(
-            words,
-            (0.5, 1.42),
-            xycoords="axes fraction",
-            ha="center",
-            fontsize=8,
-            annotation_clip=False,
-        )
-    panels[-1][0].set_ylabel("largest $v$ ($v_0$)")
-    marks, _ = panels[-1][0].get_legend_handles_labels()
-    handles = [*legend_of(rows), *marks]
+        by_law = {law: shown[gamma, xi, law] for law in laws}
+        head_column(maps[0][column], words)
+        maps[-1][column].set_xlabel(r"sensitivity $\varepsilon$")
+        draw_over_delay(fastest[column], by_law, "largest_maximum")
+        fastest[column].semilogy()
+        fastest[column].axhline(1, color=INK, lw=0.5)
+        draw_over_delay(recurrence[column], by_law, "recurrence_variation")
+        add_dimensional_axis(fastest[column], years_of_unit(dimensions), "years on a fault")
+        unit = time_unit("laboratory", dimensions)
+        add_dimensional_axis(recurrence[column], unit, "seconds in a laboratory")
+    fastest[0].set_ylabel("largest $v$ ($v_0$)")
+    recurrence[0].set_ylabel("variation of\nrecurrence")
+    for axes in (*fastest, *recurrence):
+        axes.set_title(f"$\\bf{{{next(letters)}}}$", fontsize=7, pad=26)
+    lines, _ = fastest[0].get_legend_handles_labels()
+    handles = [*legend_of(rows), *lines]
     figure.legend(handles=handles, loc="outside lower center", ncols=4, fontsize=7)
     return figure
 
 
-def draw_fastest(axes: Axes, by_law: dict[str, list[dict]], fault: dict) -> None:
-    """The largest maximum of v over tau at the largest epsilon, with years of a fault above."""
+def draw_scenes(axes: Axes, table: list[dict], law: str, plane: tuple[float, float]) -> None:
+    """A circle for each scene of this plane, coloured by its class under the law."""
+    for rows in scenes_of(table).values():
+        for row in rows:
+            if row["law"] == law and (row["gamma"], row["xi"]) == plane:
+                colour = COLOURS[kind_of(row)]
+                axes.plot(
+                    row["epsilon"], row["tau"], marker="o", ms=5, mfc=colour, mec=INK, mew=0.7
+                )
+
+
+def head_column(axes: Axes, words: str) -> None:
+    """The plane of a column, above its first map."""
+    axes.annotate(
+        words,
+        (0.5, 1.42),
+        xycoords="axes fraction",
+        ha="center",
+        fontsize=8,
+        annotation_clip=False,
+    )
+
+
+def draw_over_delay(axes: Axes, by_law: dict[str, list[dict]], column: str) -> None:
+    """A number of the motions over tau, at the largest epsilon."""
     for number, (law, rows) in enumerate(by_law.items()):
         most = max(row["epsilon"] for row in rows)
         line = sorted((row for row in rows if row["epsilon"] == most), key=lambda row: row["tau"])
-        axes.semilogy(
+        axes.plot(
             [row["tau"] for row in line],
-            [row["largest_maximum"] for row in line],
+            [row[column] for row in line],
             marker=MARKS[number % len(MARKS)],
             ms=2.5,
             lw=0.8,
             color=f"C{number}",
             label=spoken(law),
         )
-    axes.axhline(1, color=INK, lw=0.5)
-    axes.set_xlabel(r"delay $\tau$ ($L/v_0$)")
-    years = fault["length"] / fault["v0"] / SECONDS_OF_YEAR
-    above = axes.secondary_xaxis("top", functions=(lambda t: t * years, lambda t: t / years))
-    above.set_xlabel("years on a fault", fontsize=7, labelpad=2)
+    axes.set_xlabel(DELAY)
+
+
+def add_dimensional_axis(axes: Axes, scale: float, words: str) -> None:
+    """Delays above the panel in another unit."""
+    above = axes.secondary_xaxis("top", functions=(lambda t: t * scale, lambda t: t / scale))
+    above.set_xlabel(words, fontsize=7, labelpad=2)
     above.tick_params(labelsize=7)
 
 
-def numbers(table: list[dict], fault: dict) -> dict:
+def time_unit(preset: str, dimensions: dict) -> float:
+    """The unit of time, L/v0, in seconds."""
+    return row_of(preset, **dimensions[preset])["time_unit"]
+
+
+def years_of_unit(dimensions: dict) -> float:
+    """The unit of time on a fault, in years."""
+    return time_unit("fault", dimensions) / SECONDS_OF_YEAR
+
+
+def numbers(table: list[dict], dimensions: dict) -> dict:
     """Shares of the classes of each law in each plane, and the classes of scenes."""
     return {
         "shares": [
@@ -114,7 +149,8 @@ def numbers(table: list[dict], fault: dict) -> dict:
             {"scene": scene.replace("_", " "), "motions": motions}
             for scene, motions in motions_of(table).items()
         ],
-        "years": fault["length"] / fault["v0"] / SECONDS_OF_YEAR,
+        "years": years_of_unit(dimensions),
+        "seconds": time_unit("laboratory", dimensions),
     }
 
 

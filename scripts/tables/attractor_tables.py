@@ -17,6 +17,11 @@ SAME_MAXIMUM = 0.02
 approached slowly."""
 ERROR_BARS = 3.0
 """Greatest number of error bars by which exponents differ on one chaotic attractor."""
+OF_MOTION = (
+    *("smallest_maximum", "largest_maximum"),
+    *("recurrence_time", "recurrence_variation", "roughness"),
+)
+"""Numbers of a motion as they stand in its file."""
 NOT_COMPUTED = {*PARAMETERS, "law", *HISTORY, "computed", "class", "period"}
 """Columns of points of the atlas that were not computed; the others are empty."""
 
@@ -41,7 +46,7 @@ def rows_of(run: xr.Dataset, **flags: list[str]) -> list[dict]:
         "f1": positive(run.base_1),
         "f2": positive(run.base_2),
         "f3": positive(run.base_3),
-        **{key: numbers(run[key]) for key in ("smallest_maximum", "largest_maximum", "roughness")},
+        **{key: numbers(run[key]) for key in OF_MOTION},
         "problem": run.problem.values.tolist(),
     }
     return [

@@ -10,7 +10,7 @@ module attractors_files
    use dde_errors, only: error_type, text
    use dde_kinds, only: int64, wp
    use exponent_averages, only: sign_bound
-   use motion_classes, only: class_names, cycle_motion, reason_names
+   use motion_classes, only: class_names, cycle_motion, fixed_point, reason_names
    use namelist_input, only: namelist_file_type, word_length
    use netcdf_output, only: output_file_type
    use points_input, only: points_settings_type
@@ -139,6 +139,13 @@ contains
          end do
          call file%column(rows, "smallest_maximum", least, "smallest maximum of v")
          call file%column(rows, "largest_maximum", most, "largest maximum of v")
+         do i = 1, size(findings)
+            call recur(findings(i), least(i), most(i))
+         end do
+         call file%column(rows, "recurrence_time", least, &
+                          "mean time between rises of v through 1")
+         call file%column(rows, "recurrence_variation", most, &
+                          "standard deviation of this time over its mean")
       end associate
       call put_kept(file, points%kept, findings, rows)
       if (settings%t_path > 0.0_wp) call put_paths(file, settings%t_path, findings, rows)
@@ -201,6 +208,29 @@ contains
          most = maxval(maxima(first:))
       end associate
    end subroutine reach
+
+   !> Mean of the times between passages of the section and their standard deviation over it; of a
+   !> cycle those of its last period, if the section has one. NaN at rest or with too few passages.
+   pure subroutine recur(finding, mean, variation)
+      type(finding_type), intent(in) :: finding
+      real(wp), intent(out) :: mean
+      real(wp), intent(out) :: variation
+      integer :: first, last
+
+      mean = ieee_value(1.0_wp, ieee_quiet_nan)
+      variation = mean
+      if (.not. allocated(finding%attractor%motion%section_time)) return
+      associate (found => finding%attractor, time => finding%attractor%motion%section_time)
+         last = size(time)
+         first = 1
+         if (found%class == cycle_motion .and. found%period > 0) first = max(1, last - found%period)
+         if (found%class == fixed_point .or. last == first) return
+         associate (between => time(first + 1:) - time(first:last - 1))
+            mean = sum(between)/size(between)
+            variation = norm2(between - mean)/sqrt(real(size(between), wp))/mean
+         end associate
+      end associate
+   end subroutine recur
 
    !> The last maxima and points of the section, if any are wanted; NaN where there are fewer.
    subroutine put_kept(file, kept, findings, rows)
