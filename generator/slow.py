@@ -37,7 +37,7 @@ class Balance:
     rate: sympy.Expr
     value: sympy.Expr
     slopes: dict[str, sympy.Expr]
-    """What each of the other states is multiplied by in the balance."""
+    """What each of the other states, and second differences, is multiplied by in the balance."""
     constant: sympy.Expr
 
     def text(self, names: dict[str, str], constants: Constants, *, whole: bool = True) -> str:
@@ -62,8 +62,10 @@ def balance_of(model: Model) -> Balance | None:
         if rate == 0 or rate.free_symbols & model.variables:
             return None
         value = sympy.expand(w + model.equations[state] * v / rate)
-        slopes = {name: value.diff(model.symbol(name)) for name in model.states if name != state}
-        linear = sympy.Add(*(slope * model.symbol(name) for name, slope in slopes.items()))
+        others = {name: model.symbol(name) for name in model.states if name != state}
+        others |= {symbol.name: symbol for symbol in model.differences.values()}
+        slopes = {name: value.diff(symbol) for name, symbol in others.items()}
+        linear = sympy.Add(*(slope * others[name] for name, slope in slopes.items()))
         constant = sympy.expand(value - linear)
         if any(one.free_symbols & model.variables for one in [*slopes.values(), constant]):
             return None

@@ -50,9 +50,18 @@ module model_problem
       !> Where each delayed state of the definition is among the delayed values of the problem; 0
       !> where its delay is 0
       integer, allocatable :: place(:)
+      !> Blocks of a chain, and delayed values of each
+      integer :: blocks = 1, delays = 0
+      !> Neighbours of the blocks of a chain on both sides; 0: the plate, which is at rest
+      integer, allocatable :: left(:), right(:)
+      !> Of a chain whose blocks move alike: minus the second difference of a disturbance over the
+      !> disturbance, an eigenvalue
+      real(wp) :: mode = 0.0_wp
    contains
       !> Give the model its parameters and its past
       procedure :: set
+      !> Equations of a chain that contain second differences
+      procedure :: couplings => no_couplings
       procedure :: initial => past_state
       procedure :: history => past_component
       procedure :: past_series => past_component_series
@@ -125,7 +134,8 @@ module model_problem
 
 contains
 
-   !> Give a model its parameters and its past. A delay of 0 is none unless it is kept.
+   !> Give a model its parameters and its past. A delay of 0 is none unless it is kept. A chain has
+   !> its neighbours before.
    pure subroutine set(self, parameters, past, keep_delays)
       class(model_type), intent(inout) :: self
       !> Parameters, in the order of the definition
@@ -137,20 +147,54 @@ contains
       integer, allocatable :: component(:)
       real(wp), allocatable :: lag(:)
       logical, allocatable :: kept(:)
-      integer :: k
+      integer :: block, k, states
 
       self%n = size(past)
       self%analytic = .true.
-      self%analytic_tangents = .true.
+      self%analytic_tangents = .not. allocated(self%left)
       self%parameters = parameters
       self%past = past
       call self%delayed(lag, component)
       kept = lag > 0.0_wp
       if (present(keep_delays)) kept = kept .or. keep_delays
       self%place = merge([(count(kept(:k)), k=1, size(lag))], 0, kept)
-      self%component = pack(component, kept)
-      self%lag = pack(lag, kept)
+      if (allocated(self%left)) self%blocks = size(self%left)
+      self%delays = count(kept)
+      states = self%n/self%blocks
+      self%component = [(pack(component, kept) + states*(block - 1), block=1, self%blocks)]
+      self%lag = [(pack(lag, kept), block=1, self%blocks)]
+      if (allocated(self%left)) call set_band(self, states)
    end subroutine set
+
+   !> The band of the Jacobian of a chain, and the equations of each delayed value.
+   pure subroutine set_band(self, states)
+      class(model_type), intent(inout) :: self
+      !> States of a block
+      integer, intent(in) :: states
+      integer, allocatable :: column(:), row(:)
+      integer :: block, distance, k
+
+      call self%couplings(row, column)
+      distance = 0
+      do block = 1, self%blocks
+         if (self%left(block) > 0) distance = max(distance, abs(self%left(block) - block))
+         if (self%right(block) > 0) distance = max(distance, abs(self%right(block) - block))
+      end do
+      self%lower = max(states - 1, states*distance + maxval(row - column))
+      self%upper = max(states - 1, states*distance + maxval(column - row))
+      self%rows = reshape([((states*(block - 1) + 1, states*block, k=1, self%delays), &
+                            block=1, self%blocks)], [2, self%blocks*self%delays])
+   end subroutine set_band
+
+   !> None.
+   pure subroutine no_couplings(self, row, column)
+      class(model_type), intent(in) :: self
+      !> Numbers of equations within a block, and of the states of which they take a second
+      !> difference
+      integer, allocatable, intent(out) :: row(:), column(:)
+
+      allocate (row(0), column(0))
+   end subroutine no_couplings
 
    !> The past holds up to the initial time.
    pure subroutine past_state(self, y)

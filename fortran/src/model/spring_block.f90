@@ -1,8 +1,10 @@
-!> The spring block with delayed friction: the model of its law (spring_block.yaml and laws/ in this
-!> folder), by the names of its parameters. All quantities are nondimensional.
+!> The spring block with delayed friction, or a chain of blocks: the model of its law
+!> (spring_block.yaml, chain.yaml and laws/ in this folder), by the names of its parameters. All quantities are nondimensional.
 module spring_block
-   use block_parameters, only: block_history_type, block_parameters_type, law_parameters
+   use block_parameters, only: block_history_type, block_parameters_type, chain_law, law_parameters
    use block_state, only: index_of_ln_v, index_of_theta, index_of_u
+   use chain, only: blocks_in_order, find_neighbours
+   use chain_registry, only: make_chain => make_model
    use characteristic_function, only: characteristic_of, characteristic_type
    use dde, only: problem_with_tangents
    use dde_kinds, only: wp
@@ -33,13 +35,13 @@ module spring_block
    end type spring_block_type
 
    interface spring_block_type
-      module procedure :: new_spring_block
+      module procedure :: new_spring_block, new_blocks
    end interface spring_block_type
 
 contains
 
-   !> A block from its parameters, which were checked, and its history; without delay it is
-   !> equation (3).
+   !> A block, or blocks that begin alike, from the parameters, which were checked, and the history;
+   !> without delay it is equation (3).
    function new_spring_block(parameters, history, keep_delays) result(block)
       type(block_parameters_type), intent(in) :: parameters
       type(block_history_type), intent(in) :: history
@@ -47,31 +49,54 @@ contains
       logical, intent(in), optional :: keep_delays
       type(spring_block_type) :: block
 
+      block = new_blocks(parameters, spread(history, 1, parameters%blocks), keep_delays)
+   end function new_spring_block
+
+   !> Blocks from their parameters and their histories.
+   function new_blocks(parameters, histories, keep_delays) result(block)
+      type(block_parameters_type), intent(in) :: parameters
+      !> That of each block
+      type(block_history_type), intent(in) :: histories(:)
+      !> Whether a delay of 0 is a delayed value, too; .false. unless given
+      logical, intent(in), optional :: keep_delays
+      type(spring_block_type) :: block
+
       block%parameters = parameters
-      call find_model(parameters, block%model, history, keep_delays)
+      call find_model(parameters, block%model, histories, keep_delays)
       block%n = block%model%n
+      block%lower = block%model%lower
+      block%upper = block%model%upper
+      if (allocated(block%model%rows)) block%rows = block%model%rows
       block%lag = block%model%lag
       block%component = block%model%component
       block%analytic = block%model%analytic
       block%analytic_tangents = block%model%analytic_tangents
-   end function new_spring_block
+   end function new_blocks
 
-   !> The model of a law with its parameters; from steady sliding unless a history is given.
-   subroutine find_model(parameters, model, history, keep_delays)
+   !> The model of a law, or of a chain, with its parameters; from steady sliding unless histories
+   !> are given.
+   subroutine find_model(parameters, model, histories, keep_delays)
       !> Parameters, with the name of a law that there is
       type(block_parameters_type), intent(in) :: parameters
       !> The model
       class(model_type), allocatable, intent(out) :: model
-      !> Values for t <= 0
-      type(block_history_type), intent(in), optional :: history
+      !> Values for t <= 0 of each block
+      type(block_history_type), intent(in), optional :: histories(:)
       !> Whether a delay of 0 is a delayed value, too; .false. unless given
       logical, intent(in), optional :: keep_delays
-      type(block_history_type) :: past
+      type(block_history_type) :: past(parameters%blocks)
+      integer :: i
 
-      if (present(history)) past = history
-      call make_model(trim(parameters%law), model)
-      call model%set(law_parameters(parameters, model), [past%theta, past%u, log(past%v)], &
-                     keep_delays)
+      if (present(histories)) past = histories
+      if (parameters%is_chain()) then
+         call make_chain(chain_law(parameters%law), model)
+         call find_neighbours(parameters%blocks, parameters%ends, model%left, model%right)
+         past = past(blocks_in_order(parameters%blocks, parameters%ends))
+      else
+         call make_model(trim(parameters%law), model)
+      end if
+      call model%set(law_parameters(parameters, model), &
+                     [([past(i)%theta, past(i)%u, log(past(i)%v)], i=1, size(past))], keep_delays)
    end subroutine find_model
 
    !> The characteristic function of steady sliding.
