@@ -30,7 +30,7 @@ TAKEN = {
     *("by_y", "by_z", "lag", "past", "power", "coefficient", "delay", "state", "derivative"),
     *("sum", "real", "abs", "merge", "size", "steady", "parameter", "component", "place", "delays"),
     *("slow", "rate_before", "integer", "end", "do", "if", "top", "component_series"),
-    *("slot", "front", "lane", "block", "at", "last_tile", "second_difference"),
+    *("slot", "front", "lane", "block", "at", "last_tile", "second_difference", "start", "i"),
     *FUNCTIONS,
 }
 """Names of the generated code, which a model's own names would hide."""

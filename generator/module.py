@@ -73,10 +73,12 @@ def procedures_of_chain(model: Model, balance: slow.Balance | None) -> dict[str,
         "rhs": chain.rhs_procedure(model),
         "jacobian": chain.jacobian_procedure(model),
         "series": chain.series_procedure(model),
+        "tangent_series": chain.tangent_series_procedure(model),
     }
     if balance:
         parts["relaxation_rate"] = chain.relaxation_procedure(model, balance)
         parts["slow_series"] = chain.slow_series_procedure(model, balance)
+        parts["slow_tangent_series"] = chain.slow_tangent_series_procedure(model, balance)
     return parts
 
 

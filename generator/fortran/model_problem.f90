@@ -54,6 +54,8 @@ module model_problem
       integer :: blocks = 1, delays = 0
       !> Neighbours of the blocks of a chain on both sides; 0: the plate, which is at rest
       integer, allocatable :: left(:), right(:)
+      !> Largest distance of neighbours, at least 1
+      integer :: reach = 1
       !> Of a chain whose blocks move alike: minus the second difference of a disturbance over the
       !> disturbance, an eigenvalue
       real(wp) :: mode = 0.0_wp
@@ -151,7 +153,7 @@ contains
 
       self%n = size(past)
       self%analytic = .true.
-      self%analytic_tangents = .not. allocated(self%left)
+      self%analytic_tangents = .true.
       self%parameters = parameters
       self%past = past
       call self%delayed(lag, component)
@@ -172,16 +174,17 @@ contains
       !> States of a block
       integer, intent(in) :: states
       integer, allocatable :: column(:), row(:)
-      integer :: block, distance, k
+      integer :: block, k
 
       call self%couplings(row, column)
-      distance = 0
+      self%reach = 1
       do block = 1, self%blocks
-         if (self%left(block) > 0) distance = max(distance, abs(self%left(block) - block))
-         if (self%right(block) > 0) distance = max(distance, abs(self%right(block) - block))
+         associate (beside => [self%left(block), self%right(block)])
+            self%reach = max(self%reach, maxval(abs(beside - block), mask=beside > 0))
+         end associate
       end do
-      self%lower = max(states - 1, states*distance + maxval(row - column))
-      self%upper = max(states - 1, states*distance + maxval(column - row))
+      self%lower = min(self%n - 1, max(states - 1, states*self%reach + maxval(row - column)))
+      self%upper = min(self%n - 1, max(states - 1, states*self%reach + maxval(column - row)))
       self%rows = reshape([((states*(block - 1) + 1, states*block, k=1, self%delays), &
                             block=1, self%blocks)], [2, self%blocks*self%delays])
    end subroutine set_band

@@ -182,7 +182,7 @@ contains
 
       do law = 1, size(chain_names)
          do i = 1, 3*size(lengths)
-            n = lengths((i + 2)/3)
+            n = lengths(1 + modulo(i, size(lengths)))
             call make_chain(trim(chain_names(law)), model)
             call make_model(chain_names(law) (7:), one)
             description = model%describe()

@@ -32,7 +32,7 @@ contains
       if (allocated(error)) return
       call check_jacobian(error, model, y, z, name)
       call check_series(error, model, y, z, name)
-      if (model%analytic_tangents) call check_tangents(error, model, y, z, name)
+      call check_tangents(error, model, y, z, name)
       if (model%relaxation_rate(now, y) > 0.0_wp) call check_slow(error, model, y, z, name)
    end subroutine check_model
 
@@ -174,7 +174,6 @@ contains
       call model%slow_series(now, unit, degree, of_z, better)
       call compare(error, [better(:degree - 1, :)], [of_y(:degree - 1, :)], 1.0e-28_wp, &
                    name//", slow series")
-      if (.not. model%analytic_tangents) return
       dy = 0.0_wp
       do i = 1, vectors
          dy(0, :, i) = uniform(500 + i, size(y), -1.0_wp, 1.0_wp)
