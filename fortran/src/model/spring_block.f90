@@ -2,7 +2,7 @@
 !> (spring_block.yaml, chain.yaml and laws/ in this folder), by the names of its parameters. All quantities are nondimensional.
 module spring_block
    use block_parameters, only: block_history_type, block_parameters_type, chain_law, law_parameters
-   use block_state, only: index_of_ln_v, index_of_theta, index_of_u
+   use block_state, only: components_of_block, index_of_ln_v, index_of_theta, index_of_u
    use chain, only: blocks_in_order, find_neighbours
    use chain_registry, only: make_chain => make_model
    use characteristic_function, only: characteristic_of, characteristic_type
@@ -12,7 +12,7 @@ module spring_block
    use model_registry, only: make_model
    implicit none (type, external)
    private
-   public :: block_characteristic, find_model, index_of_ln_v, index_of_theta, index_of_u, &
+   public :: block_characteristic, components_of_block, find_model, index_of_ln_v, index_of_theta, index_of_u, &
              spring_block_type
 
    !> The block with its parameters.
