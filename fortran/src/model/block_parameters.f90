@@ -115,16 +115,14 @@ contains
       class(model_type), intent(in) :: model
       real(wp), allocatable :: vector(:)
       type(description_type) :: law
-
       integer :: own
 
       law = model%describe()
       own = size(law%parameters) - size(parameter_names)
-      if (parameters%is_chain()) then
-         vector = [vector_of(parameters), parameters%own(:own - 1), parameters%kappa]
-      else
-         vector = [vector_of(parameters), parameters%own(:own)]
-      end if
+      ! of a chain the last one is kappa
+      if (allocated(model%left)) own = own - 1
+      vector = [vector_of(parameters), parameters%own(:own)]
+      if (allocated(model%left)) vector = [vector, parameters%kappa]
    end function law_parameters
 
    !> Whether there are several blocks.

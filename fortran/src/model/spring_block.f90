@@ -13,7 +13,7 @@ module spring_block
    implicit none (type, external)
    private
    public :: block_characteristic, components_of_block, find_model, index_of_ln_v, index_of_theta, index_of_u, &
-             spring_block_type
+             spring_block_type, transverse_block
 
    !> The block with its parameters.
    type, extends(problem_with_tangents) :: spring_block_type
@@ -63,15 +63,25 @@ contains
 
       block%parameters = parameters
       call find_model(parameters, block%model, histories, keep_delays)
-      block%n = block%model%n
-      block%lower = block%model%lower
-      block%upper = block%model%upper
-      if (allocated(block%model%rows)) block%rows = block%model%rows
-      block%lag = block%model%lag
-      block%component = block%model%component
-      block%analytic = block%model%analytic
-      block%analytic_tangents = block%model%analytic_tangents
+      call take_shape(block)
    end function new_blocks
+
+   !> A block of which disturbances are those of a mode of a chain: blocks that move alike, and a
+   !> second difference of -stiffening times the disturbance of u, with kappa = 1.
+   function transverse_block(parameters, history, stiffening) result(block)
+      !> Parameters of one block, which were checked
+      type(block_parameters_type), intent(in) :: parameters
+      type(block_history_type), intent(in) :: history
+      !> kappa times the eigenvalue of the mode
+      real(wp), intent(in) :: stiffening
+      type(spring_block_type) :: block
+
+      block%parameters = parameters
+      block%parameters%kappa = 1.0_wp
+      call find_chain(block%parameters, block%model, [history])
+      block%model%mode = stiffening
+      call take_shape(block)
+   end function transverse_block
 
    !> The model of a law, or of a chain, with its parameters; from steady sliding unless histories
    !> are given.
@@ -85,19 +95,62 @@ contains
       !> Whether a delay of 0 is a delayed value, too; .false. unless given
       logical, intent(in), optional :: keep_delays
       type(block_history_type) :: past(parameters%blocks)
-      integer :: i
 
       if (present(histories)) past = histories
       if (parameters%is_chain()) then
-         call make_chain(chain_law(parameters%law), model)
-         call find_neighbours(parameters%blocks, parameters%ends, model%left, model%right)
-         past = past(blocks_in_order(parameters%blocks, parameters%ends))
+         call find_chain(parameters, model, past, keep_delays)
       else
          call make_model(trim(parameters%law), model)
+         call model%set(law_parameters(parameters, model), states_of(past), keep_delays)
       end if
-      call model%set(law_parameters(parameters, model), &
-                     [([past(i)%theta, past(i)%u, log(past(i)%v)], i=1, size(past))], keep_delays)
    end subroutine find_model
+
+   !> The model of a chain, even of one block.
+   subroutine find_chain(parameters, model, histories, keep_delays)
+      !> Parameters, with the name of a law that chains have
+      type(block_parameters_type), intent(in) :: parameters
+      !> The model
+      class(model_type), allocatable, intent(out) :: model
+      !> Values for t <= 0 of each block
+      type(block_history_type), intent(in) :: histories(:)
+      !> Whether a delay of 0 is a delayed value, too; .false. unless given
+      logical, intent(in), optional :: keep_delays
+
+      call make_chain(chain_law(parameters%law), model)
+      associate (blocks => parameters%blocks, ends => parameters%ends)
+         call find_neighbours(blocks, ends, model%left, model%right)
+         call model%set(law_parameters(parameters, model), &
+                        states_of(histories(blocks_in_order(blocks, ends))), keep_delays)
+      end associate
+   end subroutine find_chain
+
+   !> States of blocks, one after another.
+   pure function states_of(histories) result(states)
+      type(block_history_type), intent(in) :: histories(:)
+      real(wp) :: states(components_of_block*size(histories))
+      integer :: i
+
+      do i = 1, size(histories)
+         states(components_of_block*(i - 1) + 1:components_of_block*i) &
+            = [histories(i)%theta, histories(i)%u, log(histories(i)%v)]
+      end do
+   end function states_of
+
+   !> What the solver asks of a problem before it runs is that of the model.
+   pure subroutine take_shape(block)
+      type(spring_block_type), intent(inout) :: block
+
+      associate (model => block%model)
+         block%n = model%n
+         block%lag = model%lag
+         block%component = model%component
+         block%lower = model%lower
+         block%upper = model%upper
+         if (allocated(model%rows)) block%rows = model%rows
+         block%analytic = model%analytic
+         block%analytic_tangents = model%analytic_tangents
+      end associate
+   end subroutine take_shape
 
    !> The characteristic function of steady sliding.
    type(characteristic_type) function block_characteristic(parameters) result(function_of_block)
