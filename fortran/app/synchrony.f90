@@ -5,7 +5,8 @@ program synchrony_program
    use program_arguments, only: get_paths, stop_on
    use progress, only: progress_type
    use scene_input, only: scene_type
-   use transverse_growth, only: find_zeros, measure_transverse_growth, transverse_growth_type, zero_type
+   use transverse_growth, only: find_zeros, measure_transverse_growth, transverse_growth_type, &
+                                zero_type
    use synchrony_files, only: read_synchrony, synchrony_settings_type, write_synchrony
    implicit none (type, external)
    character(len=:), allocatable :: namelist_path, output_path

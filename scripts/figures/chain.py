@@ -5,19 +5,22 @@ import xarray as xr
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from scipy.fft import dct, dst, rfft
 
 from scripts.drawing import parameters
-from scripts.drawing.style import INK
 from scripts.figures.wording import place_in_words, short
+from scripts.tables.chain_motions import (
+    first_mode,
+    moves_alike,
+    powers_of,
+    rests,
+    strongest_mode,
+)
 
 VARIABLES = ("v",)
 SHOWN = 150.0
 """Time at the end that the maps show."""
 LEAST_SPREAD = 1e-12
 """Standard deviations of ln v below this are rounding errors."""
-ALIKE = 1e-6
-"""Blocks that are nearer to each other than this in ln v move alike."""
 
 
 def inputs(config: dict) -> dict:
@@ -84,43 +87,19 @@ def draw_modes(axes: Axes, chain: xr.Dataset) -> None:
     """The mean square of each mode of ln v after the transient."""
     powers = powers_of(chain)
     axes.semilogy(first_mode(chain) + np.arange(powers.size), powers, "o-", ms=2.5, lw=0.7)
-    axes.axhline(ALIKE**2, color=INK, lw=0.5, ls=":")
     axes.set_ylabel("mean square")
 
 
-def first_mode(chain: xr.Dataset) -> int:
-    """The number of the first mode: the mean of the blocks, which `plate` has not."""
-    return int(chain.attrs["ends"] == "plate")
-
-
-def powers_of(chain: xr.Dataset) -> np.ndarray:
-    """Mean squares over time of the modes of ln v, with the modes of norm 1."""
-    late = chain.sel(t=slice(chain.attrs["t_transient"], None))
-    values = np.log(late.v.values)
-    if chain.attrs["ends"] == "free":
-        modes = dct(values, type=2, norm="ortho")
-    elif chain.attrs["ends"] == "ring":
-        modes = np.abs(rfft(values, norm="ortho"))
-    else:
-        modes = dst(values, type=1, norm="ortho")
-    return (modes**2).mean(axis=0)
-
-
-def motion_of(chain: xr.Dataset) -> str:
+def motion_in_words(chain: xr.Dataset) -> str:
     """Whether the blocks move alike, and else the mode that moves most beside their mean."""
-    late = chain.sel(t=slice(chain.attrs["t_transient"], None))
-    values = np.log(late.v)
-    if float(np.abs(values).max()) < ALIKE:
+    if rests(chain):
         return "all blocks come to rest"
-    if float(values.std("block").max()) < ALIKE:
+    if moves_alike(chain):
         return "all blocks move alike"
-    powers = powers_of(chain)
-    first = first_mode(chain)
-    spatial = powers[1 - first :]
-    share = spatial.sum() / powers.sum()
+    mode, share = strongest_mode(chain)
     return (
-        f"blocks move differently: mode {1 + int(spatial.argmax())} most, and"
-        f" {short(100 * share, 2)} % of the mean square is in modes beside the mean"
+        f"blocks move differently, mode {mode} most; {short(100 * share, 2)} % of the mean square"
+        " is in modes beside the mean"
     )
 
 
@@ -132,7 +111,7 @@ def numbers(chains: list[xr.Dataset]) -> dict:
                 "name": chain.attrs["scene"].replace("_", " "),
                 "blocks": int(chain.attrs["blocks"]),
                 "place": place_in_words(chain.attrs),
-                "motion": motion_of(chain),
+                "motion": motion_in_words(chain),
             }
             for chain in chains
         ],

@@ -68,4 +68,3 @@ def zeros_in_words(one: xr.Dataset) -> str:
         f" {'grow' if up else 'decay'}"
         for s, bar, up in zip(one.zero_s, one.zero_error, rises, strict=True)
     )
-

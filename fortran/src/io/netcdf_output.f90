@@ -45,8 +45,8 @@ module netcdf_output
       type(error_type), allocatable, public :: error
    contains
       generic :: column => column_of_reals, column_of_integers
-      procedure :: create, dimension, real_variable, real_table, put, put_rows, words, flags, table, &
-         attribute, finish, discard
+      procedure :: create, dimension, real_variable, real_table, put, put_rows, words, flags, &
+         table, attribute, finish, discard
       procedure, private :: note, variable, column_of_reals, column_of_integers
    end type output_file_type
 

@@ -82,8 +82,8 @@ contains
       if (status == 0) read (unit, nml=blocks, iostat=status, iomsg=reason)
       close (unit)
       if (status /= 0) then
-         call raise(error, path//": namelist group &blocks: "//trim(reason)//"; expected theta, u " &
-                    //"and v of "//text(scene%parameters%blocks)//" blocks")
+         call raise(error, path//": namelist group &blocks: "//trim(reason) &
+                    //"; expected theta, u and v of "//text(scene%parameters%blocks)//" blocks")
          return
       end if
       histories = [(block_history_type(theta(i), u(i), v(i)), i=1, size(v))]

@@ -64,9 +64,10 @@ contains
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
       call check_scene(path, scene, error)
-      call check_number(error, path, "synchrony%s_window(1)", synchrony%s_window(1), at_least=1.0_wp)
-      call check_number(error, path, "synchrony%s_window(2)", synchrony%s_window(2), &
-                        above=synchrony%s_window(1))
+      associate (window => synchrony%s_window)
+         call check_number(error, path, "synchrony%s_window(1)", window(1), at_least=1.0_wp)
+         call check_number(error, path, "synchrony%s_window(2)", window(2), above=window(1))
+      end associate
       call check_count(error, path, "synchrony%count", synchrony%count, at_least=2)
       call check_count(error, path, "synchrony%blocks", synchrony%blocks, at_least=2)
       if (allocated(error) .or. .not. scene%parameters%is_chain()) return

@@ -126,10 +126,10 @@ contains
    end function law_parameters
 
    !> Whether there are several blocks.
-   pure logical function is_chain(self)
+   pure logical function is_chain(self) result(value)
       class(block_parameters_type), intent(in) :: self
 
-      is_chain = self%blocks > 1
+      value = self%blocks > 1
    end function is_chain
 
    !> What the definition of a law says.

@@ -1,5 +1,5 @@
-!> Blocks in a row, each with a spring to the plate and springs to its neighbours (chain.yaml): where
-!> blocks stand in the state vector, and which are their neighbours there.
+!> Blocks in a row, each with a spring to the plate and springs to its neighbours (chain.yaml):
+!> where they stand in the state vector, and which are their neighbours there.
 !>
 !> The blocks of a ring are folded: 1, N, 2, N - 1, ..., so that neighbours are at most two places
 !> apart and the Jacobian is banded.

@@ -1,5 +1,6 @@
 !> The spring block with delayed friction, or a chain of blocks: the model of its law
-!> (spring_block.yaml, chain.yaml and laws/ in this folder), by the names of its parameters. All quantities are nondimensional.
+!> (spring_block.yaml, chain.yaml and laws/ in this folder), by the names of its parameters. All
+!> quantities are nondimensional.
 module spring_block
    use block_parameters, only: block_history_type, block_parameters_type, chain_law, law_parameters
    use block_state, only: components_of_block, index_of_ln_v, index_of_theta, index_of_u
@@ -12,8 +13,8 @@ module spring_block
    use model_registry, only: make_model
    implicit none (type, external)
    private
-   public :: block_characteristic, components_of_block, find_model, index_of_ln_v, index_of_theta, index_of_u, &
-             spring_block_type, transverse_block
+   public :: block_characteristic, components_of_block, find_model, index_of_ln_v, &
+             index_of_theta, index_of_u, spring_block_type, transverse_block
 
    !> The block with its parameters.
    type, extends(problem_with_tangents) :: spring_block_type

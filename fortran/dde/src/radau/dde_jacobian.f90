@@ -131,7 +131,7 @@ contains
       real(wp), intent(in) :: z(:)
       !> Derivatives by y, shape (n, n), or that of a band
       real(wp), intent(out) :: by_y(:, :)
-      !> Derivatives by the delayed values, shape (n, delayed values), or (most rows, delayed values)
+      !> Derivatives by the delayed values, shape (n or most rows, delayed values)
       real(wp), intent(out) :: by_z(:, :)
       type(jacobian_type) :: here
       type(work_type) :: work
