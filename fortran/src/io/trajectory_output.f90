@@ -1,7 +1,7 @@
 !> Trajectory files: samples go to disk in blocks while the integration runs, only the variables
 !> that the scene lists. For gamma > 1 those of one block also follow the steps of the solver, so
-!> that slip events shorter than the sample interval are resolved. Those of a chain are over time and
-!> block.
+!> that slip events shorter than the sample interval are resolved. Those of a chain are over time
+!> and block.
 module trajectory_output
    use block_attributes, only: put_scene
    use block_parameters, only: block_history_type
