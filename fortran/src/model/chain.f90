@@ -1,5 +1,5 @@
-!> Blocks in a row, each with a spring to the plate and springs to its neighbours (chain.yaml):
-!> where they stand in the state vector, and which are their neighbours there.
+!> Blocks in a row, each with a spring to the plate and springs to its neighbours (chain.yaml). Here
+!> is where they stand in the state vector, and which are their neighbours there.
 !>
 !> The blocks of a ring are folded: 1, N, 2, N - 1, ..., so that neighbours are at most two places
 !> apart and the Jacobian is banded.
@@ -10,8 +10,8 @@ module chain
    public :: blocks_in_order, chain_ends, find_neighbours, mode_eigenvalue, word_length
 
    integer, parameter :: word_length = 8
-   !> Ends: without a neighbour beyond; each the neighbour of the other; with a neighbour that moves
-   !> with the plate.
+   !> What may be beyond the last block is no neighbour, the first block, or one that moves with the
+   !> plate.
    character(len=word_length), parameter :: chain_ends(3) = ["free    ", "ring    ", "plate   "]
 
 contains

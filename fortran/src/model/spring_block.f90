@@ -72,6 +72,7 @@ contains
    function transverse_block(parameters, history, stiffening) result(block)
       !> Parameters of one block, which were checked
       type(block_parameters_type), intent(in) :: parameters
+      !> Values for t <= 0
       type(block_history_type), intent(in) :: history
       !> kappa times the eigenvalue of the mode
       real(wp), intent(in) :: stiffening
