@@ -28,7 +28,7 @@ def main() -> None:
     arguments = parser.parse_args()
     try:
         if arguments.registry:
-            text = write_registry(arguments.sources)
+            text = write_registry(arguments.sources, arguments.module.stem)
         else:
             text = write_module(read_files(map(Path, arguments.sources), arguments.name))
         unfinished = arguments.module.with_suffix(".unfinished")

@@ -30,6 +30,7 @@ TAKEN = {
     *("by_y", "by_z", "lag", "past", "power", "coefficient", "delay", "state", "derivative"),
     *("sum", "real", "abs", "merge", "size", "steady", "parameter", "component", "place", "delays"),
     *("slow", "rate_before", "integer", "end", "do", "if", "top", "component_series"),
+    *("slot", "front", "lane", "block", "at", "last_tile", "second_difference", "start", "i"),
     *FUNCTIONS,
 }
 """Names of the generated code, which a model's own names would hide."""
@@ -95,6 +96,8 @@ class Model:
     """Each state up to the initial time as an expression of t; None: numbers, given later."""
     fast: str | None = None
     domain: dict[str, tuple[float, float]] = field(default_factory=dict)
+    differences: dict[str, sympy.Symbol] = field(default_factory=dict)
+    """Second difference along the chain of each state of which the equations take one."""
 
     def symbol(self, name: str) -> sympy.Symbol:
         """The symbol of a parameter, a state or an auxiliary."""
@@ -104,7 +107,8 @@ class Model:
     def variables(self) -> set[sympy.Symbol]:
         """Symbols that change in time."""
         names = [*self.states, *self.auxiliary]
-        return {TIME, *map(self.symbol, names), *(one.symbol for one in self.delayed)}
+        others = [*(one.symbol for one in self.delayed), *self.differences.values()]
+        return {TIME, *map(self.symbol, names), *others}
 
     def by_state(self, expression: sympy.Expr, state: str) -> sympy.Expr:
         """The derivative by a state, of which auxiliaries are functions."""
@@ -121,6 +125,7 @@ class Model:
             values[self.symbol(name)] = sympy.exp(self.steady_state[state])
         for one in self.delayed:
             values[one.symbol] = self.steady_state[one.state]
+        values |= dict.fromkeys(self.differences.values(), sympy.S.Zero)
         return expression.subs(values)
 
 
@@ -380,6 +385,8 @@ class _Expression:
             return self.delayed(node, name, args)
         if name == "derivative" and len(args) == 2 and isinstance(args[1], ast.Name):
             return model.by_state(self.value(args[0]), args[1].id)
+        if name == "second_difference":
+            return self.second_difference(node, args)
         if name not in FUNCTIONS or len(args) != 1:
             expected = f"one of {', '.join(FUNCTIONS)} of one argument, or STATE(t - delay)"
             self.refuse(
@@ -404,3 +411,11 @@ class _Expression:
         if name in model.auxiliary:
             return sympy.exp(self.reader.delayed(model.auxiliary[name], lag))
         return self.reader.delayed(name, lag)
+
+    def second_difference(self, node: ast.Call, args: list[ast.AST]) -> sympy.Expr:
+        model = self.reader.model
+        match args:
+            case [ast.Name(id=state)] if state in model.states:
+                symbol = sympy.Symbol(f"{state}_difference", real=True)
+                return model.differences.setdefault(state, symbol)
+        self.refuse(node, f"the second difference of one of the states {', '.join(model.states)}")

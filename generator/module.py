@@ -5,7 +5,7 @@ from pathlib import Path
 import jinja2
 import sympy
 
-from generator import pointwise, series, slow, tangents
+from generator import chain, pointwise, series, slow, tangents
 from generator.definition import TIME, Model
 from generator.fortran import text_of, wrapped
 from generator.graph import Graph, in_order
@@ -29,10 +29,8 @@ def write_module(model: Model) -> str:
     balance = slow.balance_of(model)
     flow = series.flow_of(model)
     parts = {
-        "rhs": pointwise.rhs_procedure(model),
-        "jacobian": pointwise.jacobian_procedure(model),
-        "series": series.series_procedure(model),
-        "tangent_series": tangents.tangent_series_procedure(model),
+        "made": (procedures_of_chain if model.differences else procedures)(model, balance),
+        "coupled": chain.couplings(model),
         "description": description_lines(model),
         "delayed": delayed_procedure(model),
         "steady_state": steady_state_procedure(model),
@@ -42,10 +40,6 @@ def write_module(model: Model) -> str:
         "history_series": {},
         "flow_texts": flow_texts(model, flow),
     }
-    if balance:
-        parts["relaxation_rate"] = pointwise.relaxation_procedure(model, balance)
-        parts["slow_series"] = slow.slow_series_procedure(model, balance)
-        parts["slow_tangent_series"] = slow.slow_tangent_series_procedure(model, balance)
     if model.steady_state:
         parts["derivative"] = pointwise.derivative_procedure(model)
         parts["characteristic"] = pointwise.characteristic_procedure(model)
@@ -58,9 +52,39 @@ def write_module(model: Model) -> str:
     return rendered("model.f90.jinja", model=model, balance=balance, **parts)
 
 
-def write_registry(names: list[str]) -> str:
+def procedures(model: Model, balance: slow.Balance | None) -> dict[str, Procedure]:
+    """Those for the solver."""
+    parts = {
+        "rhs": pointwise.rhs_procedure(model),
+        "jacobian": pointwise.jacobian_procedure(model),
+        "series": series.series_procedure(model),
+        "tangent_series": tangents.tangent_series_procedure(model),
+    }
+    if balance:
+        parts["relaxation_rate"] = pointwise.relaxation_procedure(model, balance)
+        parts["slow_series"] = slow.slow_series_procedure(model, balance)
+        parts["slow_tangent_series"] = slow.slow_tangent_series_procedure(model, balance)
+    return parts
+
+
+def procedures_of_chain(model: Model, balance: slow.Balance | None) -> dict[str, Procedure]:
+    """Those for the solver, of all blocks."""
+    parts = {
+        "rhs": chain.rhs_procedure(model),
+        "jacobian": chain.jacobian_procedure(model),
+        "series": chain.series_procedure(model),
+        "tangent_series": chain.tangent_series_procedure(model),
+    }
+    if balance:
+        parts["relaxation_rate"] = chain.relaxation_procedure(model, balance)
+        parts["slow_series"] = chain.slow_series_procedure(model, balance)
+        parts["slow_tangent_series"] = chain.slow_tangent_series_procedure(model, balance)
+    return parts
+
+
+def write_registry(names: list[str], registry: str) -> str:
     """The text of the module that makes models by their names."""
-    return rendered("registry.f90.jinja", names=names)
+    return rendered("registry.f90.jinja", names=names, registry=registry)
 
 
 def rendered(template: str, **values) -> str:

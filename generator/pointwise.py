@@ -65,21 +65,31 @@ def rhs_procedure(model: Model) -> Procedure:
     return Procedure([*parameters, *names], [], [], lines)
 
 
-def jacobian_procedure(model: Model) -> Procedure:
-    """Derivatives of the equations by states and delayed states."""
-    entries: dict[str, sympy.Expr] = {}
+def jacobian_entries(model: Model):
+    """Derivatives that are not 0, by equation and by what; parts that they share, and their texts.
+
+    They are by the name of a state, or by the symbol of a delayed state or a second difference.
+    """
+    entries: dict[tuple, sympy.Expr] = {}
     for row, equation in enumerate(model.equations.values(), 1):
-        for column, state in enumerate(model.states, 1):
-            entries[f"by_y({row}, {column})"] = model.by_state(equation, state)
-        for number, one in enumerate(model.delayed, 1):
-            entries[f"delayed_{row}_{number}"] = equation.diff(one.symbol)
-    entries = {name: value for name, value in entries.items() if value != 0}
+        for state in model.states:
+            entries[row, state] = model.by_state(equation, state)
+        for symbol in [*(one.symbol for one in model.delayed), *model.differences.values()]:
+            entries[row, symbol] = equation.diff(symbol)
+    entries = {place: value for place, value in entries.items() if value != 0}
     shared, reduced = sympy.cse(
         list(entries.values()), symbols=sympy.numbered_symbols("part_", real=True, start=1)
     )
-    states, auxiliary, names = fetch_states(model, [*entries.values(), *guarded(model)])
-    parameters = uses_parameters(model, [*entries.values(), *guarded(model)])
-    texts = dict(zip(entries, map(text_of, reduced), strict=True))
+    return entries, shared, dict(zip(entries, map(text_of, reduced), strict=True))
+
+
+def jacobian_procedure(model: Model) -> Procedure:
+    """Derivatives of the equations by states and delayed states."""
+    entries, shared, texts = jacobian_entries(model)
+    values = [*entries.values(), *guarded(model)]
+    states, auxiliary, names = fetch_states(model, values)
+    parameters = uses_parameters(model, values)
+    columns = {state: column for column, state in enumerate(model.states, 1)}
     lines = [
         *fetch_parameters(model, parameters),
         *states,
@@ -87,28 +97,34 @@ def jacobian_procedure(model: Model) -> Procedure:
         *auxiliary,
         *(f"{name} = {text_of(value)}" for name, value in shared),
         "by_y = 0.0_wp",
-        *(f"{name} = {text}" for name, text in texts.items() if name.startswith("by_y")),
+        *(
+            f"by_y({row}, {columns[of]}) = {text}"
+            for (row, of), text in texts.items()
+            if of in columns
+        ),
     ]
     # without its delay a delayed state is the present one
     for number, one in enumerate(model.delayed, 1):
-        column = list(model.states).index(one.state) + 1
-        rows = {
-            row: texts[f"delayed_{row}_{number}"]
-            for row in range(1, len(model.states) + 1)
-            if f"delayed_{row}_{number}" in texts
-        }
+        rows = {row: text for (row, of), text in texts.items() if of == one.symbol}
         place = f"self%place({number})"
         lines += [f"if ({place} > 0) then", f"   by_z(:, {place}) = 0.0_wp"]
         lines += [f"   by_z({row}, {place}) = {text}" for row, text in rows.items()]
         lines += ["else"]
         for row, text in rows.items():
-            entry = f"by_y({row}, {column})"
+            entry = f"by_y({row}, {columns[one.state]})"
             lines.append(f"   {entry} = {entry} + {braced(text)}")
         lines += ["end if"]
-    # no number in all of them
-    lines = [line.replace("   return", "   by_z = by_y(1, 1)\n   return") for line in lines]
-    lines = [part for line in lines for part in line.split("\n")]
+    lines = without_value(lines)
     return Procedure([*parameters, *names, *(str(name) for name, _ in shared)], [], [], lines)
+
+
+def without_value(lines: list[str]) -> list[str]:
+    """Statements that also leave no number in the derivatives by delayed states."""
+    return [
+        part
+        for line in lines
+        for part in (["   by_z = by_y(1, 1)", line] if line == "   return" else [line])
+    ]
 
 
 def braced(text: str) -> str:

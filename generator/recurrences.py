@@ -85,6 +85,8 @@ class Recurrences:
     roots: list[Node]
     """Those whose coefficients are wanted."""
     constants: Constants
+    in_lanes: bool = False
+    """Whether names are arrays of lanes: then both factors of a sum are stored forwards."""
     inlined: set[Node] = field(default_factory=set)
     """Sums that stand within the expression that takes them."""
     sums: list[tuple[str, str]] = field(default_factory=list)
@@ -134,7 +136,7 @@ class Recurrences:
 
     def convolved(self, left: str, right: str) -> str:
         """The name of the sum over 0 < j < k of left_(k-j) right_j."""
-        self.backwards.setdefault(left, f"{left}_back")
+        self.backwards.setdefault(left, f"{left}_all" if self.in_lanes else f"{left}_back")
         self.forwards.setdefault(right, f"{right}_all")
         pair = (self.backwards[left], self.forwards[right])
         if pair not in self.sums:
@@ -249,11 +251,14 @@ class Recurrences:
         names = [f"total_{i + 1}" for i in range(len(self.sums))]
         for name in names:
             self.define(name)
+        left_part, right_part = (
+            ("(:, k - j, slot)", "(:, j, slot)") if self.in_lanes else ("(degree - k + j)", "(j)")
+        )
         return [
             *(f"{name} = 0.0_wp" for name in names),
             "do j = 1, k - 1",
             *(
-                f"   {name} = {name} + {left}(degree - k + j)*{right}(j)"
+                f"   {name} = {name} + {left}{left_part}*{right}{right_part}"
                 for name, (left, right) in zip(names, self.sums, strict=True)
             ),
             "end do",
@@ -261,6 +266,9 @@ class Recurrences:
 
     def stores(self) -> list[str]:
         """Keep the newest coefficients for the sums of higher orders."""
+        if self.in_lanes:
+            stored = {array: name for name, array in {**self.backwards, **self.forwards}.items()}
+            return [f"{array}(:, k, slot) = {name}" for array, name in stored.items()]
         return [
             *(f"{array}(degree - k) = {name}" for name, array in self.backwards.items()),
             *(f"{array}(k) = {name}" for name, array in self.forwards.items()),
@@ -268,4 +276,4 @@ class Recurrences:
 
     def arrays(self) -> list[str]:
         """Names of all arrays."""
-        return [*self.backwards.values(), *self.forwards.values()]
+        return list(dict.fromkeys([*self.backwards.values(), *self.forwards.values()]))

@@ -25,12 +25,15 @@ class Procedure:
     lines: list[str]
     lanes: list[str] | tuple = ()
     lane_arrays: list[str] | tuple = ()
+    others: dict[str, list[str]] | None = None
+    """Names by what stands before :: in their declarations."""
 
 
 def input_names(model: Model) -> dict[sympy.Symbol, str]:
     """States, delayed states and time by their names in statements."""
     names = {model.symbol(state): state for state in model.states}
     names |= {one.symbol: one.symbol.name for one in model.delayed}
+    names |= {symbol: symbol.name for symbol in model.differences.values()}
     return names | {TIME: "time"}
 
 

@@ -25,7 +25,7 @@ from generator.series import (
     refusals,
     uses_parameters,
 )
-from generator.tangents import Disturbances, base_series, lane_inputs, of_order, of_used
+from generator.tangents import Disturbances, Parts, base_series, lane_inputs, of_order, of_used
 
 
 @dataclass
@@ -37,7 +37,7 @@ class Balance:
     rate: sympy.Expr
     value: sympy.Expr
     slopes: dict[str, sympy.Expr]
-    """What each of the other states is multiplied by in the balance."""
+    """What each of the other states, and second differences, is multiplied by in the balance."""
     constant: sympy.Expr
 
     def text(self, names: dict[str, str], constants: Constants, *, whole: bool = True) -> str:
@@ -62,8 +62,10 @@ def balance_of(model: Model) -> Balance | None:
         if rate == 0 or rate.free_symbols & model.variables:
             return None
         value = sympy.expand(w + model.equations[state] * v / rate)
-        slopes = {name: value.diff(model.symbol(name)) for name in model.states if name != state}
-        linear = sympy.Add(*(slope * model.symbol(name) for name, slope in slopes.items()))
+        others = {name: model.symbol(name) for name in model.states if name != state}
+        others |= {symbol.name: symbol for symbol in model.differences.values()}
+        slopes = {name: value.diff(symbol) for name, symbol in others.items()}
+        linear = sympy.Add(*(slope * others[name] for name, slope in slopes.items()))
         constant = sympy.expand(value - linear)
         if any(one.free_symbols & model.variables for one in [*slopes.values(), constant]):
             return None
@@ -155,12 +157,22 @@ def slow_series_procedure(model: Model, balance: Balance) -> Procedure:
     return Procedure(reals, arrays, integers, lines)
 
 
-def slow_tangent_series_procedure(model: Model, balance: Balance) -> Procedure:
+@dataclass
+class SlowParts(Parts):
+    """The parts of a procedure for disturbances of the slow solution."""
+
+    growth: list[str]
+    """Statements that set disturbances of v' of the iteration before."""
+    steps: list[str]
+    """Statements that set the next coefficients of the other states."""
+
+
+def slow_tangent_parts(model: Model, balance: Balance) -> SlowParts:
     """Coefficients of disturbances of the slow solution: the derivative of its series."""
     flow = flow_with(model, {})
     fast, auxiliary = balance.state, balance.auxiliary
     known = {name: flow.graph.known[model.symbol(name)] for name in model.states}
-    places = {name: place for place, name in enumerate(model.states, 1)}
+    place = list(model.states).index(fast) + 1
     others = [state for state in model.states if state != fast]
     roots = [flow.rates[state] for state in others]
     nodes = in_order(roots)
@@ -169,8 +181,10 @@ def slow_tangent_series_procedure(model: Model, balance: Balance) -> Procedure:
     before, at_order, delayed = lane_inputs(model, steps)
     rate_lines = [f"d_{state}_rate = {steps.rate_text(flow.rates[state])}" for state in others]
     now = {name: steps.text(node) for name, node in known.items()}
-    fast_text = balance.text(now, constants, whole=False)
-    fast_line = f"{now[fast]} = {fast_text} - inertia*d_rate_before(:, k)"
+    taken = now | {symbol.name: f"d_{symbol.name}" for symbol in model.differences.values()}
+    fast_line = (
+        f"{now[fast]} = {balance.text(taken, constants, whole=False)} - inertia*d_rate_before(:, k)"
+    )
     statements = [*steps.before_loop()], [*steps.after_loop()]
     inertia = constants.text(1 / balance.rate)
     exponential = exponential_lines(model, auxiliary, "before", f"{auxiliary}_before", constants)
@@ -181,7 +195,7 @@ def slow_tangent_series_procedure(model: Model, balance: Balance) -> Procedure:
             "do k = 0, degree - 1",
             "   do j = 0, k + 1",
             "      d_rate_before(:used, k) = d_rate_before(:used, k) &",
-            f"         + {auxiliary}_before(k + 1 - j)*dy(j, {places[fast]}, first:last)",
+            f"         + {auxiliary}_before(k + 1 - j)*dy(j, {place}, first:last)",
             "   end do",
             "   d_rate_before(:, k) = (k + 1)*d_rate_before(:, k)",
             "end do",
@@ -194,55 +208,52 @@ def slow_tangent_series_procedure(model: Model, balance: Balance) -> Procedure:
             "end do",
             "do j = 0, degree",
             "   d_rate_before(:used, degree - 1) = d_rate_before(:used, degree - 1) &",
-            f"      + degree*{auxiliary}_before(degree - j)*dy(j, {places[fast]}, first:last)",
+            f"      + degree*{auxiliary}_before(degree - j)*dy(j, {place}, first:last)",
             "end do",
         ]
-    start, later = of_order(now, "0"), of_order(now, "k + 1")
-    start_part, part = of_used(start), of_used(now)
-    body = [
-        fast_line,
-        *at_order,
-        *statements[0],
-        *steps.loop(),
-        *statements[1],
-        *(f"dy(k, {places[state]}, first:last) = {part[state]}" for state in model.states),
-        *rate_lines,
-        "step = unit*reciprocal(k + 1)",
-        *(f"{later[state]} = step*d_{state}_rate" for state in others),
-    ]
-    lines = [
-        *fetch_places(model),
-        *constants.fetched(),
-        f"inertia = {inertia}/unit",
-        *exponential,
-        *base,
-        "do first = 1, vectors, lanes",
-        *indented(
-            [
-                "last = min(vectors, first + lanes - 1)",
-                "used = last - first + 1",
-                *before,
-                "d_rate_before = 0.0_wp",
-                *growth,
-                *(f"{start[state]} = 0.0_wp" for state in others),
-                *(f"{start_part[state]} = dy(0, {places[state]}, first:last)" for state in others),
-                "do k = 0, degree",
-                *indented(body),
-                "end do",
-            ]
-        ),
-        "end do",
-    ]
+    later = of_order(now, "k + 1")
     own = ["by_unit"] * (integral is not None)
-    return Procedure(
-        [*constants.scalars(), *reals, *own, "inertia", "step"],
-        [*arrays, f"{auxiliary}_before"],
-        [*place_names(model), "first", "j", "k", "last", "used"],
-        lines,
+    return SlowParts(
+        constants=[*fetch_places(model), *constants.fetched(), f"inertia = {inertia}/unit"],
+        base=[*exponential, *base],
+        inverses=[],
+        delayed=before,
+        other_starts=[],
+        body=[
+            fast_line,
+            *at_order,
+            *statements[0],
+            *steps.loop(),
+            *statements[1],
+        ],
+        texts=now,
+        reals=[*constants.scalars(), *reals, *own, "inertia", "step"],
+        arrays=[*arrays, f"{auxiliary}_before"],
+        integers=[*place_names(model), "first", "j", "k", "last", "used"],
         lanes=[
             *(text for text in now.values() if "(" not in text),
             *(f"d_{state}_rate" for state in others),
             *steps.lane_names(),
         ],
         lane_arrays=["d_rate_before", *steps.arrays(), *delayed],
+        growth=["d_rate_before = 0.0_wp", *growth],
+        steps=[
+            *rate_lines,
+            "step = unit*reciprocal(k + 1)",
+            *(f"{later[state]} = step*d_{state}_rate" for state in others),
+        ],
+    )
+
+
+def slow_tangent_series_procedure(model: Model, balance: Balance) -> Procedure:
+    """Coefficients of disturbances of the slow solution: the derivative of its series."""
+    parts = slow_tangent_parts(model, balance)
+    places = {name: place for place, name in enumerate(model.states, 1)}
+    others = {state: place for state, place in places.items() if state != balance.state}
+    part = of_used(parts.texts)
+    stores = [f"dy(k, {place}, first:last) = {part[state]}" for state, place in places.items()]
+    return parts.of_one_block(
+        [*parts.delayed, *parts.growth, *parts.starts(others)],
+        [*parts.body, *stores, *parts.steps],
+        "degree",
     )

@@ -280,7 +280,66 @@ def of_used(texts: dict[str, str]) -> dict[str, str]:
     }
 
 
-def tangent_series_procedure(model: Model) -> Procedure:
+@dataclass
+class Parts:
+    """The parts of a procedure for disturbances."""
+
+    constants: list[str]
+    """Statements that set what does not change in time."""
+    base: list[str]
+    """Statements that compute series of the solution, for all disturbances."""
+    inverses: list[str]
+    """Statements that set inverses of their coefficients 0."""
+    delayed: list[str]
+    """Statements that set delayed disturbances of some lanes."""
+    other_starts: list[str]
+    """Statements that set coefficients 0 of what is no state."""
+    body: list[str]
+    """Statements of order k."""
+    texts: dict[str, str]
+    """Disturbances of the states, and of auxiliaries, at order k."""
+    reals: list[str]
+    arrays: list[str]
+    integers: list[str]
+    lanes: list[str]
+    lane_arrays: list[str]
+
+    def starts(self, states: dict[str, int]) -> list[str]:
+        """Statements that set coefficients 0 of states, by their places."""
+        start = of_order(self.texts, "0")
+        part = of_used(start)
+        return [
+            *(f"{start[state]} = 0.0_wp" for state in states),
+            *(f"{part[state]} = dy(0, {place}, first:last)" for state, place in states.items()),
+        ]
+
+    def of_one_block(self, begin: list[str], body: list[str], last: str) -> Procedure:
+        """The procedure, with statements before all orders and of order k."""
+        lines = [
+            *self.constants,
+            *self.base,
+            *self.inverses,
+            "do first = 1, vectors, lanes",
+            *indented(
+                [
+                    "last = min(vectors, first + lanes - 1)",
+                    "used = last - first + 1",
+                    *begin,
+                    f"do k = 0, {last}",
+                    *indented(body),
+                    "end do",
+                ]
+            ),
+            "end do",
+        ]
+        return Procedure(
+            *(self.reals, self.arrays, self.integers, lines),
+            lanes=self.lanes,
+            lane_arrays=self.lane_arrays,
+        )
+
+
+def tangent_parts(model: Model) -> Parts:
     """Coefficients 1 to degree of disturbances from their values."""
     flow = flow_of(model)
     known = {name: flow.graph.known[model.symbol(name)] for name in flow.rates}
@@ -302,8 +361,6 @@ def tangent_series_procedure(model: Model) -> Procedure:
     base, reals, arrays = base_series(model, list(steps.series), flow, constants, "y")
     now = {name: steps.text(node) for name, node in known.items()}
     start, later = of_order(now, "0"), of_order(now, "k + 1")
-    start_part, part = of_used(start), of_used(later)
-    states = list(model.states)
     body = [
         *at_order,
         *statements[0],
@@ -316,47 +373,38 @@ def tangent_series_procedure(model: Model) -> Procedure:
             f"{later[state]} = by_{auxiliary}*({later[auxiliary]} - {shifted[state]})"
             for state, auxiliary in driven.items()
         ),
-        *(
-            f"dy(k + 1, {place}, first:last) = {part[state]}"
-            for place, state in enumerate(states, 1)
-        ),
     ]
-    lines = [
-        *fetch_places(model),
-        *constants.fetched(),
-        *base,
-        *(f"by_{auxiliary} = 1.0_wp/{auxiliary}_series(0)" for auxiliary in driven.values()),
-        "do first = 1, vectors, lanes",
-        *indented(
-            [
-                "last = min(vectors, first + lanes - 1)",
-                "used = last - first + 1",
-                *before,
-                *(f"{start[state]} = 0.0_wp" for state in states),
-                *(
-                    f"{start_part[state]} = dy(0, {place}, first:last)"
-                    for place, state in enumerate(states, 1)
-                ),
-                *(
-                    f"{start[auxiliary]} = {auxiliary}_series(0)*{start[state]}"
-                    for state, auxiliary in driven.items()
-                ),
-                "do k = 0, degree - 1",
-                *indented(body),
-                "end do",
-            ]
-        ),
-        "end do",
-    ]
-    return Procedure(
-        [*constants.scalars(), *reals, *(f"by_{one}" for one in driven.values()), "step"],
-        arrays,
-        [*place_names(model), "first", "j", "k", "last", "used"],
-        lines,
+    return Parts(
+        constants=[*fetch_places(model), *constants.fetched()],
+        base=base,
+        inverses=[f"by_{one} = 1.0_wp/{one}_series(0)" for one in driven.values()],
+        delayed=before,
+        other_starts=[
+            f"{start[auxiliary]} = {auxiliary}_series(0)*{start[state]}"
+            for state, auxiliary in driven.items()
+        ],
+        body=body,
+        texts=now,
+        reals=[*constants.scalars(), *reals, *(f"by_{one}" for one in driven.values()), "step"],
+        arrays=arrays,
+        integers=[*place_names(model), "first", "j", "k", "last", "used"],
         lanes=[
             *(text for text in now.values() if "(" not in text),
             *(f"d_{name}_rate" for name in rates),
             *steps.lane_names(),
         ],
         lane_arrays=[*steps.arrays(), *delayed],
+    )
+
+
+def tangent_series_procedure(model: Model) -> Procedure:
+    """Coefficients 1 to degree of disturbances from their values."""
+    parts = tangent_parts(model)
+    places = {state: place for place, state in enumerate(model.states, 1)}
+    later = of_used(of_order(parts.texts, "k + 1"))
+    stores = [f"dy(k + 1, {at}, first:last) = {later[state]}" for state, at in places.items()]
+    return parts.of_one_block(
+        [*parts.delayed, *parts.starts(places), *parts.other_starts],
+        [*parts.body, *stores],
+        "degree - 1",
     )

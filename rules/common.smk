@@ -14,7 +14,10 @@ from scripts.workflow.script_imports import modules_of
 wildcard_constraints:
     law="|".join(config["laws"]),
     scene="|".join(config["scenes"]),
+    chain="|".join(config["chains"]),
     plane="|".join(config["hopf_curves"]),
+    mode_plane="|".join(config["chain_modes"]["planes"]),
+    mode=r"\d+",
     cycle_line="|".join(config["cycles"]["lines"]),
     line="|".join(config["routes"]["lines"]),
     atlas_plane="|".join(config["atlas"]["planes"]),

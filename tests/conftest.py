@@ -16,7 +16,16 @@ from pathlib import Path
 
 import pytest
 import xarray as xr
-from namelist_groups import CASES, EXPONENTS, MEASURE, OBSERVATION, POINTS, REFERENCE, in_groups
+from namelist_groups import (
+    CASES,
+    EXPONENTS,
+    MEASURE,
+    OBSERVATION,
+    POINTS,
+    REFERENCE,
+    SYNCHRONY,
+    in_groups,
+)
 
 from scripts.files.read_config import read
 from scripts.namelists.write_namelist import write_namelist
@@ -28,7 +37,7 @@ SMOKE = ("--configfile", "config/smoke.yaml")
 """Arguments for a run in smoke size; further config files may follow, targets must stand before."""
 PROGRAMS = [
     *("trajectory", "spectrum", "hopf", "linear_stability", "velocity_step", "exponents", "cycles"),
-    *("attractors", "measure", "reference", "slip_events"),
+    *("attractors", "measure", "reference", "slip_events", "synchrony"),
 ]
 BUILT = "spectrum"
 """The program that the smoke run builds."""
@@ -343,6 +352,7 @@ def good_groups(good_inputs) -> dict[str, dict[str, dict]]:
     """Namelist groups that each program accepts, to change."""
     groups = {program: {group: good_inputs[program]} for program, group in GROUPS.items()}
     groups["exponents"] = {"scene": good_inputs["trajectory"], "exponents": EXPONENTS}
+    groups["synchrony"] = {"scene": good_inputs["trajectory"], "synchrony": SYNCHRONY}
     groups["attractors"] = {"observation": OBSERVATION, "points": POINTS}
     groups["measure"] = {"cases": CASES, "measure": MEASURE}
     groups["reference"] = {"cases": CASES, "reference": REFERENCE}

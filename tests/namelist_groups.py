@@ -67,6 +67,10 @@ OBSERVATION = {
     "method": "auto",
     "most_steps": 100000,
 }
+SYNCHRONY = {
+    **{"s_window": [1.0, 2.0], "count": 2, "t_end": 60.0, "t_turning": 5.0},
+    **{"interval": 5.0, "blocks": 2},
+}
 POINTS = {
     "name": "a part",
     **{"epsilon_window": [0.1, 0.5], "epsilon_count": 3, "epsilon_part": [2, 3]},

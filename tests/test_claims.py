@@ -83,7 +83,7 @@ def test_claims_of_the_paper_are_those_of_a_good_file(default_config):
     config, claims = checked(copy.deepcopy(default_config)), ledger.paper_claims()
     shown = {claim["look_at"] for claim in claims.values() if "look_at" in claim}
     assert ledger.check_user_claims(copy.deepcopy(claims), config, shown) == claims
-    assert len({claim["claim"] for claim in claims.values()}) == len(claims) == 60
+    assert len({claim["claim"] for claim in claims.values()}) == len(claims) == 61
     assert list(claims)[::28] == ["hopf_by_delay", "figure_2", "omori_utsu"]
     tested = {name for claim in claims.values() for name in claim.get("test", {})}
     assert tested == set(declare.TESTS)

@@ -34,7 +34,7 @@ def test_exponents_of_a_fixed_point_are_its_roots(programs, groups):
     np.testing.assert_allclose(made.value, np.tile(known, (4, 1)), atol=1e-3)
     np.testing.assert_allclose(made.value[0].sum(), -(1 + ratio), atol=1e-4)
     # in the second half it is close enough that volumes shrink as at rest
-    at_rest = made.block_value.isel(block=slice(10, 20))
+    at_rest = made.block_value.isel(time_block=slice(10, 20))
     np.testing.assert_allclose(at_rest.sum("exponent"), -(1 + ratio), atol=1e-4)
     assert made.dimension.values.tolist() == [0, 0, 0, 0]
     assert made.t[-1] == pytest.approx(500)

@@ -178,7 +178,7 @@ def test_characteristic_function_of_the_papers_law_is_5():
 def test_equation_stands_above_each_procedure():
     """And the lines have a length that compilers take."""
     text = write_module(read_model(block()))
-    assert "!>     w' = -gamma**2/v*(u + friction/xi)\n   pure subroutine rhs" in text
+    assert "!>     w' = -gamma**2/v*(stretch + friction/xi)\n   pure subroutine rhs" in text
     assert "!>     v' = -gamma**2*(u + (theta + w)/xi)\n   pure subroutine series" in text
     assert max(map(len, text.splitlines())) <= 132
     assert not re.search(r"[ \t]$", text, re.MULTILINE)

@@ -8,8 +8,8 @@ from conftest import ROOT
 
 FORTRAN = ROOT / "fortran"
 GENERATOR = ROOT / "generator"
-REGISTRY = "model_registry"
-"""The module that is made when the project is built."""
+REGISTRIES = ("model_registry", "chain_registry")
+"""Modules that are made when the project is built."""
 MAY_USE = {
     "bindings": {"bindings", "api"},
     "dde": {"dde", "api"},
@@ -79,7 +79,7 @@ def uses_of(text: str) -> list[str]:
 def layers() -> dict[str, str]:
     """Layer of each module; those that others may use are layers of their own."""
     by_folder = {name_of(path): layer_of(path) for path in MODULES}
-    made = {REGISTRY: "generator"}
+    made = dict.fromkeys(REGISTRIES, "generator")
     return by_folder | made | dict.fromkeys(API, "api") | dict.fromkeys(FILES, "files")
 
 

@@ -11,7 +11,7 @@ KINDS = {
     *("trajectories", "spectra", "exponents", "slip_events", "linear_stability", "hopf", "cycles"),
     *("friction", "measurements/stability", "measurements/trust", "measurements/work_precision"),
     *("attractors/scenes", "attractors/basins", "attractors/routes", "attractors/atlas"),
-    "attractors/laws",
+    *("attractors/laws", "chains", "modes", "synchrony"),
 }
 """Folders with NetCDF files, each with those of one program."""
 

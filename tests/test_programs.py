@@ -23,6 +23,7 @@ REFUSED = {
     "velocity_step": ("velocity_step", "samples", 1, "samples = 1; expected a whole number >= 2"),
     "slip_events": ("scene", "xi", -1.0, "scene 'torus': xi = -1.0; expected a finite number > 0"),
     "exponents": ("exponents", "blocks", 1, "exponents%blocks = 1; expected a whole number >= 2"),
+    "synchrony": ("synchrony", "count", 1, "synchrony%count = 1; expected a whole number >= 2"),
     "attractors": ("observation", "interval", 0.0, "observation: interval = 0.0; expected a "),
     "measure": ("measure", "repeats", -1, "repeats = -1; expected a whole number >= 0"),
     "reference": ("reference", "most_steps", 0, "most_steps = 0.0; expected a finite number >= "),

@@ -1,5 +1,6 @@
 !> Lyapunov exponents of one scene, at its own tolerance, at others, and with shorter steps.
 program exponents
+   use block_parameters, only: block_history_type
    use dde, only: integration_options
    use dde_errors, only: error_type
    use exponents_files, only: exponents_settings_type, read_exponents, write_exponents
@@ -7,11 +8,12 @@ program exponents
    use namelist_input, only: elements
    use program_arguments, only: get_paths, stop_on
    use progress, only: progress_type
-   use scene_input, only: scene_type
+   use scene_input, only: read_histories, scene_type
    use spring_block, only: spring_block_type
    use steady_sliding, only: comes_to_rest
    implicit none (type, external)
    character(len=:), allocatable :: namelist_path, output_path
+   type(block_history_type), allocatable :: histories(:)
    type(error_type), allocatable :: error
    type(exponents_settings_type) :: settings
    type(growth_type), allocatable :: measured(:)
@@ -26,7 +28,9 @@ program exponents
    call get_paths(namelist_path, output_path)
    call read_exponents(namelist_path, scene, settings, error)
    call stop_on(error)
-   block_model = spring_block_type(scene%parameters, scene%history)
+   call read_histories(namelist_path, scene, histories, error)
+   call stop_on(error)
+   block_model = spring_block_type(scene%parameters, histories)
    own = scene%options()
    associate (tolerances => elements(settings%check_tolerances), &
               steps => elements(settings%check_steps))
@@ -51,6 +55,6 @@ program exponents
       if (allocated(error)) exit
    end do
    call stop_on(error)
-   call write_exponents(output_path, scene, settings, options, measured, error)
+   call write_exponents(output_path, scene, histories, settings, options, measured, error)
    call stop_on(error)
 end program exponents

@@ -1,14 +1,16 @@
 !> Trajectory of one scene: the delayed block integrated from its history to t_end.
 program trajectory
+   use block_parameters, only: block_history_type
    use dde, only: integrate, integration_result
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use program_arguments, only: get_paths, stop_on
-   use scene_input, only: read_scene, scene_type
+   use scene_input, only: read_histories, read_scene, scene_type
    use spring_block, only: spring_block_type
    use trajectory_output, only: trajectory_writer_type
    implicit none (type, external)
    character(len=:), allocatable :: namelist_path, output_path
+   type(block_history_type), allocatable :: histories(:)
    type(error_type), allocatable :: error
    type(integration_result) :: outcome
    type(scene_type) :: scene
@@ -18,9 +20,11 @@ program trajectory
    call get_paths(namelist_path, output_path)
    call read_scene(namelist_path, scene, error)
    call stop_on(error)
+   call read_histories(namelist_path, scene, histories, error)
+   call stop_on(error)
 
-   block_model = spring_block_type(scene%parameters, scene%history)
-   writer = trajectory_writer_type(output_path, scene)
+   block_model = spring_block_type(scene%parameters, histories)
+   writer = trajectory_writer_type(output_path, scene, histories)
    call stop_on(writer%file%error)
    call integrate(block_model, 0.0_wp, scene%t_end, scene%options(), outcome, error, writer)
    if (allocated(error)) call writer%file%discard()

@@ -50,9 +50,20 @@ module model_problem
       !> Where each delayed state of the definition is among the delayed values of the problem; 0
       !> where its delay is 0
       integer, allocatable :: place(:)
+      !> Blocks of a chain, and delayed values of each
+      integer :: blocks = 1, delays = 0
+      !> Neighbours of the blocks of a chain on both sides; 0: the plate, which is at rest
+      integer, allocatable :: left(:), right(:)
+      !> Largest distance of neighbours, at least 1
+      integer :: reach = 1
+      !> Of a chain whose blocks move alike: minus the second difference of a disturbance over the
+      !> disturbance, an eigenvalue
+      real(wp) :: mode = 0.0_wp
    contains
       !> Give the model its parameters and its past
       procedure :: set
+      !> Equations of a chain that contain second differences
+      procedure :: couplings => no_couplings
       procedure :: initial => past_state
       procedure :: history => past_component
       procedure :: past_series => past_component_series
@@ -125,7 +136,8 @@ module model_problem
 
 contains
 
-   !> Give a model its parameters and its past. A delay of 0 is none unless it is kept.
+   !> Give a model its parameters and its past. A delay of 0 is none unless it is kept. A chain has
+   !> its neighbours before.
    pure subroutine set(self, parameters, past, keep_delays)
       class(model_type), intent(inout) :: self
       !> Parameters, in the order of the definition
@@ -137,7 +149,7 @@ contains
       integer, allocatable :: component(:)
       real(wp), allocatable :: lag(:)
       logical, allocatable :: kept(:)
-      integer :: k
+      integer :: block, k, states
 
       self%n = size(past)
       self%analytic = .true.
@@ -148,9 +160,44 @@ contains
       kept = lag > 0.0_wp
       if (present(keep_delays)) kept = kept .or. keep_delays
       self%place = merge([(count(kept(:k)), k=1, size(lag))], 0, kept)
-      self%component = pack(component, kept)
-      self%lag = pack(lag, kept)
+      if (allocated(self%left)) self%blocks = size(self%left)
+      self%delays = count(kept)
+      states = self%n/self%blocks
+      self%component = [(pack(component, kept) + states*(block - 1), block=1, self%blocks)]
+      self%lag = [(pack(lag, kept), block=1, self%blocks)]
+      if (allocated(self%left)) call set_band(self, states)
    end subroutine set
+
+   !> The band of the Jacobian of a chain, and the equations of each delayed value.
+   pure subroutine set_band(self, states)
+      class(model_type), intent(inout) :: self
+      !> States of a block
+      integer, intent(in) :: states
+      integer, allocatable :: column(:), row(:)
+      integer :: block, k
+
+      call self%couplings(row, column)
+      self%reach = 1
+      do block = 1, self%blocks
+         associate (beside => [self%left(block), self%right(block)])
+            self%reach = max(self%reach, maxval(abs(beside - block), mask=beside > 0))
+         end associate
+      end do
+      self%lower = min(self%n - 1, max(states - 1, states*self%reach + maxval(row - column)))
+      self%upper = min(self%n - 1, max(states - 1, states*self%reach + maxval(column - row)))
+      self%rows = reshape([((states*(block - 1) + 1, states*block, k=1, self%delays), &
+                            block=1, self%blocks)], [2, self%blocks*self%delays])
+   end subroutine set_band
+
+   !> None.
+   pure subroutine no_couplings(self, row, column)
+      class(model_type), intent(in) :: self
+      !> Numbers of equations within a block, and of the states of which they take a second
+      !> difference
+      integer, allocatable, intent(out) :: row(:), column(:)
+
+      allocate (row(0), column(0))
+   end subroutine no_couplings
 
    !> The past holds up to the initial time.
    pure subroutine past_state(self, y)

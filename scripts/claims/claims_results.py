@@ -21,6 +21,7 @@ FILES = {
     "friction": "<results>/friction/velocity_step.nc",
     "curves": "<results>/hopf/{plane}.nc",
     "cycles": "<results>/cycles/{line}.nc",
+    "chains": "<results>/chains/{chain}.nc",
     "spectra": "<results>/spectra/{scene}.nc",
     "slip_events": "<results>/slip_events/{scene}.nc",
     "routes": "<results>/tables/routes/{route}.tsv",

@@ -6,6 +6,7 @@ from pathlib import Path
 from scripts.claims import (  # noqa: F401  (they declare the claims)
     claims_of_attractors,
     claims_of_bifurcations,
+    claims_of_chains,
     claims_of_cycles,
     claims_of_events,
     claims_of_formulas,
@@ -27,7 +28,7 @@ from scripts.results.paths import cycles_of_lines, exponents_of_scenes, runs_of_
 
 TABLES = [Path(path).name for path in FILES.values() if path.endswith(".tsv") and "{" not in path]
 """Tables that a claim may tell the reader to look at."""
-KINDS = ("scene", "plane", "route")
+KINDS = ("scene", "plane", "route", "chain")
 """What parameters of tests name."""
 
 
@@ -54,6 +55,7 @@ def _rules(config: dict) -> dict:
         "scene": list(config["scenes"]),
         "plane": list(config["hopf_curves"]),
         "route": list(config["routes"]["lines"]),
+        "chain": list(config["chains"]),
     }
     tests = _allow_keys({name: _rules_of(test, known) for name, test in TESTS.items()})
     claim = {"properties": {"test": tests}}

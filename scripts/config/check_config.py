@@ -6,7 +6,7 @@ from difflib import get_close_matches
 
 import jsonschema
 
-from scripts.config import check_attractors, check_laws
+from scripts.config import check_attractors, check_chains, check_laws
 from scripts.config.check_attractors import wrong
 from scripts.config.ranges import range_of, rules
 from scripts.files.read_config import ConfigError, parse
@@ -160,6 +160,7 @@ def _contradictions(config: dict):
         yield from _contradictions_of_family(config, name, family)
     yield from _contradictions_of_measured(config["work_precision"], scenes)
     yield from check_attractors.contradictions(config)
+    yield from check_chains.contradictions(config)
 
 
 def _contradictions_of_scene(place: str, scene: dict):

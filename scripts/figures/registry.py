@@ -26,6 +26,8 @@ from types import ModuleType
 
 from scripts.figures import (
     atlas,
+    chain,
+    chain_modes,
     cycles,
     events,
     exponents,
@@ -39,6 +41,7 @@ from scripts.figures import (
     routes,
     scene,
     stability,
+    synchrony,
     true_torus,
     work_precision,
 )
@@ -77,6 +80,9 @@ OF_THE_PAPER = {
     "routes": Figure("Atlas", routes),
     "cycles": Figure("Atlas", cycles),
     "friction_laws": Figure("Atlas", friction_laws),
+    "chain": Figure("Chains", chain),
+    "synchrony": Figure("Chains", synchrony),
+    "chain_modes": Figure("Chains", chain_modes),
 }
 """By name, in the order of the page."""
 FIGURES = list(OF_THE_PAPER)
@@ -94,6 +100,7 @@ OF_USERS = {
     "routes": Figure("Routes", routes, ("routes", "lines")),
     "cycles": Figure("Cycles", cycles, ("cycles", "lines")),
     "atlas": Figure("Atlas", atlas, ("atlas", "planes")),
+    "chains": Figure("Chains", chain, ("chains",)),
 }
 """By kind."""
 

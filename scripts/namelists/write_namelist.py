@@ -7,14 +7,20 @@ import f90nml
 from scripts.files.outputs import logged, written
 from scripts.files.tsv import read_table
 
+BLOCKS = "blocks"
+"""The group with a list for each quantity of the blocks of a chain."""
+
 
 def write_namelist(path: Path, groups: dict[str, dict]) -> None:
     """Write groups of values; the file is complete or absent.
 
-    A program reads them from one namelist group, &settings: there a key is `group%key`.
+    A program reads them from one namelist group, &settings: there a key is `group%key`. Lists of
+    a chain's blocks are a namelist group of their own.
     """
+    lists = {BLOCKS: groups[BLOCKS]} if BLOCKS in groups else {}
+    settings = {key: value for key, value in groups.items() if key not in lists}
     with written(path) as unfinished:
-        f90nml.Namelist({"settings": groups}).write(unfinished, force=True)
+        f90nml.Namelist({"settings": settings, **lists}).write(unfinished, force=True)
 
 
 def end_at_horizons(groups: dict[str, dict], rows: list[dict]) -> dict[str, dict]:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import KW_ONLY, dataclass, field
 from pathlib import PurePath
 
-from scripts.namelists import attractor_surveys
+from scripts.namelists import attractor_surveys, chains
 from scripts.namelists import program_groups as groups
 
 # Priorities: the paper's figures can be looked at while long runs go on. Long runs start before
@@ -88,6 +88,9 @@ RUNS = [
         groups.attractors_groups,
         **LONG_RUN,
     ),
+    Run("chain_trajectory", "trajectory", "chains/{chain}.nc", chains.chain_groups),
+    Run("mode_curves", "hopf", "modes/{mode_plane}/{mode}.nc", chains.mode_groups),
+    Run("synchrony_runs", "synchrony", "synchrony/{scene}.nc", chains.synchrony_groups, **LONG_RUN),
     Run(
         *("reference", "reference", "references/{study}/{case}.tsv", groups.reference_groups),
         **LONG_RUN,

@@ -24,6 +24,7 @@ SECTIONS = {
     "scenes": ("scenes",),
     "atlas": ("atlas", "planes"),
     "planes": ("hopf_curves",),
+    "chains": ("chains",),
     "routes": ("routes", "lines"),
     "cycles": ("cycles", "lines"),
     "basins": ("basins", "places"),

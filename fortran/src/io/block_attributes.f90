@@ -1,8 +1,8 @@
 !> Parameters of the block and scenes in files.
 module block_attributes
-   use block_parameters, only: block_parameters_type, describe_law, history_names, &
-                               parameter_names, vector_of
-   use dde_kinds, only: wp
+   use block_parameters, only: block_history_type, block_parameters_type, describe_law, &
+                               history_names, parameter_names, vector_of
+   use dde_kinds, only: int64, wp
    use model_problem, only: description_type
    use netcdf_output, only: output_file_type
    use scene_input, only: scene_type
@@ -52,6 +52,11 @@ contains
       integer :: i
 
       call put_law(file, parameters)
+      if (parameters%is_chain()) then
+         call file%attribute("blocks", int(parameters%blocks, int64))
+         call file%attribute("kappa", parameters%kappa)
+         call file%attribute("ends", trim(parameters%ends))
+      end if
       vector = vector_of(parameters)
       do i = 1, size(vector)
          if (present(but)) then
@@ -61,20 +66,32 @@ contains
       end do
    end subroutine put_parameters
 
-   !> Write name, parameters and history of a scene as attributes.
-   subroutine put_scene(file, scene)
+   !> Write name and parameters of a scene as attributes, and the history: that of a chain as
+   !> variables over its blocks.
+   subroutine put_scene(file, scene, histories)
       !> The file
       type(output_file_type), intent(inout) :: file
       !> The scene
       type(scene_type), intent(in) :: scene
-      real(wp) :: values(size(history_names))
-      integer :: i
+      !> Values for t <= 0 of each block
+      type(block_history_type), intent(in) :: histories(:)
+      real(wp) :: values(size(history_names), size(histories))
+      integer :: blocks, i
 
       call file%attribute("scene", trim(scene%name))
       call put_parameters(file, scene%parameters)
-      values = [scene%history%theta, scene%history%u, scene%history%v]
-      do i = 1, size(values)
-         call file%attribute("history_"//trim(history_names(i)), values(i))
+      values(1, :) = histories%theta
+      values(2, :) = histories%u
+      values(3, :) = histories%v
+      if (scene%parameters%is_chain()) blocks = file%dimension("block", size(histories))
+      do i = 1, size(history_names)
+         associate (name => "history_"//trim(history_names(i)))
+            if (scene%parameters%is_chain()) then
+               call file%column(blocks, name, values(i, :), trim(history_names(i))//" for t <= 0")
+            else
+               call file%attribute(name, values(i, 1))
+            end if
+         end associate
       end do
    end subroutine put_scene
 end module block_attributes

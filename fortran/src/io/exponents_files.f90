@@ -2,6 +2,7 @@
 module exponents_files
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use block_attributes, only: put_scene
+   use block_parameters, only: block_history_type
    use dde, only: integration_options
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
@@ -64,11 +65,13 @@ contains
    end subroutine read_exponents
 
    !> Write the exponents of a scene: the first run has its own settings, the others are checks.
-   subroutine write_exponents(path, scene, settings, options, measured, error)
+   subroutine write_exponents(path, scene, histories, settings, options, measured, error)
       !> Path of the file
       character(len=*), intent(in) :: path
       !> The scene
       type(scene_type), intent(in) :: scene
+      !> Values for t <= 0 of each block
+      type(block_history_type), intent(in) :: histories(:)
       !> How they were measured
       type(exponents_settings_type), intent(in) :: settings
       !> Tolerances and longest steps
@@ -103,7 +106,7 @@ contains
          call file%create(path, "Lyapunov exponents of the spring block with delayed friction")
          ids = [file%dimension("exponent", settings%count), &
                 file%dimension("run", size(options), coordinates="tolerance longest_step"), &
-                file%dimension("t", size(time)), file%dimension("block", settings%blocks)]
+                file%dimension("t", size(time)), file%dimension("time_block", settings%blocks)]
          call file%column(ids(2), "tolerance", options%relative, &
                           "tolerance, the scene's own first")
          call file%column(ids(2), "longest_step", &
@@ -121,7 +124,7 @@ contains
                          "absolute value up to which an exponent has no sign")
          call file%table(ids([1, 4]), "block_value", blocks, "exponent in each block")
          call file%table(ids([1, 3]), "running_average", averages, "plain average up to a time")
-         call put_scene(file, scene)
+         call put_scene(file, scene, histories)
          call file%attribute("method", trim(scene%method))
          call file%attribute("t_begin", first%t_begin)
          call file%attribute("t_end", settings%t_end)

@@ -45,8 +45,8 @@ module netcdf_output
       type(error_type), allocatable, public :: error
    contains
       generic :: column => column_of_reals, column_of_integers
-      procedure :: create, dimension, real_variable, put, words, flags, table, attribute, finish, &
-         discard
+      procedure :: create, dimension, real_variable, real_table, put, put_rows, words, flags, &
+         table, attribute, finish, discard
       procedure, private :: note, variable, column_of_reals, column_of_integers
    end type output_file_type
 
@@ -88,16 +88,19 @@ contains
       call self%discard()
    end subroutine note
 
-   !> Define a dimension.
+   !> Define a dimension, if there is none of this name.
    integer function dimension(self, name, length, coordinates) result(id)
       class(output_file_type), intent(inout) :: self
       character(len=*), intent(in) :: name
       integer, intent(in) :: length
       !> Names of variables that say where along it a value belongs, with blanks between
       character(len=*), intent(in), optional :: coordinates
+      integer :: i
 
       id = -1
       if (allocated(self%error)) return
+      id = findloc([(self%axes(i)%name == name, i=1, size(self%axes))], .true., dim=1)
+      if (id > 0) return
       call self%note(nf90_def_dim(self%id, name, length, id))
       self%axes = [self%axes, axis_type(name, length)]
       if (present(coordinates)) self%axes(size(self%axes))%coordinates = coordinates
@@ -245,13 +248,36 @@ contains
       character(len=*), intent(in) :: name
       real(wp), intent(in) :: values(:, :)
       character(len=*), intent(in) :: long_name
-      integer :: id
+
+      call self%put_rows(self%real_table(name, dimensions, long_name), values)
+   end subroutine table
+
+   !> Define a variable of nondimensional real numbers over two dimensions; NaN is a missing value.
+   integer function real_table(self, name, dimensions, long_name) result(id)
+      class(output_file_type), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      !> Dimensions of the variable, the faster first
+      integer, intent(in) :: dimensions(2)
+      character(len=*), intent(in) :: long_name
 
       id = self%variable(name, nf90_double, dimensions, long_name)
       call self%attribute("units", "1", id)
       call self%attribute("_FillValue", ieee_value(1.0_wp, ieee_quiet_nan), id)
-      call self%note(nf90_put_var(self%id, id, values))
-   end subroutine table
+   end function real_table
+
+   !> Write values of a variable over two dimensions.
+   subroutine put_rows(self, variable, values, first)
+      class(output_file_type), intent(inout) :: self
+      integer, intent(in) :: variable
+      real(wp), intent(in) :: values(:, :)
+      !> Index of the first along the slower dimension, 1 if it is left out
+      integer, intent(in), optional :: first
+      integer :: start(2)
+
+      start = 1
+      if (present(first)) start(2) = first
+      call self%note(nf90_put_var(self%id, variable, values, start=start))
+   end subroutine put_rows
 
    !> Set an attribute of the file or of a variable.
    subroutine attribute(self, name, value, variable)

@@ -3,13 +3,13 @@ module scene_input
    use block_parameters, only: block_history_type, block_parameters_type, missing_history, &
                                missing_parameters
    use dde, only: integration_options
-   use dde_errors, only: error_type
+   use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use namelist_input, only: element_length, namelist_file_type, word_length
    use value_checks, only: missing
    implicit none (type, external)
    private
-   public :: check_scene, read_scene, scene_type
+   public :: check_scene, read_histories, read_scene, scene_type
 
    !> One parameter set; all nondimensional.
    type :: scene_type
@@ -17,7 +17,7 @@ module scene_input
       character(len=word_length) :: name = ""
       !> Parameters
       type(block_parameters_type) :: parameters = missing_parameters
-      !> Values for t <= 0
+      !> Values for t <= 0; of a chain those of its first block
       type(block_history_type) :: history = missing_history
       !> Last time
       real(wp) :: t_end = missing
@@ -56,6 +56,44 @@ contains
       call check_scene(path, scene, error)
    end subroutine read_scene
 
+   !> Read and check the values for t <= 0 of each block: of a chain they are lists in the group
+   !> `blocks`.
+   subroutine read_histories(path, scene, histories, error)
+      !> Path of the namelist file
+      character(len=*), intent(in) :: path
+      !> The scene, which was read without an error
+      type(scene_type), intent(in) :: scene
+      !> Values of each block
+      type(block_history_type), allocatable, intent(out) :: histories(:)
+      !> Error if the group cannot be read, or a value is out of range
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), allocatable, dimension(:) :: theta, u, v
+      character(len=256) :: reason
+      integer :: i, status, unit
+      namelist /blocks/ theta, u, v
+
+      if (.not. scene%parameters%is_chain()) then
+         histories = [scene%history]
+         return
+      end if
+      allocate (theta(scene%parameters%blocks), source=missing)
+      allocate (u, v, source=theta)
+      open (newunit=unit, file=path, status="old", action="read", iostat=status, iomsg=reason)
+      if (status == 0) read (unit, nml=blocks, iostat=status, iomsg=reason)
+      close (unit)
+      if (status /= 0) then
+         call raise(error, path//": namelist group &blocks: "//trim(reason) &
+                    //"; expected theta, u and v of "//text(scene%parameters%blocks)//" blocks")
+         return
+      end if
+      histories = [(block_history_type(theta(i), u(i), v(i)), i=1, size(v))]
+      do i = 1, size(histories)
+         call histories(i)%check(path//": block "//text(i)//" of scene '"//trim(scene%name)//"'", &
+                                 error)
+         if (allocated(error)) return
+      end do
+   end subroutine read_histories
+
    !> Refuse parameters and a history without a meaning; keep an earlier error.
    subroutine check_scene(path, scene, error)
       !> Path of the namelist file
@@ -66,6 +104,7 @@ contains
       type(error_type), allocatable, intent(inout) :: error
 
       call scene%parameters%check(path//": scene '"//trim(scene%name)//"'", error)
+      if (scene%parameters%is_chain()) return
       call scene%history%check(path//": scene '"//trim(scene%name)//"'", error)
    end subroutine check_scene
 

@@ -26,7 +26,7 @@ contains
 
       call file%create(path, "Slip events of the spring block: times in which v > 1")
       rows = file%dimension("event", size(events%onset), coordinates="onset")
-      call put_scene(file, scene)
+      call put_scene(file, scene, [scene%history])
       call file%attribute("t_transient", scene%t_transient)
       call file%attribute("t_end", scene%t_end)
       call file%attribute("tolerance", scene%tolerance)

@@ -1,8 +1,11 @@
 !> Trajectory files: samples go to disk in blocks while the integration runs, only the variables
-!> that the scene lists. For gamma > 1 they also follow the steps of the solver, so that slip events
-!> shorter than the sample interval are resolved.
+!> that the scene lists. For gamma > 1 those of one block also follow the steps of the solver, so
+!> that slip events shorter than the sample interval are resolved. Those of a chain are over time
+!> and block.
 module trajectory_output
    use block_attributes, only: put_scene
+   use block_parameters, only: block_history_type
+   use chain, only: blocks_in_order
    use dde, only: integration_result, sampler_type
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
@@ -10,13 +13,13 @@ module trajectory_output
    use program_arguments, only: stop_on
    use progress, only: progress_type
    use scene_input, only: scene_type
-   use spring_block, only: index_of_ln_v, index_of_theta, index_of_u
+   use spring_block, only: components_of_block, index_of_ln_v, index_of_theta, index_of_u
    implicit none (type, external)
    private
    public :: trajectory_writer_type
 
-   !> Samples held before they are written.
-   integer, parameter :: block_length = 8192
+   !> Samples held before they are written: of one block, and at least.
+   integer, parameter :: most_held = 8192, least_held = 32
 
    !> Longest time between samples as a share of the step, for gamma > 1. The largest sample of a
    !> slip event is within 0.2 % of its maximum, measured for gamma from 100 to 1e10.
@@ -31,11 +34,13 @@ module trajectory_output
       type(progress_type) :: progress
       !> The scene
       type(scene_type) :: scene
-      !> Ids of time and of the variables, in the order of `wanted`
+      !> Values for t <= 0 of each block
+      type(block_history_type), allocatable :: histories(:)
+      !> Ids of time and of the variables
       integer, allocatable :: ids(:)
-      !> Samples not written yet: time and variables, shape (block_length, 1 + variables)
-      real(wp), allocatable :: block(:, :)
-      !> Number of samples in the file, and in the block
+      !> Times of samples not written yet, and their values, shape (blocks, variables, samples)
+      real(wp), allocatable :: time(:), values(:, :, :)
+      !> Number of samples in the file, and of those not written yet
       integer :: written = 0, held = 0
       !> Number of even times reached, and of all
       integer :: reached = 0, times = 0
@@ -43,7 +48,7 @@ module trajectory_output
       real(wp) :: even = 0.0_wp
    contains
       procedure :: take, finish
-      procedure, private :: flush => flush_block
+      procedure, private :: flush => flush_samples
    end type trajectory_writer_type
 
    interface trajectory_writer_type
@@ -53,41 +58,70 @@ module trajectory_output
 contains
 
    !> Begin the file of a scene.
-   function new_writer(path, scene) result(writer)
+   function new_writer(path, scene, histories) result(writer)
       character(len=*), intent(in) :: path
       type(scene_type), intent(in) :: scene
+      !> Values for t <= 0 of each block
+      type(block_history_type), intent(in) :: histories(:)
       type(trajectory_writer_type) :: writer
-      integer :: dimension, i, variables
+      integer :: block, dimension, i, length, variables
+      integer, allocatable :: components(:), dimensions(:), places(:)
       logical :: refined
 
       writer%scene = scene
-      variables = count(scene%variables /= "")
-      ! the quotient may be one rounding below a whole number
-      writer%times = floor(scene%t_end/scene%sample_interval*(1.0_wp + epsilon(1.0_wp))) + 1
-      refined = scene%parameters%gamma > 1.0_wp
-      if (refined) writer%share_of_step = largest_share
-      allocate (writer%wanted(variables), writer%ids(0:variables))
-      allocate (writer%block(block_length, 0:variables))
-      call writer%file%create(path, "Trajectory of the spring block with delayed friction")
-      ! length 0 is NetCDF's unlimited dimension
-      dimension = writer%file%dimension("t", merge(0, writer%times, refined))
-      writer%ids(0) = writer%file%real_variable("t", dimension, "time")
-      do i = 1, variables
-         select case (scene%variables(i))
-         case ("theta")
-            writer%wanted(i) = index_of_theta
-            writer%ids(i) = writer%file%real_variable("theta", dimension, "friction state")
-         case ("u")
-            writer%wanted(i) = index_of_u
-            writer%ids(i) = writer%file%real_variable("u", dimension, "displacement")
-         case default
-            writer%wanted(i) = index_of_ln_v
-            writer%ids(i) = writer%file%real_variable("v", dimension, "velocity")
-         end select
-      end do
+      writer%histories = histories
+      associate (blocks => scene%parameters%blocks)
+         variables = count(scene%variables /= "")
+         ! the quotient may be one rounding below a whole number
+         writer%times = floor(scene%t_end/scene%sample_interval*(1.0_wp + epsilon(1.0_wp))) + 1
+         refined = scene%parameters%gamma > 1.0_wp .and. .not. scene%parameters%is_chain()
+         if (refined) writer%share_of_step = largest_share
+         length = max(least_held, most_held/blocks)
+         allocate (writer%ids(0:variables), components(variables), places(blocks))
+         allocate (writer%time(length), writer%values(blocks, variables, length))
+         call writer%file%create(path, "Trajectory of the spring block with delayed friction")
+         ! length 0 is NetCDF's unlimited dimension
+         dimension = writer%file%dimension("t", merge(0, writer%times, refined))
+         writer%ids(0) = writer%file%real_variable("t", dimension, "time")
+         dimensions = [dimension]
+         if (scene%parameters%is_chain()) then
+            dimensions = [writer%file%dimension("block", blocks), dimension]
+         end if
+         do i = 1, variables
+            select case (scene%variables(i))
+            case ("theta")
+               components(i) = index_of_theta
+               writer%ids(i) = new_variable(writer%file, "theta", dimensions, "friction state")
+            case ("u")
+               components(i) = index_of_u
+               writer%ids(i) = new_variable(writer%file, "u", dimensions, "displacement")
+            case default
+               components(i) = index_of_ln_v
+               writer%ids(i) = new_variable(writer%file, "v", dimensions, "velocity")
+            end select
+         end do
+         places(blocks_in_order(blocks, scene%parameters%ends)) = [(block, block=1, blocks)]
+         writer%wanted = [((components_of_block*(places(block) - 1) + components(i), &
+                            block=1, blocks), i=1, variables)]
+      end associate
       writer%next = 0.0_wp
       writer%progress = progress_type("trajectory of "//trim(scene%name))
    end function new_writer
+
+   !> Define a variable over time, or over time and block.
+   integer function new_variable(file, name, dimensions, long_name) result(id)
+      type(output_file_type), intent(inout) :: file
+      character(len=*), intent(in) :: name
+      !> Dimensions, the faster first
+      integer, intent(in) :: dimensions(:)
+      character(len=*), intent(in) :: long_name
+
+      if (size(dimensions) == 1) then
+         id = file%real_variable(name, dimensions(1), long_name)
+      else
+         id = file%real_table(name, dimensions, long_name)
+      end if
+   end function new_variable
 
    !> Take one sample; the next one is at the next even time, unless the solver brings it forward.
    subroutine take(self, y)
@@ -95,14 +129,18 @@ contains
       !> theta, u, ln v as wanted
       real(wp), intent(in) :: y(:)
 
-      if (self%held == block_length) call self%flush()
+      if (self%held == size(self%time)) call self%flush()
       if (allocated(self%file%error)) then
          ! a sampler cannot end the integration
          call stop_on(self%file%error)
       end if
       self%held = self%held + 1
-      self%block(self%held, 0) = self%next
-      self%block(self%held, 1:) = merge(exp(y), y, self%wanted == index_of_ln_v)
+      self%time(self%held) = self%next
+      associate (is_ln_v => modulo(self%wanted, components_of_block) &
+                 == modulo(index_of_ln_v, components_of_block))
+         self%values(:, :, self%held) = reshape(merge(exp(y), y, is_ln_v), &
+                                                shape(self%values(:, :, 1)))
+      end associate
       if (self%next >= self%even) then
          self%reached = self%reached + 1
          self%even = huge(1.0_wp)
@@ -114,17 +152,24 @@ contains
       self%next = self%even
    end subroutine take
 
-   !> Write the block.
-   subroutine flush_block(self)
+   !> Write the samples that are held.
+   subroutine flush_samples(self)
       class(trajectory_writer_type), intent(inout) :: self
       integer :: i
 
-      do i = 0, size(self%wanted)
-         call self%file%put(self%ids(i), self%block(:self%held, i), first=[self%written + 1])
-      end do
+      associate (first => self%written + 1, held => self%held)
+         call self%file%put(self%ids(0), self%time(:held), first=[first])
+         do i = 1, ubound(self%ids, 1)
+            if (self%scene%parameters%is_chain()) then
+               call self%file%put_rows(self%ids(i), self%values(:, i, :held), first=first)
+            else
+               call self%file%put(self%ids(i), self%values(1, i, :held), first=[first])
+            end if
+         end do
+      end associate
       self%written = self%written + self%held
       self%held = 0
-   end subroutine flush_block
+   end subroutine flush_samples
 
    !> Write what is left, the scene and what the integration did, and complete the file.
    subroutine finish(self, outcome, error)
@@ -134,7 +179,7 @@ contains
 
       call self%flush()
       associate (file => self%file, scene => self%scene)
-         call put_scene(file, scene)
+         call put_scene(file, scene, self%histories)
          call file%attribute("t_end", scene%t_end)
          call file%attribute("t_transient", scene%t_transient)
          call file%attribute("sample_interval", scene%sample_interval)

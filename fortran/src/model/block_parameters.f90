@@ -2,19 +2,23 @@
 !> those of the law's definition. All quantities are nondimensional; the defaults are steady sliding
 !> by the paper's law.
 module block_parameters
+   use chain, only: chain_ends, ends_length => word_length
+   use chain_registry, only: laws_of_chains => model_names
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use model_problem, only: description_type, model_type, unbounded, word_length
    use model_registry, only: make_model, model_names
-   use value_checks, only: absent, check_choice, check_number, missing
+   use value_checks, only: absent, check_choice, check_count, check_number, missing
    implicit none (type, external)
    private
-   public :: absent_history, block_history_type, block_parameters_type, describe_law, &
+   public :: absent_history, block_history_type, block_parameters_type, chain_law, describe_law, &
              history_names, law_parameters, missing_history, missing_parameters, &
              most_own, paper_law, parameter_meanings, parameter_names, with_vector, vector_of
 
    !> The law of equation (4).
    character(len=*), parameter :: paper_law = "slip_delayed_logarithm"
+   !> What names of models of chains have before the law.
+   character(len=*), parameter :: chain_prefix = "chain_"
    !> Most parameters that a law has beside the block's.
    integer, parameter :: most_own = 8
    !> Names of the block's parameters, the first of every law, in the order of their numbers.
@@ -42,7 +46,15 @@ module block_parameters
       character(len=word_length) :: law = paper_law
       !> The law's own parameters, in the order of its definition
       real(wp) :: own(most_own) = 0.0_wp
+      !> Number of blocks of a chain
+      integer :: blocks = 1
+      !> Spring constant between neighbours over that to the plate, k_c/k
+      real(wp) :: kappa = 0.0_wp
+      !> Ends of the chain
+      character(len=ends_length) :: ends = "free"
    contains
+      !> Whether there are several blocks
+      procedure :: is_chain
       !> Refuse a parameter out of range
       procedure :: check => check_parameters
    end type block_parameters_type
@@ -103,11 +115,22 @@ contains
       class(model_type), intent(in) :: model
       real(wp), allocatable :: vector(:)
       type(description_type) :: law
+      integer :: own
 
       law = model%describe()
-      vector = [vector_of(parameters), parameters%own]
-      vector = vector(:size(law%parameters))
+      own = size(law%parameters) - size(parameter_names)
+      ! of a chain the last one is kappa
+      if (allocated(model%left)) own = own - 1
+      vector = [vector_of(parameters), parameters%own(:own)]
+      if (allocated(model%left)) vector = [vector, parameters%kappa]
    end function law_parameters
+
+   !> Whether there are several blocks.
+   pure logical function is_chain(self) result(value)
+      class(block_parameters_type), intent(in) :: self
+
+      value = self%blocks > 1
+   end function is_chain
 
    !> What the definition of a law says.
    subroutine describe_law(law, description)
@@ -145,7 +168,34 @@ contains
             end if
          end associate
       end do
+      call check_chain(self, place, error)
    end subroutine check_parameters
+
+   !> Refuse a chain that there is not; keep an earlier error.
+   subroutine check_chain(self, place, error)
+      class(block_parameters_type), intent(in) :: self
+      character(len=*), intent(in) :: place
+      type(error_type), allocatable, intent(inout) :: error
+
+      call check_count(error, place, "blocks", self%blocks, at_least=1)
+      call check_number(error, place, "kappa", self%kappa, at_least=0.0_wp)
+      call check_choice(error, place, "ends", self%ends, chain_ends)
+      if (allocated(error) .or. .not. self%is_chain()) return
+      if (self%ends == "ring") then
+         call check_count(error, place//": ends = ring: ", "blocks", self%blocks, at_least=3)
+      end if
+      call check_choice(error, place//": a chain", "law", self%law, &
+                        laws_of_chains(:) (len(chain_prefix) + 1:))
+   end subroutine check_chain
+
+   !> The name of the model of a chain with a law.
+   pure function chain_law(law) result(name)
+      !> Name of the law
+      character(len=*), intent(in) :: law
+      character(len=:), allocatable :: name
+
+      name = chain_prefix//trim(law)
+   end function chain_law
 
    !> Refuse a value of the history out of range; keep an earlier error.
    pure subroutine check_history(self, place, error)

@@ -1,8 +1,11 @@
-!> The spring block with delayed friction: the model of its law (spring_block.yaml and laws/ in this
-!> folder), by the names of its parameters. All quantities are nondimensional.
+!> The spring block with delayed friction, or a chain of blocks: the model of its law
+!> (spring_block.yaml, chain.yaml and laws/ in this folder), by the names of its parameters. All
+!> quantities are nondimensional.
 module spring_block
-   use block_parameters, only: block_history_type, block_parameters_type, law_parameters
-   use block_state, only: index_of_ln_v, index_of_theta, index_of_u
+   use block_parameters, only: block_history_type, block_parameters_type, chain_law, law_parameters
+   use block_state, only: components_of_block, index_of_ln_v, index_of_theta, index_of_u
+   use chain, only: blocks_in_order, find_neighbours
+   use chain_registry, only: make_chain => make_model
    use characteristic_function, only: characteristic_of, characteristic_type
    use dde, only: problem_with_tangents
    use dde_kinds, only: wp
@@ -10,8 +13,8 @@ module spring_block
    use model_registry, only: make_model
    implicit none (type, external)
    private
-   public :: block_characteristic, find_model, index_of_ln_v, index_of_theta, index_of_u, &
-             spring_block_type
+   public :: block_characteristic, components_of_block, find_model, index_of_ln_v, &
+             index_of_theta, index_of_u, spring_block_type, transverse_block
 
    !> The block with its parameters.
    type, extends(problem_with_tangents) :: spring_block_type
@@ -33,13 +36,13 @@ module spring_block
    end type spring_block_type
 
    interface spring_block_type
-      module procedure :: new_spring_block
+      module procedure :: new_spring_block, new_blocks
    end interface spring_block_type
 
 contains
 
-   !> A block from its parameters, which were checked, and its history; without delay it is
-   !> equation (3).
+   !> A block, or blocks that begin alike, from the parameters, which were checked, and the history;
+   !> without delay it is equation (3).
    function new_spring_block(parameters, history, keep_delays) result(block)
       type(block_parameters_type), intent(in) :: parameters
       type(block_history_type), intent(in) :: history
@@ -47,32 +50,109 @@ contains
       logical, intent(in), optional :: keep_delays
       type(spring_block_type) :: block
 
-      block%parameters = parameters
-      call find_model(parameters, block%model, history, keep_delays)
-      block%n = block%model%n
-      block%lag = block%model%lag
-      block%component = block%model%component
-      block%analytic = block%model%analytic
-      block%analytic_tangents = block%model%analytic_tangents
+      block = new_blocks(parameters, spread(history, 1, parameters%blocks), keep_delays)
    end function new_spring_block
 
-   !> The model of a law with its parameters; from steady sliding unless a history is given.
-   subroutine find_model(parameters, model, history, keep_delays)
+   !> Blocks from their parameters and their histories.
+   function new_blocks(parameters, histories, keep_delays) result(block)
+      type(block_parameters_type), intent(in) :: parameters
+      !> That of each block
+      type(block_history_type), intent(in) :: histories(:)
+      !> Whether a delay of 0 is a delayed value, too; .false. unless given
+      logical, intent(in), optional :: keep_delays
+      type(spring_block_type) :: block
+
+      block%parameters = parameters
+      call find_model(parameters, block%model, histories, keep_delays)
+      call take_shape(block)
+   end function new_blocks
+
+   !> A block of which disturbances are those of a mode of a chain: blocks that move alike, and a
+   !> second difference of -stiffening times the disturbance of u, with kappa = 1.
+   function transverse_block(parameters, history, stiffening) result(block)
+      !> Parameters of one block, which were checked
+      type(block_parameters_type), intent(in) :: parameters
+      !> Values for t <= 0
+      type(block_history_type), intent(in) :: history
+      !> kappa times the eigenvalue of the mode
+      real(wp), intent(in) :: stiffening
+      type(spring_block_type) :: block
+
+      block%parameters = parameters
+      block%parameters%kappa = 1.0_wp
+      call find_chain(block%parameters, block%model, [history])
+      block%model%mode = stiffening
+      call take_shape(block)
+   end function transverse_block
+
+   !> The model of a law, or of a chain, with its parameters; from steady sliding unless histories
+   !> are given.
+   subroutine find_model(parameters, model, histories, keep_delays)
       !> Parameters, with the name of a law that there is
       type(block_parameters_type), intent(in) :: parameters
       !> The model
       class(model_type), allocatable, intent(out) :: model
-      !> Values for t <= 0
-      type(block_history_type), intent(in), optional :: history
+      !> Values for t <= 0 of each block
+      type(block_history_type), intent(in), optional :: histories(:)
       !> Whether a delay of 0 is a delayed value, too; .false. unless given
       logical, intent(in), optional :: keep_delays
-      type(block_history_type) :: past
+      type(block_history_type) :: past(parameters%blocks)
 
-      if (present(history)) past = history
-      call make_model(trim(parameters%law), model)
-      call model%set(law_parameters(parameters, model), [past%theta, past%u, log(past%v)], &
-                     keep_delays)
+      if (present(histories)) past = histories
+      if (parameters%is_chain()) then
+         call find_chain(parameters, model, past, keep_delays)
+      else
+         call make_model(trim(parameters%law), model)
+         call model%set(law_parameters(parameters, model), states_of(past), keep_delays)
+      end if
    end subroutine find_model
+
+   !> The model of a chain, even of one block.
+   subroutine find_chain(parameters, model, histories, keep_delays)
+      !> Parameters, with the name of a law that chains have
+      type(block_parameters_type), intent(in) :: parameters
+      !> The model
+      class(model_type), allocatable, intent(out) :: model
+      !> Values for t <= 0 of each block
+      type(block_history_type), intent(in) :: histories(:)
+      !> Whether a delay of 0 is a delayed value, too; .false. unless given
+      logical, intent(in), optional :: keep_delays
+
+      call make_chain(chain_law(parameters%law), model)
+      associate (blocks => parameters%blocks, ends => parameters%ends)
+         call find_neighbours(blocks, ends, model%left, model%right)
+         call model%set(law_parameters(parameters, model), &
+                        states_of(histories(blocks_in_order(blocks, ends))), keep_delays)
+      end associate
+   end subroutine find_chain
+
+   !> States of blocks, one after another.
+   pure function states_of(histories) result(states)
+      type(block_history_type), intent(in) :: histories(:)
+      real(wp) :: states(components_of_block*size(histories))
+      integer :: i
+
+      do i = 1, size(histories)
+         states(components_of_block*(i - 1) + 1:components_of_block*i) &
+            = [histories(i)%theta, histories(i)%u, log(histories(i)%v)]
+      end do
+   end function states_of
+
+   !> What the solver asks of a problem before it runs is that of the model.
+   pure subroutine take_shape(block)
+      type(spring_block_type), intent(inout) :: block
+
+      associate (model => block%model)
+         block%n = model%n
+         block%lag = model%lag
+         block%component = model%component
+         block%lower = model%lower
+         block%upper = model%upper
+         if (allocated(model%rows)) block%rows = model%rows
+         block%analytic = model%analytic
+         block%analytic_tangents = model%analytic_tangents
+      end associate
+   end subroutine take_shape
 
    !> The characteristic function of steady sliding.
    type(characteristic_type) function block_characteristic(parameters) result(function_of_block)

@@ -1,6 +1,7 @@
 !> Models made from definitions, in quadruple precision: all forms against the right-hand side, and
 !> against the same models written by hand.
 module test_generated_models
+   use chain_registry, only: chain_names => model_names, make_chain => make_model
    use dde, only: problem_with_tangents
    use dde_kinds, only: wp
    use expectations, only: expect_close
@@ -31,7 +32,8 @@ contains
                    new_unittest("Mackey-Glass", test_mackey_glass), &
                    new_unittest("infection", test_infection), &
                    new_unittest("enzyme kinetics", test_enzyme), &
-                   new_unittest("laws of friction", test_laws)]
+                   new_unittest("laws of friction", test_laws), &
+                   new_unittest("chains", test_chains)]
    end subroutine collect_generated_models
 
    !> One of everything, with both delays and with one of 0.
@@ -166,4 +168,67 @@ contains
          end do
       end do
    end subroutine test_laws
+
+   !> Chains of every law and length, with each kind of ends: beside one block and the pull of its
+   !> neighbours, and all forms against the right-hand side.
+   subroutine test_chains(error)
+      type(error_type), allocatable, intent(out) :: error
+      class(model_type), allocatable :: model, one
+      integer, parameter :: lengths(5) = [1, 2, 3, 5, 11]
+      type(description_type) :: description
+      real(wp), allocatable :: dydt(:), own(:), shared(:), y(:), z(:)
+      real(wp) :: expected(3), pull
+      integer :: block, i, law, n
+
+      do law = 1, size(chain_names)
+         do i = 1, 3*size(lengths)
+            n = lengths(1 + modulo(i, size(lengths)))
+            call make_chain(trim(chain_names(law)), model)
+            call make_model(chain_names(law) (7:), one)
+            description = model%describe()
+            own = uniform(10 + i, size(description%parameters) - 5, 0.1_wp, 1.0_wp)
+            ! from soft to stiff, with and without delay
+            shared = [2.0_wp*modulo(i, 2), uniform(20 + i, 2, 0.3_wp, 2.0_wp), &
+                      10.0_wp**modulo(i, 4), own]
+            call put_neighbours(model, n, modulo(i, 3))
+            call model%set([shared, 1.7_wp], [(0.0_wp, block=1, 3*n)])
+            call one%set(shared, [0.0_wp, 0.0_wp, 0.0_wp])
+            y = uniform(30 + i, 3*n, -1.0_wp, 1.0_wp)
+            z = uniform(40 + i, size(model%lag), -1.0_wp, 1.0_wp)
+            allocate (dydt(3*n), source=0.0_wp)
+            call model%rhs(0.0_wp, y, z, dydt)
+            do block = 1, n
+               associate (u => y(2::3), mine => y(3*block - 2:3*block))
+                  pull = -2.0_wp*u(block)
+                  if (model%left(block) > 0) pull = pull + u(model%left(block))
+                  if (model%right(block) > 0) pull = pull + u(model%right(block))
+                  call one%rhs(0.0_wp, mine, z((block - 1)*size(one%lag) + 1:block*size(one%lag)), &
+                               expected)
+                  expected(3) = expected(3) + shared(4)**2/exp(mine(3))*1.7_wp*pull
+               end associate
+               call expect_close(error, dydt(3*block - 2:3*block), expected, &
+                                 1.0e-28_wp*max(1.0_wp, maxval(abs(expected))), "equations")
+            end do
+            deallocate (dydt)
+            call check_model(error, model, y, z, trim(chain_names(law)))
+         end do
+      end do
+   end subroutine test_chains
+
+   !> Neighbours of a chain with free ends, with the plate at its ends, and of a folded ring.
+   subroutine put_neighbours(model, blocks, kind)
+      class(model_type), intent(inout) :: model
+      integer, intent(in) :: blocks, kind
+      integer :: i
+
+      model%left = [(max(i - 1, 1), i=1, blocks)]
+      model%right = [(min(i + 1, blocks), i=1, blocks)]
+      if (kind == 1) then
+         model%left(1) = 0
+         model%right(blocks) = 0
+      else if (kind == 2 .and. blocks > 2) then
+         model%left = [2, 1, (i, i=1, blocks - 2)]
+         model%right = [(i, i=3, blocks), blocks, blocks - 1]
+      end if
+   end subroutine put_neighbours
 end module test_generated_models

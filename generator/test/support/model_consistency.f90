@@ -45,7 +45,7 @@ contains
       real(wp) :: by_y(size(y), size(y)), by_z(size(y), size(z)), shift_y(size(y)), shift_z(size(z))
       integer :: i
 
-      call model%jacobian(now, y, z, by_y, by_z)
+      call find_slopes(model, y, z, by_y, by_z)
       shift_z = 0.0_wp
       do i = 1, size(y)
          shift_y = 0.0_wp
@@ -71,6 +71,32 @@ contains
          call compare(error, column, (after - before)/(2.0_wp*h), good, name//", slope by "//by)
       end subroutine compare_column
    end subroutine check_jacobian
+
+   !> Derivatives as full matrices.
+   subroutine find_slopes(model, y, z, by_y, by_z)
+      class(model_type), intent(in) :: model
+      real(wp), intent(in) :: y(:), z(:)
+      real(wp), intent(out) :: by_y(:, :), by_z(:, :)
+      real(wp), allocatable :: band(:, :), rows(:, :)
+      integer :: j
+
+      if (model%lower < 0) then
+         call model%jacobian(now, y, z, by_y, by_z)
+         return
+      end if
+      allocate (band(1 + model%lower + model%upper, size(y)), rows(size(y)/model%blocks, size(z)))
+      call model%jacobian(now, y, z, band, rows)
+      by_y = 0.0_wp
+      do j = 1, size(y)
+         associate (first => max(1, j - model%upper), last => min(size(y), j + model%lower))
+            by_y(first:last, j) = band(1 + model%upper + first - j:1 + model%upper + last - j, j)
+         end associate
+      end do
+      by_z = 0.0_wp
+      do j = 1, size(z)
+         by_z(model%rows(1, j):model%rows(2, j), j) = rows(:, j)
+      end do
+   end subroutine find_slopes
 
    !> The series solve the equations: y'(s) = unit f(y(s), z(s)) up to the powers left out.
    subroutine check_series(error, model, y, z, name)
@@ -226,7 +252,7 @@ contains
       real(wp) :: unit
       real(wp) :: by_y(size(y), size(y)), by_z(size(y), size(z)), dydt(size(y))
 
-      call model%jacobian(now, y, z, by_y, by_z)
+      call find_slopes(model, y, z, by_y, by_z)
       call model%rhs(now, y, z, dydt)
       unit = 1.0_wp/(1.0_wp + maxval(abs(by_y)) + maxval(abs(dydt)))
    end function unit_for

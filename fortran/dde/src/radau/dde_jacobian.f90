@@ -121,7 +121,7 @@ contains
 
    !> The Jacobian of a problem outside of a run, as the problem gives it or by differences.
    pure subroutine find_jacobian(problem, t, y, z, by_y, by_z)
-      !> The problem, without a band and without rows of delayed values
+      !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Time
       real(wp), intent(in) :: t
@@ -129,9 +129,9 @@ contains
       real(wp), intent(in) :: y(:)
       !> Delayed values, shape (delayed values)
       real(wp), intent(in) :: z(:)
-      !> Derivatives by y, shape (n, n)
+      !> Derivatives by y, shape (n, n), or that of a band
       real(wp), intent(out) :: by_y(:, :)
-      !> Derivatives by the delayed values, shape (n, delayed values)
+      !> Derivatives by the delayed values, shape (n or most rows, delayed values)
       real(wp), intent(out) :: by_z(:, :)
       type(jacobian_type) :: here
       type(work_type) :: work

@@ -53,6 +53,12 @@ contains
       allocate (problem%lag, source=[((base%lag(k), k=1, size(base%lag)), j=0, vectors)])
       allocate (problem%component, source=[((base%component(k) + j*base%n, &
                                              k=1, size(base%lag)), j=0, vectors)])
+      if (base%lower < 0) return
+      ! the same band in each block on the diagonal
+      problem%lower = base%lower
+      problem%upper = base%upper
+      problem%rows = reshape([((base%rows(:, k) + j*base%n, k=1, size(base%lag)), j=0, vectors)], &
+                             [2, size(problem%lag)])
    end function new_problem
 
    !> No disturbance.
@@ -80,8 +86,8 @@ contains
       class(tangent_problem_type), intent(in) :: self
       real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
-      real(wp) :: by_y(self%base%n, self%base%n), by_z(self%base%n, size(self%base%lag))
-      integer :: i, j
+      real(wp), allocatable :: by_y(:, :), by_z(:, :)
+      integer :: first, i, j, last
 
       associate (base => self%base, n => self%base%n, delays => size(self%base%lag))
          call base%rhs(t, y(:n), z(:delays), dydt(:n))
@@ -89,20 +95,50 @@ contains
             dydt = ieee_value(1.0_wp, ieee_quiet_nan)
             return
          end if
+         call allocate_slopes(base, by_y, by_z)
          call find_jacobian(base, t, y(:n), z(:delays), by_y, by_z)
          dydt(n + 1:) = 0.0_wp
          do j = 1, self%vectors
             associate (slope => dydt(j*n + 1:(j + 1)*n))
                do i = 1, n
-                  slope = slope + y(j*n + i)*by_y(:, i)
+                  if (base%lower < 0) then
+                     slope = slope + y(j*n + i)*by_y(:, i)
+                     cycle
+                  end if
+                  first = max(1, i - base%upper)
+                  last = min(n, i + base%lower)
+                  slope(first:last) = slope(first:last) + y(j*n + i) &
+                                      *by_y(1 + base%upper + first - i:1 + base%upper + last - i, i)
                end do
                do i = 1, delays
-                  slope = slope + z(j*delays + i)*by_z(:, i)
+                  if (base%lower < 0) then
+                     slope = slope + z(j*delays + i)*by_z(:, i)
+                     cycle
+                  end if
+                  first = base%rows(1, i)
+                  last = base%rows(2, i)
+                  slope(first:last) = slope(first:last) &
+                                      + z(j*delays + i)*by_z(:last - first + 1, i)
                end do
             end associate
          end do
       end associate
    end subroutine variational_equations
+
+   !> Room for the derivatives of a problem, full or banded.
+   pure subroutine allocate_slopes(problem, by_y, by_z)
+      class(dde_problem_type), intent(in) :: problem
+      real(wp), allocatable, intent(out) :: by_y(:, :), by_z(:, :)
+
+      associate (n => problem%n, delays => size(problem%lag))
+         if (problem%lower < 0) then
+            allocate (by_y(n, n), by_z(n, delays))
+         else
+            allocate (by_y(1 + problem%lower + problem%upper, n))
+            allocate (by_z(1 + maxval([0, problem%rows(2, :) - problem%rows(1, :)]), delays))
+         end if
+      end associate
+   end subroutine allocate_slopes
 
    !> Derivatives for simplified Newton iterations: the blocks on the diagonal, all the same. How
    !> the variational equations change with the state is left out: that part lies below the
@@ -111,15 +147,20 @@ contains
       class(tangent_problem_type), intent(in) :: self
       real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), contiguous, intent(out) :: by_y(:, :), by_z(:, :)
+      real(wp), allocatable :: of_y(:, :), of_z(:, :)
       integer :: j
 
       by_y = 0.0_wp
       by_z = 0.0_wp
       associate (n => self%base%n, delays => size(self%base%lag))
-         call find_jacobian(self%base, t, y(:n), z(:delays), by_y(:n, :n), by_z(:n, :delays))
-         do j = 1, self%vectors
-            by_y(j*n + 1:(j + 1)*n, j*n + 1:(j + 1)*n) = by_y(:n, :n)
-            by_z(j*n + 1:(j + 1)*n, j*delays + 1:(j + 1)*delays) = by_z(:n, :delays)
+         call allocate_slopes(self%base, of_y, of_z)
+         call find_jacobian(self%base, t, y(:n), z(:delays), of_y, of_z)
+         do j = 0, self%vectors
+            ! rows of a band count from its diagonal
+            associate (above => merge(j*n, 0, self%base%lower < 0))
+               by_y(above + 1:above + size(of_y, 1), j*n + 1:(j + 1)*n) = of_y
+               by_z(above + 1:above + size(of_z, 1), j*delays + 1:(j + 1)*delays) = of_z
+            end associate
          end do
       end associate
    end subroutine blocks_on_the_diagonal

@@ -1,0 +1,34 @@
+!> The growth of disturbances of chains that move as one block, by the stiffness of their modes.
+program synchrony_program
+   use dde_errors, only: error_type
+   use lyapunov_spectrum, only: growth_settings_type
+   use program_arguments, only: get_paths, stop_on
+   use progress, only: progress_type
+   use scene_input, only: scene_type
+   use transverse_growth, only: find_zeros, measure_transverse_growth, transverse_growth_type, &
+                                zero_type
+   use synchrony_files, only: read_synchrony, synchrony_settings_type, write_synchrony
+   implicit none (type, external)
+   character(len=:), allocatable :: namelist_path, output_path
+   type(error_type), allocatable :: error
+   type(progress_type) :: report
+   type(scene_type) :: scene
+   type(synchrony_settings_type) :: settings
+   type(transverse_growth_type), allocatable :: growth(:)
+   type(zero_type), allocatable :: zeros(:)
+
+   call get_paths(namelist_path, output_path)
+   call read_synchrony(namelist_path, scene, settings, error)
+   call stop_on(error)
+   report = progress_type("synchrony of "//trim(scene%name))
+   call measure_transverse_growth( &
+      scene%parameters, scene%history, settings%values(), &
+      growth_settings_type(t_begin=scene%t_transient, t_end=settings%t_end, &
+                           t_turning=settings%t_turning, interval=settings%interval, &
+                           blocks=settings%blocks), &
+      scene%options(), growth, error, report)
+   call stop_on(error)
+   call find_zeros(growth, zeros)
+   call write_synchrony(output_path, scene, settings, growth, zeros, error)
+   call stop_on(error)
+end program synchrony_program

@@ -1,0 +1,114 @@
+!> What the program `synchrony` reads and writes: a scene and the modes of chains that are tried;
+!> whether their disturbances grow.
+module synchrony_files
+   use block_attributes, only: put_scene
+   use dde_errors, only: error_type, raise, text
+   use dde_kinds, only: wp
+   use namelist_input, only: namelist_file_type
+   use netcdf_output, only: output_file_type
+   use scene_input, only: check_scene, scene_type
+   use transverse_growth, only: transverse_growth_type, zero_type
+   use value_checks, only: check_count, check_number, missing, missing_count
+   implicit none (type, external)
+   private
+   public :: read_synchrony, synchrony_settings_type, write_synchrony
+
+   !> What is measured.
+   type :: synchrony_settings_type
+      !> Least and largest s = 1 + kappa mu
+      real(wp) :: s_window(2) = missing
+      !> Values of s, evenly spaced in ln s
+      integer :: count = missing_count
+      !> Time at which measuring ends
+      real(wp) :: t_end = missing
+      !> Time before measuring in which the vectors turn
+      real(wp) :: t_turning = missing
+      !> Longest time between two orthonormalisations
+      real(wp) :: interval = missing
+      !> Number of parts for the standard error
+      integer :: blocks = missing_count
+   contains
+      !> The values of s
+      procedure :: values
+   end type synchrony_settings_type
+
+contains
+
+   !> The values of s.
+   pure function values(self) result(s)
+      class(synchrony_settings_type), intent(in) :: self
+      real(wp) :: s(self%count)
+      integer :: i
+
+      associate (ends => log(self%s_window))
+         s = [(exp(ends(1) + (ends(2) - ends(1))*(i - 1)/max(1, self%count - 1)), i=1, self%count)]
+      end associate
+   end function values
+
+   !> Read and check a scene and what is measured.
+   subroutine read_synchrony(path, scene, synchrony, error)
+      !> Path of the namelist file
+      character(len=*), intent(in) :: path
+      !> The scene, of one block
+      type(scene_type), intent(out) :: scene
+      !> The settings
+      type(synchrony_settings_type), intent(out) :: synchrony
+      !> They cannot be read, or a value is out of range
+      type(error_type), allocatable, intent(out) :: error
+      type(namelist_file_type) :: file
+      namelist /settings/ scene, synchrony
+
+      call file%open(path, error)
+      if (allocated(error)) return
+      read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
+      write (file%copy, nml=settings, delim="quote")
+      call file%close(error)
+      call check_scene(path, scene, error)
+      associate (window => synchrony%s_window)
+         call check_number(error, path, "synchrony%s_window(1)", window(1), at_least=1.0_wp)
+         call check_number(error, path, "synchrony%s_window(2)", window(2), above=window(1))
+      end associate
+      call check_count(error, path, "synchrony%count", synchrony%count, at_least=2)
+      call check_count(error, path, "synchrony%blocks", synchrony%blocks, at_least=2)
+      if (allocated(error) .or. .not. scene%parameters%is_chain()) return
+      call raise(error, path//": blocks = "//text(scene%parameters%blocks) &
+                 //"; expected 1: chains that move as one block are tried")
+   end subroutine read_synchrony
+
+   !> Write the exponents.
+   subroutine write_synchrony(path, scene, settings, growth, zeros, error)
+      !> Path of the file
+      character(len=*), intent(in) :: path
+      !> The scene
+      type(scene_type), intent(in) :: scene
+      !> How they were measured
+      type(synchrony_settings_type), intent(in) :: settings
+      !> Exponents by s
+      type(transverse_growth_type), intent(in) :: growth(:)
+      !> Where they are zero
+      type(zero_type), intent(in) :: zeros(:)
+      !> Error if the file could not be written
+      type(error_type), allocatable, intent(out) :: error
+      type(output_file_type) :: file
+      integer :: rows
+
+      call file%create(path, "Growth of disturbances of chains that move as one block")
+      call put_scene(file, scene, [scene%history])
+      call file%attribute("t_transient", scene%t_transient)
+      call file%attribute("t_end", settings%t_end)
+      call file%attribute("t_turning", settings%t_turning)
+      call file%attribute("interval", settings%interval)
+      call file%attribute("tolerance", scene%tolerance)
+      call file%attribute("method", trim(scene%method))
+      rows = file%dimension("s", size(growth))
+      call file%column(rows, "s", growth%s, "1 + kappa times the eigenvalue of the mode")
+      call file%column(rows, "exponent", growth%value, "largest exponent of its disturbances")
+      call file%column(rows, "error", growth%error, "its standard error")
+      rows = file%dimension("zero", size(zeros), coordinates="zero_s")
+      call file%column(rows, "zero_s", zeros%s, "s at which the exponent is zero")
+      call file%column(rows, "zero_error", zeros%error, "its standard error")
+      call file%flags(rows, "zero_rises", merge(1, 0, zeros%rises), ["no ", "yes"], &
+                      "whether the exponent grows with s")
+      call file%finish(error)
+   end subroutine write_synchrony
+end module synchrony_files

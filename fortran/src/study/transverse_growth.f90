@@ -1,0 +1,105 @@
+!> Whether blocks that move alike stay alike: the master stability function (Pecora and Carroll
+!> 1998, Phys. Rev. Lett. 80, 2109). Disturbances of the mode of a chain that has the eigenvalue mu
+!> grow along the motion of one block as those of a block with gamma^2 du -> s gamma^2 du in the
+!> disturbance alone, s = 1 + kappa mu. s = 1 is the block itself.
+module transverse_growth
+   use block_parameters, only: block_history_type, block_parameters_type
+   use dde, only: integration_options
+   use dde_errors, only: error_type, raise, text
+   use dde_kinds, only: wp
+   use exponent_averages, only: average_growth, exponent_type
+   use lyapunov_spectrum, only: growth_settings_type, growth_type, measure_growth
+   use progress_receiver, only: progress_receiver_type
+   use spring_block, only: transverse_block
+   implicit none (type, external)
+   private
+   public :: find_zeros, measure_transverse_growth, transverse_growth_type, zero_type
+
+   !> An exponent within so many standard errors of 0 has no sign.
+   real(wp), parameter :: most_bars = 3.0_wp
+
+   !> The largest exponent of disturbances with one s.
+   type :: transverse_growth_type
+      real(wp) :: s = 0.0_wp
+      !> Exponent and its standard error
+      real(wp) :: value = 0.0_wp, error = 0.0_wp
+   end type transverse_growth_type
+
+   !> Where the exponent is zero.
+   type :: zero_type
+      !> s and its standard error
+      real(wp) :: s = 0.0_wp, error = 0.0_wp
+      !> Whether the exponent grows with s
+      logical :: rises = .false.
+   end type zero_type
+
+contains
+
+   !> The largest exponents along the motion of one block, for each s.
+   subroutine measure_transverse_growth(parameters, history, s, settings, options, growth, error, &
+                                        progress)
+      !> Parameters of one block, which were checked
+      type(block_parameters_type), intent(in) :: parameters
+      !> Values for t <= 0
+      type(block_history_type), intent(in) :: history
+      !> Stiffness of the modes over that of one block, >= 1
+      real(wp), intent(in) :: s(:)
+      !> When exponents are measured; of each s one is
+      type(growth_settings_type), intent(in) :: settings
+      !> Method and tolerances
+      type(integration_options), intent(in) :: options
+      !> Exponents in the order of s
+      type(transverse_growth_type), allocatable, intent(out) :: growth(:)
+      !> Error if one cannot be measured
+      type(error_type), allocatable, intent(out) :: error
+      !> Receiver of the number done
+      class(progress_receiver_type), intent(inout), optional :: progress
+      type(exponent_type), allocatable :: exponents(:)
+      type(error_type), allocatable :: problem
+      type(growth_type) :: measured
+      type(growth_settings_type) :: one
+      integer :: i
+
+      one = settings
+      one%exponents = 1
+      one%across_flow = .false.
+      allocate (growth(size(s)))
+      do i = 1, size(s)
+         call measure_growth(transverse_block(parameters, history, s(i) - 1.0_wp), one, options, &
+                             measured, problem)
+         if (allocated(problem)) then
+            call raise(error, "s = "//text(s(i))//": "//problem%message)
+            return
+         end if
+         exponents = average_growth(measured%growth, measured%length, one%blocks, .false.)
+         growth(i) = transverse_growth_type(s(i), exponents(1)%value, exponents(1)%error)
+         if (present(progress)) call progress%advance(i, size(s))
+      end do
+   end subroutine measure_transverse_growth
+
+   !> Zeros between values of s whose exponents have signs, on the line through both. The error is
+   !> that of the exponents over the slope of the line. On a cycle or a torus the exponent at s = 1,
+   !> that of the flow, has no sign.
+   pure subroutine find_zeros(growth, zeros)
+      !> Exponents, s ascending
+      type(transverse_growth_type), intent(in) :: growth(:)
+      !> Zeros, ascending
+      type(zero_type), allocatable, intent(out) :: zeros(:)
+      type(transverse_growth_type), allocatable :: signed(:)
+      real(wp) :: share, slope
+      integer :: i
+
+      allocate (zeros(0))
+      signed = pack(growth, abs(growth%value) > most_bars*growth%error)
+      do i = 1, size(signed) - 1
+         associate (left => signed(i), right => signed(i + 1))
+            if ((left%value > 0.0_wp) .eqv. (right%value > 0.0_wp)) cycle
+            slope = (right%value - left%value)/(right%s - left%s)
+            share = left%value/(left%value - right%value)
+            zeros = [zeros, zero_type(left%s + share*(right%s - left%s), &
+                                      hypot((1.0_wp - share)*left%error, share*right%error) &
+                                      /abs(slope), slope > 0.0_wp)]
+         end associate
+      end do
+   end subroutine find_zeros
+end module transverse_growth

@@ -1,0 +1,203 @@
+!> Chains of blocks: their modes are blocks with other parameters, and so are disturbances of blocks
+!> that move alike.
+module test_chains
+   use block_parameters, only: block_history_type, block_parameters_type, with_vector
+   use chain, only: blocks_in_order, chain_ends, find_neighbours, mode_eigenvalue
+   use dde_kinds, only: wp
+   use expectations, only: expect_close
+   use mctc_env_testing, only: check, error_type, new_unittest, unittest_type
+   use pseudo_random, only: uniform
+   use spring_block, only: spring_block_type, transverse_block
+   implicit none (type, external)
+   private
+   public :: collect_chains
+
+   integer, parameter :: lengths(5) = [2, 3, 4, 7, 10]
+   real(wp), parameter :: pi = acos(-1.0_wp)
+   type(block_parameters_type), parameter :: place = &
+      block_parameters_type(tau=7.0_wp, epsilon=0.7_wp, xi=0.5_wp, gamma=0.8_wp)
+   type(block_history_type), parameter :: moving = block_history_type(0.2_wp, -0.3_wp, 1.7_wp)
+
+contains
+
+   subroutine collect_chains(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("order of blocks", test_order), &
+                   new_unittest("second differences of modes", test_modes), &
+                   new_unittest("linear part of modes", test_linear_part), &
+                   new_unittest("disturbances of blocks that move alike", test_disturbances)]
+   end subroutine collect_chains
+
+   !> Each block once, and neighbours near each other.
+   subroutine test_order(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, allocatable :: left(:), right(:)
+      integer :: i, k, n
+
+      call check(error, all(blocks_in_order(5, "ring") == [1, 5, 2, 4, 3]), "five folded")
+      if (allocated(error)) return
+      do k = 1, size(chain_ends)
+         do n = 3, 9
+            associate (order => blocks_in_order(n, chain_ends(k)))
+               call check(error, all([(any(order == i), i=1, n)]), "each block once")
+               if (allocated(error)) return
+               call find_neighbours(n, chain_ends(k), left, right)
+               call check(error, maxval(abs([left, right] - [([(i, i=1, n)], k=1, 2)]), &
+                                        mask=[left, right] > 0) <= 2, "near neighbours")
+               if (allocated(error)) return
+            end associate
+         end do
+      end do
+   end subroutine test_order
+
+   !> They are minus the eigenvalue times the mode.
+   subroutine test_modes(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, allocatable :: left(:), right(:)
+      real(wp), allocatable :: shape_of_mode(:)
+      integer :: i, k, m, n
+
+      do k = 1, size(chain_ends)
+         do i = 1, size(lengths)
+            n = lengths(i)
+            if (chain_ends(k) == "ring" .and. n < 3) cycle
+            call find_neighbours(n, chain_ends(k), left, right)
+            do m = merge(1, 0, chain_ends(k) == "plate"), n - 1
+               shape_of_mode = mode_shape(m, n, chain_ends(k))
+               call expect_close(error, beside(left) + beside(right) - 2.0_wp*shape_of_mode, &
+                                 -mode_eigenvalue(m, n, chain_ends(k))*shape_of_mode, &
+                                 1.0e-13_wp, trim(chain_ends(k)))
+            end do
+         end do
+      end do
+
+   contains
+
+      !> The mode at neighbours.
+      function beside(neighbours) result(values)
+         integer, intent(in) :: neighbours(:)
+         real(wp) :: values(size(neighbours))
+         integer :: j
+
+         do j = 1, size(neighbours)
+            values(j) = 0.0_wp
+            if (neighbours(j) > 0) values(j) = shape_of_mode(neighbours(j))
+         end do
+      end function beside
+   end subroutine test_modes
+
+   !> The mode at the places of the state vector, by the formulas of vibrating strings.
+   pure function mode_shape(mode, blocks, ends) result(values)
+      integer, intent(in) :: mode, blocks
+      character(len=*), intent(in) :: ends
+      real(wp) :: values(blocks)
+
+      associate (j => blocks_in_order(blocks, ends))
+         select case (ends)
+         case ("free")
+            values = cos(pi*mode*(j - 0.5_wp)/blocks)
+         case ("ring")
+            values = cos(2.0_wp*pi*mode*j/blocks + 0.3_wp)
+         case default
+            values = sin(pi*mode*j/(blocks + 1))
+         end select
+      end associate
+   end function mode_shape
+
+   !> Each mode of the linear equations about rest is one block at gamma sqrt(s) and xi s.
+   subroutine test_linear_part(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(block_parameters_type) :: parameters, stiffer
+      type(spring_block_type) :: blocks, one
+      real(wp), allocatable :: band(:, :), dy(:), rows(:, :), z(:)
+      real(wp) :: by_y(3, 3), by_z(3, 1), d(3), s
+      integer :: first, i, j, k, last, m, n
+
+      do k = 1, size(chain_ends)
+         do i = 2, size(lengths)
+            n = lengths(i)
+            parameters = place
+            parameters%blocks = n
+            parameters%kappa = 1.3_wp
+            parameters%ends = chain_ends(k)
+            blocks = spring_block_type(parameters, block_history_type())
+            allocate (band(1 + blocks%lower + blocks%upper, 3*n), rows(3, n), dy(3*n))
+            z = [(0.0_wp, j=1, n)]
+            call blocks%jacobian(0.0_wp, [(0.0_wp, j=1, 3*n)], z, band, rows)
+            do m = merge(1, 0, chain_ends(k) == "plate"), n - 1
+               s = 1.0_wp + parameters%kappa*mode_eigenvalue(m, n, chain_ends(k))
+               stiffer = with_vector(place, [place%tau, place%epsilon, place%xi*s, &
+                                             place%gamma*sqrt(s)])
+               one = spring_block_type(stiffer, block_history_type())
+               call one%jacobian(0.0_wp, [0.0_wp, 0.0_wp, 0.0_wp], [0.0_wp], by_y, by_z)
+               d = uniform(m + 1, 3, -1.0_wp, 1.0_wp)
+               associate (mode => mode_shape(m, n, chain_ends(k)))
+                  dy = 0.0_wp
+                  do j = 1, 3*n
+                     first = max(1, j - blocks%upper)
+                     last = min(3*n, j + blocks%lower)
+                     dy(first:last) = dy(first:last) + d(1 + modulo(j - 1, 3))*mode((j + 2)/3) &
+                        *band(1 + blocks%upper + first - j:1 + blocks%upper + last - j, j)
+                  end do
+                  call expect_close(error, dy, [(mode(j)*matmul(by_y, d), j=1, n)], 1.0e-12_wp, &
+                                    trim(chain_ends(k)))
+                  call expect_close(error, [rows], [(by_z(:, 1), j=1, n)], 1.0e-13_wp, "delayed")
+               end associate
+            end do
+            deallocate (band, rows, dy)
+         end do
+      end do
+   end subroutine test_linear_part
+
+   !> Along the motion of blocks that move alike, a disturbance of a mode is that of one block.
+   subroutine test_disturbances(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: degree = 9
+      character(len=4), parameter :: ends(2) = ["free", "ring"]
+      type(block_parameters_type) :: parameters
+      type(spring_block_type) :: blocks, one
+      real(wp) :: y(0:degree, 3), z(0:degree, 1), dy(0:degree, 3, 1), dz(0:degree, 1, 1)
+      real(wp), allocatable :: all_y(:, :), all_dy(:, :, :), all_dz(:, :, :)
+      integer :: i, j, k, m, n
+
+      z(:, 1) = uniform(1, degree + 1, -0.5_wp, 0.5_wp)
+      dz(:, 1, 1) = uniform(2, degree + 1, -0.5_wp, 0.5_wp)
+      do k = 1, size(ends)
+         do i = 2, size(lengths)
+            n = lengths(i)
+            parameters = place
+            parameters%blocks = n
+            parameters%kappa = 1.3_wp
+            parameters%ends = ends(k)
+            blocks = spring_block_type(parameters, moving)
+            do m = 0, n - 1
+               associate (mode => mode_shape(m, n, ends(k)))
+                  one = transverse_block(place, moving, &
+                                         parameters%kappa*mode_eigenvalue(m, n, ends(k)))
+                  call one%initial(y(0, :))
+                  dy(0, :, 1) = uniform(m + 5, 3, -1.0_wp, 1.0_wp)
+                  allocate (all_y(0:degree, 3*n), all_dy(0:degree, 3*n, 1), source=0.0_wp)
+                  allocate (all_dz(0:degree, n, 1))
+                  do j = 1, n
+                     all_y(0, 3*j - 2:3*j) = y(0, :)
+                     all_dy(0, 3*j - 2:3*j, 1) = mode(j)*dy(0, :, 1)
+                     all_dz(:, j, 1) = mode(j)*dz(:, 1, 1)
+                  end do
+                  call one%series(0.0_wp, 0.3_wp, degree, z, y)
+                  call blocks%series(0.0_wp, 0.3_wp, degree, spread(z(:, 1), 2, n), all_y)
+                  call one%tangent_series(0.0_wp, 0.3_wp, degree, z, y, 1, dz, dy)
+                  call blocks%tangent_series(0.0_wp, 0.3_wp, degree, spread(z(:, 1), 2, n), &
+                                             all_y, 1, all_dz, all_dy)
+                  do j = 1, n
+                     call expect_close(error, [all_y(:, 3*j - 2:3*j)], [y], 1.0e-13_wp, "motion")
+                     call expect_close(error, [all_dy(:, 3*j - 2:3*j, 1)], [mode(j)*dy(:, :, 1)], &
+                                       1.0e-12_wp, "disturbance")
+                  end do
+                  deallocate (all_y, all_dy, all_dz)
+               end associate
+            end do
+         end do
+      end do
+   end subroutine test_disturbances
+end module test_chains

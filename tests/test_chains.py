@@ -1,0 +1,224 @@
+"""Chains of blocks: trajectories, synchrony and modes, and what is refused."""
+
+import copy
+import math
+
+import numpy as np
+import pytest
+import xarray as xr
+from independent_chain import second_difference, solve_chain
+
+from scripts.claims.claims_of_chains import blocks_differ
+from scripts.claims.claims_results import NOT_REPRODUCED, REPRODUCED, Results
+from scripts.config.check_config import checked
+from scripts.files.read_config import ConfigError
+from scripts.namelists.chains import chain_groups, eigenvalues, histories_of, mode_groups
+from scripts.tables.chain_motions import moves_alike, powers_of, rests, strongest_mode
+
+PLACE = {"tau": 5.0, "epsilon": 0.7, "xi": 0.5, "gamma": 0.8}
+ENDS = ["free", "ring", "plate"]
+
+
+@pytest.fixture
+def config(filled_config) -> dict:
+    """The paper's configuration with its defaults, to change."""
+    return copy.deepcopy(filled_config)
+
+
+def a_chain(config: dict, **given) -> dict:
+    """A chain with the defaults of the configuration."""
+    config["chains"]["mine"] = {**PLACE, "blocks": 4, "t_end": 20.0, **given}
+    return checked(config)["chains"]["mine"]
+
+
+@pytest.mark.parametrize(
+    ("blocks", "ends"), [(2, "free"), (3, "ring"), (3, "plate"), (5, "free"), (20, "ring")]
+)
+def test_trajectory_is_that_of_another_code(programs, config, blocks, ends):
+    """Random histories; the other code's error is about 1e-11."""
+    draw = np.random.default_rng(blocks).uniform
+    history = {
+        "theta": draw(-0.1, 0.1, blocks).tolist(),
+        "u": draw(-0.1, 0.1, blocks).tolist(),
+        "v": np.exp(draw(-0.3, 0.3, blocks)).tolist(),
+    }
+    how = {"kappa": 1.7, "ends": ends, "sample_interval": 0.5, "tolerance": 1e-11}
+    a_chain(config, blocks=blocks, history=history, **how)
+    found = programs.made_of("trajectory", chain_groups(config, "mine"))
+    assert dict(found.sizes) == {"t": 41, "block": blocks}
+    assert found.attrs.items() >= {"blocks": blocks, "kappa": 1.7, "ends": ends}.items()
+    np.testing.assert_array_equal(found.history_theta, history["theta"])
+    states = solve_chain({**PLACE, **how, **history}, 20.0, 0.005)[::100]
+    for place, values in enumerate((found.theta, found.u, np.log(found.v))):
+        np.testing.assert_allclose(values, states[:, place], rtol=0, atol=1e-9)
+
+
+def test_disturbances_grow_as_between_two_blocks(programs, config):
+    """kappa = 0.0875: s = 1.175, where disturbances grow along the paper's torus."""
+    place = {key: config["scenes"]["torus"][key] for key in ("tau", "epsilon", "xi", "gamma")}
+    apart = {"v": [1.1 + 1e-9, 1.1 - 1e-9]}
+    a_chain(
+        config,
+        **{**place, "blocks": 2, "kappa": 0.0875, "history": apart, "t_end": 3000.0},
+        **{"sample_interval": 0.1, "tolerance": 1e-13, "variables": ["u", "v"]},
+    )
+    two = programs.made_of("trajectory", chain_groups(config, "mine"))
+    distance = abs(np.log(two.v).diff("block")) + abs(two.u.diff("block"))
+    highest = distance.sel(t=slice(1000.0, None)).isel(block=0).coarsen(t=2000, boundary="trim")
+    peaks = highest.max()
+    slope = np.polyfit(peaks.t, np.log(peaks), 1)[0]
+    groups = {
+        "scene": {
+            **{"name": "torus", "parameters": {**place, "law": "slip_delayed_logarithm"}},
+            **{"history": {"theta": 0.0, "u": 0.0, "v": 1.1}, "method": "auto"},
+            **{"t_end": 3000.0, "t_transient": 1000.0, "sample_interval": 1.0},
+            **{"tolerance": 1e-9, "variables": ["v"]},
+        },
+        "synchrony": {
+            **{"s_window": [1.175, 2.0], "count": 2, "t_end": 5000.0, "t_turning": 500.0},
+            **{"interval": 20.0, "blocks": 10},
+        },
+    }
+    found = programs.made_of("synchrony", groups)
+    assert found.s.values.tolist() == pytest.approx([1.175, 2.0])
+    assert found.exponent.values[0] == pytest.approx(slope, rel=0.02)
+    assert found.exponent.values[0] > 0 > found.exponent.values[1]
+    assert 1.175 < found.zero_s.item() < 2.0
+    assert found.zero_rises.item() == 0
+
+
+@pytest.mark.parametrize("ends", ENDS)
+def test_eigenvalues_are_those_of_the_matrix(ends):
+    """Of the second difference of a chain, each once."""
+    matrix = np.array([second_difference(row, ends) for row in np.eye(6)])
+    expected = sorted({round(value, 9) for value in -np.linalg.eigvalsh((matrix + matrix.T) / 2)})
+    np.testing.assert_allclose(eigenvalues(6, ends), expected, atol=1e-9)
+
+
+def test_modes_are_blocks_at_other_parameters(config):
+    """gamma sqrt(s) and xi s; the first mode is the block itself."""
+    first, last = (
+        mode_groups(config, "block", str(number))["hopf_curves"]
+        for number in (0, config["chain_modes"]["blocks"] - 1)
+    )
+    assert (first["fixed"], first["gamma"]) == (0.5, 0.8)
+    s = 1 + 4 * math.sin(math.pi * 5 / 12) ** 2
+    assert (last["fixed"], last["gamma"]) == pytest.approx((0.5 * s, 0.8 * math.sqrt(s)))
+
+
+def test_disturbance_is_drawn_or_of_one_block(config):
+    """The same for the same seed; sizes are bounds."""
+    drawn = a_chain(config, disturbance={"ln_v": 0.2, "seed": 3})
+    histories = histories_of(drawn)
+    assert histories == histories_of(drawn)
+    assert histories["theta"] == [0.0] * 4
+    changes = np.log(np.array(histories["v"]) / 1.1)
+    assert len(set(changes)) == 4
+    assert (abs(changes) <= 0.2).all()
+    one = histories_of(a_chain(config, disturbance={"u": 0.5, "block": 2}))
+    assert one["u"] == [0.0, 0.5, 0.0, 0.0]
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"blocks": 1}, "blocks = 1; expected number of blocks, a whole number >= 2"),
+        ({"blocks": 2, "ends": "ring"}, "blocks = 2; expected a whole number >= 3 with ends"),
+        ({"kappa": -1.0}, "kappa = -1.0; expected spring constant"),
+        ({"ends": "open"}, "ends = 'open'; expected"),
+        ({"history": {"u": [0.0, 1.0]}}, "u has 2 numbers; expected one number, or 4"),
+        ({"history": {"v": [1.0, 0.0, 1.0, 1.0]}}, "expected"),
+        ({"disturbance": {"block": 5}}, "block = 5; expected a whole number >= 0 and <= blocks"),
+        ({"t_transient": 30.0}, "t_transient = 30.0; expected a finite number >= 0 and < t_end"),
+        ({"sample_interval": 30.0}, "sample_interval = 30.0; expected"),
+        ({"law": "quasistatic_slip_delayed_logarithm", "zeta": 0.1}, "a law with inertia"),
+    ],
+)
+def test_bad_chains_are_refused(config, given, words):
+    """In one line that names the chain, the value and the range."""
+    with pytest.raises(ConfigError, match=r"config chains mine") as refusal:
+        a_chain(config, **given)
+    assert words in str(refusal.value)
+
+
+@pytest.mark.parametrize(
+    ("section", "given", "words"),
+    [
+        ("synchrony", {"scenes": ["nowhere"]}, "'nowhere'; expected one of"),
+        ("synchrony", {"s_window": [0.5, 2.0]}, "s_window"),
+        ("synchrony", {"t_end": 10.0}, "t_end = 10.0; expected a finite number > t_transient"),
+        ("chain_modes", {"blocks": 2, "ends": "ring"}, "blocks = 2; expected"),
+    ],
+)
+def test_bad_studies_of_chains_are_refused(config, section, given, words):
+    """As above."""
+    config[section] |= given
+    with pytest.raises(ConfigError) as refusal:
+        checked(config)
+    assert words in str(refusal.value)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (lambda groups: groups.pop("blocks"), "namelist group &blocks: "),
+        (lambda groups: groups["blocks"]["v"].pop(), "block 4 of scene 'mine': v = NaN"),
+        (lambda groups: groups["blocks"]["v"].append(1.0), "namelist group &blocks: "),
+        (lambda groups: groups["scene"]["parameters"].update(ends="open"), "ends"),
+        (lambda groups: groups["scene"]["parameters"].update(kappa=-1.0), "kappa"),
+        (lambda groups: groups["scene"]["parameters"].update(blocks=0), "blocks = 0"),
+        (
+            lambda groups: groups["scene"]["parameters"].update(
+                law="quasistatic_slip_delayed_logarithm", own=[0.1]
+            ),
+            "a chain: law",
+        ),
+    ],
+)
+def test_program_refuses_bad_chains(programs, config, change, words):
+    """Without a file left behind."""
+    a_chain(config)
+    groups = chain_groups(config, "mine")
+    change(groups)
+    run = programs.run_groups("trajectory", groups)
+    assert run.returncode == 1
+    assert words in run.stderr
+    assert programs.left_behind() == []
+
+
+def made_up(values: np.ndarray, ends: str = "free") -> xr.Dataset:
+    """A chain with these ln v, shape (t, block)."""
+    return xr.Dataset(
+        {"v": (("t", "block"), np.exp(values))},
+        coords={"t": np.arange(len(values), dtype=float)},
+        attrs={"t_transient": 0.0, "ends": ends, "blocks": values.shape[1]},
+    )
+
+
+@pytest.mark.parametrize("ends", ENDS)
+def test_strongest_mode(ends):
+    """A standing wave has all its power in its mode."""
+    j, mode = np.arange(1, 9), 3
+    shapes = {
+        "free": np.cos(math.pi * mode * (j - 0.5) / 8),
+        "ring": np.cos(2 * math.pi * mode * j / 8),
+        "plate": np.sin(math.pi * mode * j / 9),
+    }
+    wave = np.outer(np.cos(np.linspace(0, 20, 50)), shapes[ends])
+    number, share = strongest_mode(made_up(wave, ends))
+    assert (number, share) == (mode, pytest.approx(1))
+    assert powers_of(made_up(wave, ends)).max() > 0.1
+
+
+def test_chains_that_move_alike_do_not_show_that_more_blocks_differ():
+    """The verdict is what the chains do."""
+    alike = made_up(np.outer(np.sin(np.arange(30.0)), np.ones(4)))
+    still = made_up(np.zeros((30, 4)))
+    differ = made_up(np.outer(np.sin(np.arange(30.0)), [1.0, -1.0, 0.5, 2.0]))
+    assert moves_alike(alike)
+    assert rests(still)
+    for chains, verdict in (
+        ({"a": alike, "b": still}, NOT_REPRODUCED),
+        ({"a": alike, "b": differ}, REPRODUCED),
+    ):
+        assert blocks_differ(Results(chains=chains), chains=["a", "b"]).verdict == verdict
