@@ -15,6 +15,7 @@ wildcard_constraints:
     law="|".join(config["laws"]),
     scene="|".join(config["scenes"]),
     chain="|".join(config["chains"]),
+    event_chain="|".join(config["event_sizes"]["chains"]),
     plane="|".join(config["hopf_curves"]),
     mode_plane="|".join(config["chain_modes"]["planes"]),
     mode=r"\d+",

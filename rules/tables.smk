@@ -73,6 +73,28 @@ TABLES = {
     "exponents_table": table(
         "exponents.tsv", "exponents_table", runs=paths.exponents_of_scenes(config)
     ),
+    "chain_events": table(
+        "chain-events/{event_chain}.tsv",
+        "chain_events_table",
+        {
+            "t_transient": lambda wildcards: config["event_sizes"]["chains"][
+                wildcards.event_chain
+            ]["t_transient"]
+        },
+        slips="<results>/slip_events/chains/{event_chain}.nc",
+    ),
+    "event_sizes_table": table(
+        "event-sizes.tsv",
+        "event_sizes_table",
+        {
+            "t_transient": [
+                chain["t_transient"]
+                for chain in config["event_sizes"]["chains"].values()
+            ]
+        },
+        slips=paths.slips_of_chains(config),
+        events=paths.events_of_chains(config),
+    ),
     "dimensions_table": table(
         "dimensions.tsv", "dimensions_table", {"presets": config["dimensions"]}
     ),

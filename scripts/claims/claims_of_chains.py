@@ -1,12 +1,21 @@
 """Claims about models with more than one block."""
 
+import math
 from typing import Annotated
 
-from scripts.claims.claims_results import Finding, Results, decided
-from scripts.claims.declare import Names, claim, reads, says, tested_with
+from scripts.claims.claims_results import Finding, Results, decided, join, short
+from scripts.claims.declare import Names, claim, number, reads, says, tested_with
 from scripts.tables.chain_motions import moves_alike, rests, strongest_mode
+from scripts.tables.event_laws import RIVALS
+
+LEVEL = 0.01
+"""A law is more likely than another one if chance alone has less than this probability."""
+PLAUSIBLE = 0.1
+"""A law is plausible if at least this share of its samples is farther from it than the data."""
 
 Chains = Annotated[list[str], Names("chain", several=True)]
+EventChains = Annotated[list[str], Names("event_chain", several=True)]
+Decades = Annotated[float, number("decades that a power law spans")]
 
 
 @claim(64, "more_blocks", "section 5", look_at="chain")
@@ -37,3 +46,71 @@ def blocks_differ(results: Results, *, chains: Chains) -> Finding:
                 f" {100 * share:.0f} % of the mean square of ln v is in such modes."
             )
     return decided(differ > 0, " ".join(parts), "All chains move as one block does.", partly=False)
+
+
+@claim(56, "gutenberg_richter", "sections 1 and 5", look_at="event_sizes")
+@says("The sizes of events in a spring-block model follow the power law of Gutenberg and Richter.")
+@tested_with(chains=["chaos_50", "chaos_100", "fault_100"], decades=2.0)
+@reads("event_sizes")
+def power_law_of_sizes(results: Results, *, chains: EventChains, decades: Decades) -> Finding:
+    """Whether sizes follow a power law over this many decades in some chain, and none fits better.
+
+    Only in part if the power law is cut off, over half as many decades, and neither an exponential
+    law nor a lognormal one is more likely than the one with the cut-off.
+    """
+    parts, pure, cut_off = [], False, False
+    for name in chains:
+        row = results.laws_of_events(name)
+        place = f"Chain {name.replace('_', ' ')} has {row['events']:g} events."
+        if math.isnan(row["size_exponent"]):
+            parts.append(f"{place} They are too few above a lower cut-off to fit a law.")
+            continue
+        span = math.log10(row["largest"] / row["size_least"])
+        cut_span = math.log10(row["size_cutoff"] / row["size_least"])
+        better = [
+            rival.replace("_", " ")
+            for rival in RIVALS
+            if row[f"{rival}_ratio"] < 0 and row[f"{rival}_chance"] < LEVEL
+        ]
+        pure = pure or (span >= decades and row["size_goodness"] >= PLAUSIBLE and not better)
+        cut_off = cut_off or (cut_span >= decades / 2 and better == ["truncated power law"])
+        parts.append(
+            f"{place} Above a size of {short(row['size_least'], 3)}, over {short(span, 2)} decades,"
+            f" the density falls with the exponent {short(row['size_exponent'], 3)} +-"
+            f" {short(row['size_error'], 1)}. The share {short(row['size_goodness'], 2)} of samples"
+            f" of this law is farther from it. More likely laws: {join(better)}. With a cut-off at"
+            f" {short(row['size_cutoff'], 3)} the exponent is"
+            f" {short(row['size_cutoff_exponent'], 3)}."
+        )
+    return decided(
+        pure,
+        " ".join(parts),
+        "Sizes follow a power law with a cut-off, over one to two decades."
+        if cut_off
+        else "Sizes of these chains do not follow a power law.",
+        partly=cut_off,
+    )
+
+
+@claim(57, "omori_utsu", "section 5", look_at="event_sizes")
+@says("Spring-block models follow the law of Omori and Utsu.")
+@tested_with(chains=["chaos_50", "chaos_100", "fault_100"])
+@reads("event_sizes")
+def decaying_aftershocks(results: Results, *, chains: EventChains) -> Finding:
+    """Whether in some chain the rate of events is higher after large events, and then decays."""
+    parts, holds = [], False
+    for name in chains:
+        row = results.laws_of_events(name)
+        place = f"chain {name.replace('_', ' ')}"
+        if math.isnan(row["aftershock_chance"]):
+            parts.append(f"{place.capitalize()} has too few events after large ones.")
+            continue
+        holds = holds or (row["aftershock_chance"] < LEVEL and row["aftershock_first"] > 1)
+        parts.append(
+            f"In {place} the rate of events in the first unit of time after"
+            f" {row['aftershock_main_shocks']:g} large events is"
+            f" {short(row['aftershock_first'], 2)} +- {short(row['aftershock_first_error'], 1)} of"
+            " its mean. That a constant rate is as much less likely than the law has the"
+            f" probability {short(row['aftershock_chance'], 2)}."
+        )
+    return decided(holds, " ".join(parts), "Large events are not followed by more events.")

@@ -29,7 +29,7 @@ FILES = {
         name.replace("-", "_"): f"<results>/tables/{name}.tsv"
         for name in (
             *("hopf-points", "fault-limit", "linear-stability", "stability", "attractors"),
-            *("exponents", "atlas", "basins", "cycle-points", "friction-laws"),
+            *("exponents", "atlas", "basins", "cycle-points", "friction-laws", "event-sizes"),
         )
     },
 }
@@ -103,6 +103,11 @@ class Results:
     def events_of(self, scene: str) -> xr.Dataset:
         """The scene's slip events; to have none is an error."""
         return _data_about(self.slip_events, "results/slip_events", scene)
+
+    def laws_of_events(self, chain: str) -> dict:
+        """The laws of the events of a chain."""
+        (row,) = _rows_about(self.event_sizes, "event-sizes.tsv", "chain", chain)
+        return row
 
     def route(self, name: str) -> list[dict]:
         """Points of a route, of all runs; to have none is an error."""

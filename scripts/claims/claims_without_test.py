@@ -23,16 +23,6 @@ CLAIMS = {
         "The results confirm that delayed memory is a natural feature of real earthquakes.",
         "A model cannot confirm a property of real faults without data from faults.",
     ),
-    (56, "gutenberg_richter", "sections 1 and 5"): (
-        "The sizes of events in a spring-block model follow the power law of Gutenberg and"
-        " Richter.",
-        "The paper says it of models with many blocks; the sizes of events in long chains are not"
-        " computed here.",
-    ),
-    (57, "omori_utsu", "section 5"): (
-        "Spring-block models follow the law of Omori and Utsu.",
-        "The law is about aftershocks elsewhere on the fault; long chains are not computed here.",
-    ),
 }
 """By number, name and place in the paper: the claim, and why it cannot be tested."""
 

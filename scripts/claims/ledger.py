@@ -28,7 +28,7 @@ from scripts.results.paths import cycles_of_lines, exponents_of_scenes, runs_of_
 
 TABLES = [Path(path).name for path in FILES.values() if path.endswith(".tsv") and "{" not in path]
 """Tables that a claim may tell the reader to look at."""
-KINDS = ("scene", "plane", "route", "chain")
+KINDS = ("scene", "plane", "route", "chain", "event_chain")
 """What parameters of tests name."""
 
 
@@ -56,6 +56,7 @@ def _rules(config: dict) -> dict:
         "plane": list(config["hopf_curves"]),
         "route": list(config["routes"]["lines"]),
         "chain": list(config["chains"]),
+        "event_chain": list(config["event_sizes"]["chains"]),
     }
     tests = _allow_keys({name: _rules_of(test, known) for name, test in TESTS.items()})
     claim = {"properties": {"test": tests}}

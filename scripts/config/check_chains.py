@@ -12,6 +12,8 @@ def contradictions(config: dict):
     """Problems of chains, of planes of their modes, and of the scenes whose synchrony is tried."""
     for name, chain in config["chains"].items():
         yield from _contradictions_of_chain(f"config chains {name}", chain)
+    for name, chain in config["event_sizes"]["chains"].items():
+        yield from _contradictions_of_chain(f"config event_sizes chains {name}", chain)
     modes = config["chain_modes"]
     yield from _contradictions_of_ends("config chain_modes", modes)
     for name, plane in modes["planes"].items():

@@ -29,6 +29,7 @@ from scripts.figures import (
     chain,
     chain_modes,
     cycles,
+    event_sizes,
     events,
     exponents,
     fault_limit,
@@ -83,6 +84,7 @@ OF_THE_PAPER = {
     "chain": Figure("Chains", chain),
     "synchrony": Figure("Chains", synchrony),
     "chain_modes": Figure("Chains", chain_modes),
+    "event_sizes": Figure("Chains", event_sizes),
 }
 """By name, in the order of the page."""
 FIGURES = list(OF_THE_PAPER)
@@ -101,6 +103,7 @@ OF_USERS = {
     "cycles": Figure("Cycles", cycles, ("cycles", "lines")),
     "atlas": Figure("Atlas", atlas, ("atlas", "planes")),
     "chains": Figure("Chains", chain, ("chains",)),
+    "event_chains": Figure("Chains", event_sizes, ("event_sizes", "chains")),
 }
 """By kind."""
 

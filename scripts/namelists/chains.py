@@ -31,8 +31,18 @@ def histories_of(chain: dict) -> dict[str, list[float]]:
 
 
 def chain_groups(config: dict, chain: str) -> dict[str, dict]:
-    """A chain for its trajectory; the group `blocks` has the histories."""
-    settings = config["chains"][chain]
+    """A chain for its trajectory."""
+    return _groups_of(config, chain, config["chains"][chain])
+
+
+def event_chain_groups(config: dict, event_chain: str) -> dict[str, dict]:
+    """A chain for the slips of its blocks from the start on: events are found in all of them."""
+    settings = config["event_sizes"]["chains"][event_chain]
+    return _groups_of(config, event_chain, {**settings, "t_transient": 0.0})
+
+
+def _groups_of(config: dict, chain: str, settings: dict) -> dict[str, dict]:
+    """A chain as a scene; the group `blocks` has the histories."""
     histories = histories_of(settings)
     left_out = {"history", "disturbance", *CHAIN}
     scene = {key: value for key, value in settings.items() if key not in left_out}

@@ -94,6 +94,16 @@ def runs_of_laws(config: dict) -> list[str]:
     ]
 
 
+def slips_of_chains(config: dict) -> list[str]:
+    """Slips of the blocks of chains whose events are sized."""
+    return [f"<results>/slip_events/chains/{name}.nc" for name in config["event_sizes"]["chains"]]
+
+
+def events_of_chains(config: dict) -> list[str]:
+    """Tables of the events of these chains."""
+    return [f"<results>/tables/chain-events/{name}.tsv" for name in config["event_sizes"]["chains"]]
+
+
 def table_of_atlas(config: dict) -> str:
     """The table of all planes of the atlas; that of a plane if it is the only one."""
     planes = list(config["atlas"]["planes"])

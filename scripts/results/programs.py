@@ -89,6 +89,11 @@ RUNS = [
         **LONG_RUN,
     ),
     Run("chain_trajectory", "trajectory", "chains/{chain}.nc", chains.chain_groups),
+    Run(
+        *("chain_slips", "slip_events", "slip_events/chains/{event_chain}.nc"),
+        chains.event_chain_groups,
+        **LONG_RUN,
+    ),
     Run("mode_curves", "hopf", "modes/{mode_plane}/{mode}.nc", chains.mode_groups),
     Run("synchrony_runs", "synchrony", "synchrony/{scene}.nc", chains.synchrony_groups, **LONG_RUN),
     Run(

@@ -25,6 +25,7 @@ SECTIONS = {
     "atlas": ("atlas", "planes"),
     "planes": ("hopf_curves",),
     "chains": ("chains",),
+    "event_chains": ("event_sizes", "chains"),
     "routes": ("routes", "lines"),
     "cycles": ("cycles", "lines"),
     "basins": ("basins", "places"),
@@ -97,6 +98,7 @@ TABLES = {
     "basins": "basins",
     "stability": "families",
     "dimensions": "dimensions",
+    "event-sizes": "event_chains",
     "tolerance-proportionality": "measured_scenes",
 }
 """Tables, and the section whose entries they list. Others are made where a figure needs them."""

@@ -6,7 +6,7 @@ module test_slip_events
    use dde_kinds, only: wp
    use expectations, only: expect, expect_close, expect_success
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use slip_events, only: find_slip_events, slip_events_type
+   use slip_events, only: find_slip_events, slip_event_type
    use solving, only: at_tolerance
    use test_problems, only: constant_past, fill
    implicit none (type, external)
@@ -48,7 +48,7 @@ contains
    !> Events of the problem up to a time.
    subroutine events_of(a, b, t_transient, t_end, events, error)
       real(wp), intent(in) :: a, b, t_transient, t_end
-      type(slip_events_type), intent(out) :: events
+      type(slip_event_type), allocatable, intent(out) :: events(:)
       type(error_type), allocatable, intent(inout) :: error
       type(failure_type), allocatable :: failure
       type(prescribed_type) :: problem
@@ -65,7 +65,7 @@ contains
    subroutine test_known(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp), parameter :: i0 = 1.266065877752008336_wp, l0 = 0.710243185937890861_wp
-      type(slip_events_type) :: events
+      type(slip_event_type), allocatable :: events(:)
       integer :: i
 
       call events_of(1.0_wp, 0.0_wp, 0.0_wp, 40.0_wp, events, error)
@@ -84,7 +84,7 @@ contains
    subroutine test_two_maxima(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp), parameter :: highest = 10.0_wp/3.0_wp*sqrt(5.0_wp/12.0_wp)
-      type(slip_events_type) :: events
+      type(slip_event_type), allocatable :: events(:)
 
       call events_of(2.0_wp, 1.0_wp, 0.0_wp, 20.0_wp, events, error)
       if (allocated(error)) return
@@ -98,7 +98,7 @@ contains
    !> Only events that begin after the transient count, and only with the loading after them.
    subroutine test_ends(error)
       type(error_type), allocatable, intent(out) :: error
-      type(slip_events_type) :: events
+      type(slip_event_type), allocatable :: events(:)
 
       call events_of(1.0_wp, 0.0_wp, 2.1_wp*pi, 7.9_wp*pi, events, error)
       if (allocated(error)) return
@@ -111,7 +111,7 @@ contains
    subroutine test_none(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      type(slip_events_type) :: events
+      type(slip_event_type), allocatable :: events(:)
 
       call find_slip_events(build_block(1.0_wp, 0.1_wp, 0.5_wp, 0.8_wp), 0.0_wp, 50.0_wp, &
                             at_tolerance(tolerance), events, failure)

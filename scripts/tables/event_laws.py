@@ -1,0 +1,177 @@
+"""Laws of event sizes and of aftershocks, put to the test of their data.
+
+Sizes: maximum likelihood above a lower cut-off, and ratios of likelihoods (Clauset, Shalizi and
+Newman 2009). Aftershocks: the likelihood of a rate that decays as Omori and Utsu say.
+"""
+
+import warnings
+from dataclasses import dataclass
+
+import numpy as np
+import powerlaw
+from scipy import stats
+from scipy.optimize import minimize
+from scipy.special import boxcox
+
+FEWEST = 100
+"""Events that a fit needs."""
+RIVALS = ("exponential", "lognormal", "truncated_power_law")
+"""Laws that a power law is compared with: the last is one with an exponential cut-off."""
+SAMPLES = 999
+"""Random samples of the power law from which the goodness of fit is found."""
+SEED = 1
+LARGEST = 0.01
+"""Share of the events that are main shocks: the largest."""
+FIRST = 1.0
+"""Time after a main shock in which the first rate is counted."""
+WINDOW = 50.0
+"""Time after a main shock in which aftershocks are looked for."""
+
+
+@dataclass(frozen=True)
+class SizeLaw:
+    """A power law of sizes, density size^-exponent above a least size, and its rivals."""
+
+    exponent: float
+    error: float
+    least: float
+    events: int
+    """Events with at least the least size."""
+    goodness: float
+    """Share of samples of the power law that are farther from it than the data (Kolmogorov and
+    Smirnov's distance)."""
+    ratios: dict[str, tuple[float, float]]
+    """Of each rival the logarithm of the likelihoods' ratio over its standard deviation, positive
+    in favour of the power law, and the probability that it is as large by chance."""
+    cutoff_exponent: float
+    """Exponent of the power law with a cut-off."""
+    cutoff: float
+    """Size at which it is cut off."""
+
+    def beaten_by(self, rival: str, level: float = 0.01) -> bool:
+        """Whether a rival is more likely at this level."""
+        ratio, chance = self.ratios[rival]
+        return ratio < 0 and chance < level
+
+
+def fit_sizes(sizes: np.ndarray) -> SizeLaw | None:
+    """The law of the sizes, shape (events); none of fewer than `FEWEST` events above the cut-off."""
+    if sizes.size < FEWEST:
+        return None
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # sizes at the bounds of the search
+        fit = powerlaw.Fit(sizes, verbose=0)
+        above = sizes[sizes >= fit.xmin]
+        if above.size < FEWEST:
+            return None
+        ratios = {
+            rival: fit.distribution_compare(
+                "power_law", rival, nested=rival == "truncated_power_law", normalized_ratio=True
+            )
+            for rival in RIVALS
+        }
+        cut_off = fit.truncated_power_law
+        test = stats.goodness_of_fit(
+            stats.pareto,
+            above,
+            known_params={"loc": 0.0, "scale": fit.xmin},
+            statistic="ks",
+            n_mc_samples=SAMPLES,
+            rng=np.random.default_rng(SEED),
+        )
+    return SizeLaw(
+        exponent=float(fit.alpha),
+        error=float(fit.sigma),
+        least=float(fit.xmin),
+        events=above.size,
+        goodness=float(test.pvalue),
+        ratios={rival: (float(ratio), float(p)) for rival, (ratio, p) in ratios.items()},
+        cutoff_exponent=float(cut_off.parameter1),
+        cutoff=1.0 / float(cut_off.parameter2),
+    )
+
+
+@dataclass(frozen=True)
+class AftershockLaw:
+    """The rate of events after main shocks, background + productivity (t + delay)^-exponent.
+
+    Times count from the end of the main shock.
+    """
+
+    main_shocks: int
+    rate: float
+    """Events per unit of time in the whole run."""
+    first: float
+    """The rate in the time `FIRST` after main shocks, over that of the whole run."""
+    first_error: float
+    background: float
+    productivity: float
+    delay: float
+    exponent: float
+    chance: float
+    """Probability that a constant rate is as much less likely by chance."""
+
+
+def times_after_main_shocks(
+    onset: np.ndarray, duration: np.ndarray, sizes: np.ndarray
+) -> tuple[int, np.ndarray]:
+    """The number of main shocks, and the times from their ends to the onsets of other events.
+
+    Of events, shape (events). Times are up to `WINDOW`, which all main shocks have before them.
+    """
+    if sizes.size < FEWEST:
+        return 0, np.empty(0)
+    end = onset + duration
+    main = (sizes >= np.quantile(sizes, 1 - LARGEST)) & (end + WINDOW < onset.max())
+    after = (onset - end[main, np.newaxis]).ravel()
+    return np.count_nonzero(main), after[(after > 0) & (after < WINDOW)]
+
+
+def fit_aftershocks(
+    onset: np.ndarray, duration: np.ndarray, sizes: np.ndarray, time: float
+) -> AftershockLaw | None:
+    """The law of Omori and Utsu of all events that begin after the end of the largest ones.
+
+    Of events, shape (events), in a run of some time; none if they are too few.
+    """
+    main_shocks, after = times_after_main_shocks(onset, duration, sizes)
+    if after.size < FEWEST:
+        return None
+    rate, soon = sizes.size / time, np.count_nonzero(after < FIRST)
+    constant = after.size / (main_shocks * WINDOW)
+
+    def rates(values: np.ndarray, t: np.ndarray) -> np.ndarray:
+        background, productivity, delay, exponent = np.exp(values)
+        return background + productivity * (t + delay) ** -exponent
+
+    def log_likelihood(values: np.ndarray) -> float:
+        background, productivity, delay, exponent = np.exp(values)
+        # the integral of x^-p is boxcox(x, 1 - p), of which p = 1 is no exception
+        decay = np.diff(boxcox([delay, WINDOW + delay], 1 - exponent))[0]
+        expected = main_shocks * (background * WINDOW + productivity * decay)
+        return float(np.log(rates(values, after)).sum() - expected)
+
+    fits = [
+        minimize(
+            lambda values: -log_likelihood(values),
+            np.log([constant, productivity * constant, 1.0, 1.0]),
+            method="L-BFGS-B",
+            bounds=np.log([(1e-6, 1e6), (1e-9, 1e6), (1e-3, WINDOW), (0.1, 10.0)]),
+        )
+        for productivity in (0.01, 1.0)
+    ]
+    best = min(fits, key=lambda fit: fit.fun)
+    gain = -best.fun - (after.size * np.log(constant) - after.size)
+    background, productivity, delay, exponent = np.exp(best.x).tolist()
+    expected = rate * FIRST * main_shocks
+    return AftershockLaw(
+        main_shocks=main_shocks,
+        rate=rate,
+        first=soon / expected,
+        first_error=float(np.sqrt(max(soon, 1)) / expected),
+        background=background,
+        productivity=productivity,
+        delay=delay,
+        exponent=exponent,
+        chance=float(stats.chi2.sf(2 * max(gain, 0.0), 3)),
+    )
