@@ -12,6 +12,8 @@ LEVEL = 0.01
 """A law is more likely than another one if chance alone has less than this probability."""
 PLAUSIBLE = 0.1
 """A law is plausible if at least this share of its samples is farther from it than the data."""
+MUCH_MORE_LIKELY = 3.0
+"""A law is preferred to one that is not nested in it if its log-likelihood is larger by this."""
 
 Chains = Annotated[list[str], Names("chain", several=True)]
 EventChains = Annotated[list[str], Names("event_chain", several=True)]
@@ -97,20 +99,35 @@ def power_law_of_sizes(results: Results, *, chains: EventChains, decades: Decade
 @tested_with(chains=["chaos_50", "chaos_100", "fault_100"])
 @reads("event_sizes")
 def decaying_aftershocks(results: Results, *, chains: EventChains) -> Finding:
-    """Whether in some chain the rate of events is higher after large events, and then decays."""
-    parts, holds = [], False
+    """Whether in some chain events follow large ones at a rate that decays by a power of time.
+
+    Only in part if the rate is higher after large events, but decays as likely exponentially.
+    """
+    parts, power, more = [], False, False
     for name in chains:
         row = results.laws_of_events(name)
-        place = f"chain {name.replace('_', ' ')}"
+        place = f"hain {name.replace('_', ' ')}"
         if math.isnan(row["aftershock_chance"]):
-            parts.append(f"{place.capitalize()} has too few events after large ones.")
+            parts.append(f"C{place} has too few events after large ones.")
             continue
-        holds = holds or (row["aftershock_chance"] < LEVEL and row["aftershock_first"] > 1)
+        here = row["aftershock_chance"] < LEVEL and row["aftershock_first"] > 1
+        more = more or here
+        power = power or (here and row["aftershock_over_exponential"] > MUCH_MORE_LIKELY)
         parts.append(
-            f"In {place} the rate of events in the first unit of time after"
+            f"In c{place} the rate of events in the first unit of time after"
             f" {row['aftershock_main_shocks']:g} large events is"
-            f" {short(row['aftershock_first'], 2)} +- {short(row['aftershock_first_error'], 1)} of"
-            " its mean. That a constant rate is as much less likely than the law has the"
-            f" probability {short(row['aftershock_chance'], 2)}."
+            f" {short(row['aftershock_first'], 3)} +- {short(row['aftershock_first_error'], 1)} of"
+            " its mean. If it were constant, chance alone would make the law of Omori and Utsu as"
+            f" much more likely with the probability {short(row['aftershock_chance'], 2)}. That law"
+            f" is more likely than an exponential decay by a factor of"
+            f" {short(math.exp(row['aftershock_over_exponential']), 2)}."
         )
-    return decided(holds, " ".join(parts), "Large events are not followed by more events.")
+    return decided(
+        power,
+        " ".join(parts),
+        "A few more events follow large ones, for about one unit of time; an exponential decay is as"
+        " likely as the law."
+        if more
+        else "Large events are not followed by more events.",
+        partly=more,
+    )

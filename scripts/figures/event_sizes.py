@@ -14,7 +14,7 @@ from scripts.results.paths import events_of_chains
 from scripts.tables.event_laws import LARGEST, WINDOW, times_after_main_shocks
 
 MARKS = ["o", "s", "^", "D", "v", "P"]
-BINS = np.geomspace(0.1, WINDOW, 12)
+BINS = np.geomspace(0.3, WINDOW, 10)
 """Times after a main shock between which events are counted."""
 
 
@@ -43,12 +43,12 @@ def draw(events: list[list[dict]], laws: list[dict], names: list[str]) -> Figure
         colour, mark = f"C{number}", MARKS[number % len(MARKS)]
         draw_sizes(sizes, chain, row, colour)
         draw_rates(rates, chain, row, colour, mark)
-        cutoffs.loglog(row["blocks"], row["size_cutoff"], mark, color=colour, ms=4)
+        cutoffs.plot(row["blocks"], row["size_cutoff"], mark, color=colour, ms=4)
     for axes, letter in zip((sizes, cutoffs, rates), "abc", strict=True):
         axes.set_title(f"$\\bf{{{letter}}}$")
     sizes.set(xlabel="size (units of $L$)", ylabel="share of events at least as large")
-    cutoffs.set(xlabel="blocks", ylabel="cut-off of the power law (units of $L$)")
-    cutoffs.set_xlim(0.7 * min(r["blocks"] for r in rows), 1.4 * max(r["blocks"] for r in rows))
+    cutoffs.set(xlabel="blocks", ylabel="cut-off (units of $L$)")
+    cutoffs.set(xlim=(0, 1.15 * max(row["blocks"] for row in rows)), ylim=(0, None))
     rates.axhline(1, color=INK, lw=0.5)
     rates.set(
         xlabel="time after a large event ($L/v_0$)",

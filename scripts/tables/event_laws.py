@@ -5,6 +5,7 @@ Newman 2009). Aftershocks: the likelihood of a rate that decays as Omori and Uts
 """
 
 import warnings
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,12 +21,15 @@ RIVALS = ("exponential", "lognormal", "truncated_power_law")
 SAMPLES = 999
 """Random samples of the power law from which the goodness of fit is found."""
 SEED = 1
-LARGEST = 0.01
+LARGEST = 0.05
 """Share of the events that are main shocks: the largest."""
 FIRST = 1.0
 """Time after a main shock in which the first rate is counted."""
 WINDOW = 50.0
 """Time after a main shock in which aftershocks are looked for."""
+EXPONENTS = (0.3, 3.0)
+"""Exponents of the decay that are tried. Those of earthquakes are 0.6 to 2.5 (Utsu, Ogata and
+Matsu'ura 1995)."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +59,7 @@ class SizeLaw:
 
 
 def fit_sizes(sizes: np.ndarray) -> SizeLaw | None:
-    """The law of the sizes, shape (events); none of fewer than `FEWEST` events above the cut-off."""
+    """The law of the sizes, shape (events); none of fewer than `FEWEST` above the least size."""
     if sizes.size < FEWEST:
         return None
     with warnings.catch_warnings():
@@ -93,7 +97,7 @@ def fit_sizes(sizes: np.ndarray) -> SizeLaw | None:
 
 @dataclass(frozen=True)
 class AftershockLaw:
-    """The rate of events after main shocks, background + productivity (t + delay)^-exponent.
+    """The rate of events after main shocks, background + productivity (1 + t/delay)^-exponent.
 
     Times count from the end of the main shock.
     """
@@ -110,6 +114,8 @@ class AftershockLaw:
     exponent: float
     chance: float
     """Probability that a constant rate is as much less likely by chance."""
+    over_exponential: float
+    """Logarithm of the likelihood over that of a rate that decays exponentially."""
 
 
 def times_after_main_shocks(
@@ -134,38 +140,16 @@ def fit_aftershocks(
 
     Of events, shape (events), in a run of some time; none if they are too few.
     """
-    main_shocks, after = times_after_main_shocks(onset, duration, sizes)
+    shocks, after = times_after_main_shocks(onset, duration, sizes)
     if after.size < FEWEST:
         return None
     rate, soon = sizes.size / time, np.count_nonzero(after < FIRST)
-    constant = after.size / (main_shocks * WINDOW)
-
-    def rates(values: np.ndarray, t: np.ndarray) -> np.ndarray:
-        background, productivity, delay, exponent = np.exp(values)
-        return background + productivity * (t + delay) ** -exponent
-
-    def log_likelihood(values: np.ndarray) -> float:
-        background, productivity, delay, exponent = np.exp(values)
-        # the integral of x^-p is boxcox(x, 1 - p), of which p = 1 is no exception
-        decay = np.diff(boxcox([delay, WINDOW + delay], 1 - exponent))[0]
-        expected = main_shocks * (background * WINDOW + productivity * decay)
-        return float(np.log(rates(values, after)).sum() - expected)
-
-    fits = [
-        minimize(
-            lambda values: -log_likelihood(values),
-            np.log([constant, productivity * constant, 1.0, 1.0]),
-            method="L-BFGS-B",
-            bounds=np.log([(1e-6, 1e6), (1e-9, 1e6), (1e-3, WINDOW), (0.1, 10.0)]),
-        )
-        for productivity in (0.01, 1.0)
-    ]
-    best = min(fits, key=lambda fit: fit.fun)
-    gain = -best.fun - (after.size * np.log(constant) - after.size)
-    background, productivity, delay, exponent = np.exp(best.x).tolist()
-    expected = rate * FIRST * main_shocks
+    expected = rate * FIRST * shocks
+    constant = after.size * (np.log(after.size / (shocks * WINDOW)) - 1)
+    best, (background, productivity, delay, exponent) = fit_decay(shocks, after, power_decay)
+    exponential, _ = fit_decay(shocks, after, exponential_decay)
     return AftershockLaw(
-        main_shocks=main_shocks,
+        main_shocks=shocks,
         rate=rate,
         first=soon / expected,
         first_error=float(np.sqrt(max(soon, 1)) / expected),
@@ -173,5 +157,45 @@ def fit_aftershocks(
         productivity=productivity,
         delay=delay,
         exponent=exponent,
-        chance=float(stats.chi2.sf(2 * max(gain, 0.0), 3)),
+        chance=float(stats.chi2.sf(2 * max(best - constant, 0.0), 3)),
+        over_exponential=best - exponential,
     )
+
+
+def power_decay(t: np.ndarray, delay: float, exponent: float) -> tuple[np.ndarray, float]:
+    """(1 + t/delay)^-exponent, and its integral over `WINDOW`."""
+    # the integral of x^-p is boxcox(x, 1 - p), of which p = 1 is no exception
+    return (1 + t / delay) ** -exponent, delay * boxcox(1 + WINDOW / delay, 1 - exponent)
+
+
+def exponential_decay(t: np.ndarray, delay: float, _: float) -> tuple[np.ndarray, float]:
+    """exp(-t/delay), and its integral over `WINDOW`."""
+    return np.exp(-t / delay), -delay * np.expm1(-WINDOW / delay)
+
+
+def fit_decay(shocks: int, after: np.ndarray, decay: Callable) -> tuple[float, list[float]]:
+    """The largest logarithm of the likelihood of a decay with a background.
+
+    Also background, productivity, delay and exponent there.
+    """
+    constant = after.size / (shocks * WINDOW)
+
+    def minus_log_likelihood(values: np.ndarray) -> float:
+        background, productivity, delay, exponent = np.exp(values)
+        shape, integral = decay(after, delay, exponent)
+        expected = shocks * (background * WINDOW + productivity * integral)
+        return expected - np.log(background + productivity * shape).sum()
+
+    fits = [
+        minimize(
+            minus_log_likelihood,
+            np.log([constant, excess * constant, delay, 1.0]),
+            method="L-BFGS-B",
+            bounds=np.log(np.array([(1e-3, 10.0), (1e-6, 1e3)]) * constant).tolist()
+            + np.log([(1e-2, WINDOW), EXPONENTS]).tolist(),
+        )
+        for excess in (0.01, 1.0)
+        for delay in (0.1, 1.0, 10.0)
+    ]
+    best = min(fits, key=lambda fit: fit.fun)
+    return -float(best.fun), np.exp(best.x).tolist()

@@ -16,7 +16,7 @@ from scripts.tables.event_laws import RIVALS, fit_aftershocks, fit_sizes
 OF_SIZES = ("exponent", "error", "least", "events", "goodness", "cutoff_exponent", "cutoff")
 OF_AFTERSHOCKS = (
     *("main_shocks", "rate", "first", "first_error", "background", "productivity", "delay"),
-    *("exponent", "chance"),
+    *("exponent", "chance", "over_exponential"),
 )
 
 
