@@ -5,6 +5,7 @@ from os.path import normpath
 from pathlib import Path
 
 from scripts.namelists import laws
+from scripts.namelists.chains import motion_chains
 from scripts.figures import registry
 from scripts.namelists.study_cases import measured_study
 from scripts.results.programs import BUILD, PAPER, RUNS
@@ -15,6 +16,7 @@ wildcard_constraints:
     law="|".join(config["laws"]),
     scene="|".join(config["scenes"]),
     chain="|".join(config["chains"]),
+    motion="|".join(motion_chains(config)),
     event_chain="|".join(config["event_sizes"]["chains"]),
     plane="|".join(config["hopf_curves"]),
     mode_plane="|".join(config["chain_modes"]["planes"]),

@@ -73,6 +73,9 @@ TABLES = {
     "exponents_table": table(
         "exponents.tsv", "exponents_table", runs=paths.exponents_of_scenes(config)
     ),
+    "chain_motions_table": table(
+        "chain-motions.tsv", "chain_motions_table", **paths.runs_of_motions(config)
+    ),
     "chain_events": table(
         "chain-events/{event_chain}.tsv",
         "chain_events_table",

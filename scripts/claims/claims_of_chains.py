@@ -125,8 +125,8 @@ def decaying_aftershocks(results: Results, *, chains: EventChains) -> Finding:
     return decided(
         power,
         " ".join(parts),
-        "A few more events follow large ones, for about one unit of time; an exponential decay is as"
-        " likely as the law."
+        "A few more events follow large ones, for about one unit of time; an exponential decay is"
+        " as likely as the law."
         if more
         else "Large events are not followed by more events.",
         partly=more,

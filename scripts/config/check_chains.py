@@ -12,6 +12,7 @@ def contradictions(config: dict):
     """Problems of chains, of planes of their modes, and of the scenes whose synchrony is tried."""
     for name, chain in config["chains"].items():
         yield from _contradictions_of_chain(f"config chains {name}", chain)
+    yield from _contradictions_of_motions(config)
     for name, chain in config["event_sizes"]["chains"].items():
         yield from _contradictions_of_chain(f"config event_sizes chains {name}", chain)
     modes = config["chain_modes"]
@@ -27,16 +28,35 @@ def contradictions(config: dict):
     synchrony = config["synchrony"]
     place = "config synchrony"
     yield from check_attractors.window(place, "s_window", synchrony["s_window"], least=1.0)
-    for name in synchrony["scenes"]:
-        if name not in config["scenes"]:
-            yield f"{place} scenes: {name!r}; expected one of: {', '.join(config['scenes'])}"
-            continue
+    yield from _contradictions_of_scenes(place, synchrony, config["scenes"])
+    for name in config["scenes"].keys() & set(synchrony["scenes"]):
         scene = config["scenes"][name]
-        if scene["law"].startswith(PREFIX):
-            yield f"{place} scenes: {name!r} has the law {scene['law']}; chains have no such law"
         if synchrony["t_end"] <= scene["t_transient"]:
             expected = f"a finite number > t_transient = {scene['t_transient']} of scene '{name}'"
             yield wrong(place, synchrony, "t_end", expected)
+
+
+def _contradictions_of_scenes(place: str, study: dict, scenes: dict):
+    """Scenes that are not there, or whose law chains have not."""
+    for name in study["scenes"]:
+        if name not in scenes:
+            yield f"{place} scenes: {name!r}; expected one of: {', '.join(scenes)}"
+        elif scenes[name]["law"].startswith(PREFIX):
+            law = scenes[name]["law"]
+            yield f"{place} scenes: {name!r} has the law {law}; chains have no such law"
+
+
+def _contradictions_of_motions(config: dict):
+    """Problems of the chains whose motions are told apart."""
+    study = config["chain_motions"]
+    place = "config chain_motions"
+    yield from _contradictions_of_scenes(place, study, config["scenes"])
+    for blocks in study["blocks"]:
+        yield from _contradictions_of_ends(place, {**study, "blocks": blocks})
+    begin = study["t_transient"] + study["t_turning"]
+    if begin >= study["t_end"]:
+        expected = f"a finite number > t_transient + t_turning = {begin}"
+        yield wrong(place, study, "t_end", expected)
 
 
 def _contradictions_of_chain(place: str, chain: dict):

@@ -27,6 +27,7 @@ from types import ModuleType
 from scripts.figures import (
     atlas,
     chain,
+    chain_exponents,
     chain_modes,
     cycles,
     event_sizes,
@@ -83,6 +84,7 @@ OF_THE_PAPER = {
     "friction_laws": Figure("Atlas", friction_laws),
     "chain": Figure("Chains", chain),
     "synchrony": Figure("Chains", synchrony),
+    "chain_exponents": Figure("Chains", chain_exponents),
     "chain_modes": Figure("Chains", chain_modes),
     "event_sizes": Figure("Chains", event_sizes),
 }

@@ -5,10 +5,16 @@ import math
 import numpy as np
 
 from scripts.namelists.laws import law_group
-from scripts.namelists.study_cases import HISTORY, with_parameters
+from scripts.namelists.study_cases import HISTORY, place_of, with_parameters
 
 CHAIN = ["blocks", "kappa", "ends"]
 """Keys of a chain beside those of a block."""
+OF_MOTIONS = (
+    *("ends", "disturbance", "t_end", "t_transient", "sample_interval", "tolerance", "method"),
+)
+"""What all chains of the table of motions have."""
+MORE_EXPONENTS = 2
+"""Exponents of a chain beyond one a block."""
 
 
 def histories_of(chain: dict) -> dict[str, list[float]]:
@@ -39,6 +45,38 @@ def event_chain_groups(config: dict, event_chain: str) -> dict[str, dict]:
     """A chain for the slips of its blocks from the start on: events are found in all of them."""
     settings = config["event_sizes"]["chains"][event_chain]
     return _groups_of(config, event_chain, {**settings, "t_transient": 0.0})
+
+
+def motion_chains(config: dict) -> dict[str, dict]:
+    """Chains of scenes whose motions are told apart, by name."""
+    study = config["chain_motions"]
+    shared = {key: study[key] for key in OF_MOTIONS}
+    return {
+        f"{scene}_{blocks}_kappa_{kappa:g}".replace(".", "_"): {
+            **place_of(config, config["scenes"][scene]),
+            **{"history": config["scenes"][scene]["history"], "blocks": blocks, "kappa": kappa},
+            **shared,
+        }
+        for scene in study["scenes"]
+        for kappa in study["kappa"]
+        for blocks in study["blocks"]
+    }
+
+
+def motion_groups(config: dict, motion: str) -> dict[str, dict]:
+    """A chain of a scene for its trajectory."""
+    return _groups_of(config, motion, {**motion_chains(config)[motion], "variables": ["v"]})
+
+
+def motion_exponents_groups(config: dict, motion: str) -> dict[str, dict]:
+    """A chain of a scene for its exponents, a few more than it has blocks."""
+    shared, study = config["exponents"], config["chain_motions"]
+    exponents = {
+        **{key: shared[key] for key in ("blocks", "zero_level")},
+        **{key: study[key] for key in ("t_end", "t_turning", "interval")},
+        "count": motion_chains(config)[motion]["blocks"] + MORE_EXPONENTS,
+    }
+    return {**motion_groups(config, motion), "exponents": exponents}
 
 
 def _groups_of(config: dict, chain: str, settings: dict) -> dict[str, dict]:

@@ -3,6 +3,7 @@
 In paths `<results>` stands for the folder of the results.
 """
 
+from scripts.namelists.chains import motion_chains
 from scripts.namelists.laws import law_in_words, own_place
 from scripts.namelists.study_cases import HISTORY, PARAMETERS
 
@@ -92,6 +93,15 @@ def runs_of_laws(config: dict) -> list[str]:
         for law in study["laws"]
         for part in [*study["planes"], *study["scenes"]]
     ]
+
+
+def runs_of_motions(config: dict) -> dict[str, list[str]]:
+    """Trajectories and exponents of chains of scenes, in the same order."""
+    names = motion_chains(config)
+    return {
+        "trajectories": [f"<results>/chain_motions/{name}.nc" for name in names],
+        "exponents": [f"<results>/exponents/chains/{name}.nc" for name in names],
+    }
 
 
 def slips_of_chains(config: dict) -> list[str]:

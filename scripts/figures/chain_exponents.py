@@ -1,0 +1,83 @@
+"""Exponents of chaotic chains: their spectra over the blocks, and how many are positive."""
+
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.figure import Figure
+
+from scripts.drawing import parameters
+from scripts.drawing.style import INK
+from scripts.figures.wording import joined, place_in_words, short
+from scripts.namelists.study_cases import PARAMETERS
+from scripts.tables.chain_motions_table import exponents_of
+
+MARKS = ["o", "s", "^", "D", "v", "P"]
+
+
+def inputs(_config: dict) -> dict:
+    """Motions of chains of blocks of the scenes."""
+    return {"motions": "<results>/tables/chain-motions.tsv"}
+
+
+def families_of(motions: list[dict]) -> dict[tuple, list[dict]]:
+    """Rows of chaotic chains that differ in the number of blocks alone."""
+    keys = ("kappa", "ends", *PARAMETERS, "law")
+    families: dict[tuple, list[dict]] = {}
+    for row in motions:
+        families.setdefault(tuple(row[key] for key in keys), []).append(row)
+    return {
+        place: sorted(rows, key=lambda row: row["blocks"])
+        for place, rows in families.items()
+        if any(row["positive_exponents"] > 0 for row in rows)
+    }
+
+
+def draw(motions: list[dict]) -> Figure:
+    """Exponents over their number divided by that of blocks; positive ones over the blocks."""
+    figure, (spectra, counts) = plt.subplots(1, 2, figsize=(6.7, 3.2), width_ratios=[1.3, 1])
+    for number, rows in enumerate(families_of(motions).values()):
+        colour, mark = f"C{number}", MARKS[number % len(MARKS)]
+        shades = np.linspace(0.35, 1.0, len(rows))
+        for row, shade in zip(rows, shades, strict=True):
+            values = exponents_of(row)
+            share = (np.arange(len(values)) + 0.5) / row["blocks"]
+            spectra.plot(share, values, mark + "-", color=colour, alpha=shade, ms=2.5, lw=0.7)
+        words = f"$\\kappa = {parameters.number(rows[0]['kappa'])}$, {parameters.in_words(rows[0])}"
+        counts.plot(
+            [row["blocks"] for row in rows],
+            [row["positive_exponents"] for row in rows],
+            mark + "-",
+            color=colour,
+            ms=3.5,
+            lw=0.7,
+            label=words,
+        )
+    spectra.axhline(0, color=INK, lw=0.5)
+    spectra.set(
+        xlabel=r"(number of the exponent $-$ 1/2)/blocks", ylabel="exponent (per unit of time)"
+    )
+    counts.set(xlabel="blocks", ylabel="positive exponents", xlim=(0, None), ylim=(0, None))
+    for axes, letter in zip((spectra, counts), "ab", strict=True):
+        axes.set_title(f"$\\bf{{{letter}}}$")
+    figure.legend(loc="outside lower center", ncols=1, fontsize=7)
+    return figure
+
+
+def numbers(motions: list[dict]) -> dict:
+    """Motions of all chains, and counts of positive exponents."""
+    return {
+        "families": [
+            {
+                "place": place_in_words(rows[0]),
+                "kappa": short(rows[0]["kappa"]),
+                "counts": joined(
+                    [f"{row['positive_exponents']:g} of {row['blocks']:g} blocks" for row in rows]
+                ),
+            }
+            for rows in families_of(motions).values()
+        ],
+        "others": [
+            f"{row['chain'].replace('_', ' ')}: {row['motion']}"
+            for row in motions
+            if row["positive_exponents"] == 0
+        ],
+    }
