@@ -7,6 +7,7 @@ program synchrony_program
    use scene_input, only: scene_type
    use transverse_growth, only: find_zeros, measure_transverse_growth, transverse_growth_type, &
                                 zero_type
+   use transverse_multipliers, only: find_transverse_cycle, transverse_cycle_type
    use synchrony_files, only: read_synchrony, synchrony_settings_type, write_synchrony
    implicit none (type, external)
    character(len=:), allocatable :: namelist_path, output_path
@@ -14,6 +15,7 @@ program synchrony_program
    type(progress_type) :: report
    type(scene_type) :: scene
    type(synchrony_settings_type) :: settings
+   type(transverse_cycle_type) :: on_cycle
    type(transverse_growth_type), allocatable :: growth(:)
    type(zero_type), allocatable :: zeros(:)
 
@@ -29,6 +31,8 @@ program synchrony_program
       scene%options(), growth, error, report)
    call stop_on(error)
    call find_zeros(growth, zeros)
-   call write_synchrony(output_path, scene, settings, growth, zeros, error)
+   call find_transverse_cycle(scene%parameters, scene%history, settings%t_end, scene%options(), &
+                              settings%values(), on_cycle)
+   call write_synchrony(output_path, scene, settings, growth, zeros, on_cycle, error)
    call stop_on(error)
 end program synchrony_program

@@ -8,6 +8,7 @@ module synchrony_files
    use netcdf_output, only: output_file_type
    use scene_input, only: check_scene, scene_type
    use transverse_growth, only: transverse_growth_type, zero_type
+   use transverse_multipliers, only: transverse_cycle_type
    use value_checks, only: check_count, check_number, missing, missing_count
    implicit none (type, external)
    private
@@ -76,7 +77,7 @@ contains
    end subroutine read_synchrony
 
    !> Write the exponents.
-   subroutine write_synchrony(path, scene, settings, growth, zeros, error)
+   subroutine write_synchrony(path, scene, settings, growth, zeros, on_cycle, error)
       !> Path of the file
       character(len=*), intent(in) :: path
       !> The scene
@@ -87,9 +88,12 @@ contains
       type(transverse_growth_type), intent(in) :: growth(:)
       !> Where they are zero
       type(zero_type), intent(in) :: zeros(:)
+      !> Exponents by multipliers, where the motion is a cycle
+      type(transverse_cycle_type), intent(in) :: on_cycle
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
+      real(wp), dimension(size(growth)) :: floquet_exponent, floquet_error
       integer :: rows
 
       call file%create(path, "Growth of disturbances of chains that move as one block")
@@ -100,15 +104,36 @@ contains
       call file%attribute("interval", settings%interval)
       call file%attribute("tolerance", scene%tolerance)
       call file%attribute("method", trim(scene%method))
+      if (on_cycle%reason == "") then
+         call file%attribute("period", on_cycle%period)
+      else
+         call file%attribute("no_cycle", on_cycle%reason)
+      end if
       rows = file%dimension("s", size(growth))
       call file%column(rows, "s", growth%s, "1 + kappa times the eigenvalue of the mode")
       call file%column(rows, "exponent", growth%value, "largest exponent of its disturbances")
       call file%column(rows, "error", growth%error, "its standard error")
+      floquet_exponent = missing
+      floquet_error = missing
+      if (size(on_cycle%growth) == size(growth)) then
+         floquet_exponent = on_cycle%growth%value
+         floquet_error = on_cycle%growth%error
+      end if
+      call file%column(rows, "floquet_exponent", floquet_exponent, &
+                       "largest exponent by Floquet multipliers of the cycle")
+      call file%column(rows, "floquet_error", floquet_error, "its difference between two meshes")
       rows = file%dimension("zero", size(zeros), coordinates="zero_s")
       call file%column(rows, "zero_s", zeros%s, "s at which the exponent is zero")
       call file%column(rows, "zero_error", zeros%error, "its standard error")
       call file%flags(rows, "zero_rises", merge(1, 0, zeros%rises), ["no ", "yes"], &
                       "whether the exponent grows with s")
+      rows = file%dimension("floquet_zero", size(on_cycle%zeros), coordinates="floquet_zero_s")
+      call file%column(rows, "floquet_zero_s", on_cycle%zeros%s, &
+                       "s at which the exponent by multipliers is zero")
+      call file%column(rows, "floquet_zero_error", on_cycle%zeros%error, &
+                       "its difference between two meshes")
+      call file%flags(rows, "floquet_zero_rises", merge(1, 0, on_cycle%zeros%rises), &
+                      ["no ", "yes"], "whether the exponent by multipliers grows with s")
       call file%finish(error)
    end subroutine write_synchrony
 end module synchrony_files
