@@ -29,20 +29,22 @@ module synchrony_files
       !> Number of parts for the standard error
       integer :: blocks = missing_count
    contains
-      !> The values of s
+      !> The values of s, and those between
       procedure :: values
    end type synchrony_settings_type
 
 contains
 
-   !> The values of s.
-   pure function values(self) result(s)
+   !> The values of s, and those between.
+   pure function values(self, parts) result(s)
       class(synchrony_settings_type), intent(in) :: self
-      real(wp) :: s(self%count)
+      !> Parts of the way between two values, 1 for these values alone
+      integer, intent(in) :: parts
+      real(wp) :: s((self%count - 1)*parts + 1)
       integer :: i
 
-      associate (ends => log(self%s_window))
-         s = [(exp(ends(1) + (ends(2) - ends(1))*(i - 1)/max(1, self%count - 1)), i=1, self%count)]
+      associate (ends => log(self%s_window), steps => (self%count - 1)*parts)
+         s = [(exp(ends(1) + (ends(2) - ends(1))*i/steps), i=0, steps)]
       end associate
    end function values
 
@@ -93,7 +95,6 @@ contains
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
-      real(wp), dimension(size(growth)) :: floquet_exponent, floquet_error
       integer :: rows
 
       call file%create(path, "Growth of disturbances of chains that move as one block")
@@ -113,20 +114,17 @@ contains
       call file%column(rows, "s", growth%s, "1 + kappa times the eigenvalue of the mode")
       call file%column(rows, "exponent", growth%value, "largest exponent of its disturbances")
       call file%column(rows, "error", growth%error, "its standard error")
-      floquet_exponent = missing
-      floquet_error = missing
-      if (size(on_cycle%growth) == size(growth)) then
-         floquet_exponent = on_cycle%growth%value
-         floquet_error = on_cycle%growth%error
-      end if
-      call file%column(rows, "floquet_exponent", floquet_exponent, &
-                       "largest exponent by Floquet multipliers of the cycle")
-      call file%column(rows, "floquet_error", floquet_error, "its difference between two meshes")
       rows = file%dimension("zero", size(zeros), coordinates="zero_s")
       call file%column(rows, "zero_s", zeros%s, "s at which the exponent is zero")
       call file%column(rows, "zero_error", zeros%error, "its standard error")
       call file%flags(rows, "zero_rises", merge(1, 0, zeros%rises), ["no ", "yes"], &
                       "whether the exponent grows with s")
+      rows = file%dimension("floquet_s", size(on_cycle%growth))
+      call file%column(rows, "floquet_s", on_cycle%growth%s, "s, where multipliers were found")
+      call file%column(rows, "floquet_exponent", on_cycle%growth%value, &
+                       "largest exponent by Floquet multipliers of the cycle")
+      call file%column(rows, "floquet_error", on_cycle%growth%error, &
+                       "its difference between two meshes")
       rows = file%dimension("floquet_zero", size(on_cycle%zeros), coordinates="floquet_zero_s")
       call file%column(rows, "floquet_zero_s", on_cycle%zeros%s, &
                        "s at which the exponent by multipliers is zero")

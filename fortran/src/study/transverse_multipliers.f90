@@ -1,5 +1,5 @@
-!> Whether blocks that move alike on a cycle stay alike: the largest exponents of disturbances of the
-!> modes of a chain by Floquet multipliers, ln|mu|/T, with the same linear equations as in
+!> Whether blocks that move alike on a cycle stay alike: the largest exponents of disturbances of
+!> the modes of a chain by Floquet multipliers, ln|mu|/T, with the same linear equations as in
 !> `transverse_growth`. All is found on two meshes, the second finer.
 module transverse_multipliers
    use block_cycles, only: find_reached_orbit
@@ -97,6 +97,7 @@ contains
       type(free_family_type) :: family
       type(multipliers_type) :: multipliers
       type(periodic_orbit_type) :: reached
+      type(error_type), allocatable :: problem
       real(wp) :: distance
 
       call find_reached_orbit(parameters, history, t_end, options, &
@@ -104,19 +105,22 @@ contains
                               reached, error)
       if (allocated(error)) return
       if (reached%amplitude() < least_amplitude) then
-         call raise(error, "it comes to rest")
+         call raise(error, "the motion comes to rest")
          return
       end if
       family = without_free(block_family_type(parameters))
-      call make_accurate(family, reached, orbits(1), multipliers, error)
-      if (allocated(error)) return
+      call make_accurate(family, reached, orbits(1), multipliers, problem)
+      if (allocated(problem)) then
+         call raise(error, "the motion does not return, or no cycle was found: "//problem%message)
+         return
+      end if
       distance = distance_of(reached, orbits(1))
       if (distance > closed) then
-         call raise(error, "no cycle: the nearest differs by "//text(distance)//" of its range; at " &
-                    //"most "//text(closed)//" expected")
+         call raise(error, "the motion differs from the nearest cycle by "//text(distance) &
+                    //" of a range; at most "//text(closed)//" expected")
       else if (multipliers%unstable() > 0) then
-         call raise(error, "no cycle that is stable: "//text(multipliers%unstable()) &
-                    //" multipliers outside of the unit circle")
+         call raise(error, "the nearest cycle has "//text(multipliers%unstable()) &
+                    //" multipliers outside of the unit circle; none expected")
       end if
       if (allocated(error)) return
       associate (intervals => nint(finer*orbits(1)%intervals()))
@@ -194,7 +198,8 @@ contains
             ! the multiplier of the flow, 1, is the largest of a stable cycle
             on_cycle%growth = [on_cycle%growth, transverse_growth_type(s(i))]
          else
-            on_cycle%growth = [on_cycle%growth, transverse_growth_type(s(i), value, abs(value - other))]
+            on_cycle%growth = [on_cycle%growth, &
+                               transverse_growth_type(s(i), value, abs(value - other))]
          end if
       end do
       do i = 1, size(s) - 1
