@@ -97,7 +97,7 @@ def test_disturbances_grow_as_between_two_blocks(programs, config):
 def test_multipliers_and_exponents_agree(programs, config, scene, window, zero):
     """Two ways to one exponent and to its zero, within three standard errors."""
     found = measured(programs, config, scene, window, 4)
-    assert "no_cycle" not in found.attrs
+    assert "no_multipliers" not in found.attrs
     np.testing.assert_allclose(found.floquet_s[::10], found.s, rtol=1e-14)
     assert (abs(found.floquet_exponent.values[::10] - found.exponent) <= 3 * found.error).all()
     assert found.floquet_error.max() < 1e-9
@@ -113,7 +113,7 @@ def test_multipliers_and_exponents_agree(programs, config, scene, window, zero):
 def test_motion_without_cycle_has_no_multipliers(programs, config):
     """Chaos: the ranges are those of the exponents."""
     found = measured(programs, config, "chaos", [1.0, 41.0], 3)
-    assert "cycle" in found.attrs["no_cycle"]
+    assert "cycle" in found.attrs["no_multipliers"]
     assert found.sizes["floquet_s"] == found.sizes["floquet_zero"] == 0
     assert growing_ranges(found) == [(1.0, found.zero_s.item())]
 

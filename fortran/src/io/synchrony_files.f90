@@ -108,7 +108,7 @@ contains
       if (on_cycle%reason == "") then
          call file%attribute("period", on_cycle%period)
       else
-         call file%attribute("no_cycle", on_cycle%reason)
+         call file%attribute("no_multipliers", on_cycle%reason)
       end if
       rows = file%dimension("s", size(growth))
       call file%column(rows, "s", growth%s, "1 + kappa times the eigenvalue of the mode")

@@ -5,7 +5,7 @@ module transverse_multipliers
    use block_cycles, only: find_reached_orbit
    use block_family, only: block_family_type, transverse_family_type
    use block_parameters, only: block_history_type, block_parameters_type
-   use branch_ends, only: most_rounds, refinement_type
+   use branch_ends, only: refinement_type
    use collocation_basis, only: collocation_basis_type, radau_points
    use dde, only: integration_options
    use dde_errors, only: error_type, raise, text
@@ -26,6 +26,8 @@ module transverse_multipliers
    !> first
    integer, parameter :: degree = 7, first_intervals = 40
    real(wp), parameter :: finer = 1.5_wp
+   !> Meshes that are tried: the last has the most intervals of `refinement_type`.
+   integer, parameter :: most_rounds = 9
    !> The trajectory is on the cycle if no component differs by more than this share of its range.
    real(wp), parameter :: closed = 1.0e-3_wp
    !> A motion in which no component has a larger range is rest.
@@ -111,7 +113,7 @@ contains
       family = without_free(block_family_type(parameters))
       call make_accurate(family, reached, orbits(1), multipliers, problem)
       if (allocated(problem)) then
-         call raise(error, "the motion does not return, or no cycle was found: "//problem%message)
+         call raise(error, "no cycle was found at the end of the motion: "//problem%message)
          return
       end if
       distance = distance_of(reached, orbits(1))
