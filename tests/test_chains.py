@@ -11,9 +11,17 @@ from independent_chain import second_difference, solve_chain
 from scripts.claims.claims_of_chains import blocks_differ
 from scripts.claims.claims_results import NOT_REPRODUCED, REPRODUCED, Results
 from scripts.config.check_config import checked
+from scripts.figures import synchrony
 from scripts.files.read_config import ConfigError
-from scripts.namelists.chains import chain_groups, eigenvalues, histories_of, mode_groups
+from scripts.namelists.chains import (
+    chain_groups,
+    eigenvalues,
+    histories_of,
+    mode_groups,
+    synchrony_groups,
+)
 from scripts.tables.chain_motions import moves_alike, powers_of, rests, strongest_mode
+from scripts.tables.synchrony_ranges import growing_ranges, largest_alike
 
 PLACE = {"tau": 5.0, "epsilon": 0.7, "xi": 0.5, "gamma": 0.8}
 ENDS = ["free", "ring", "plate"]
@@ -53,6 +61,13 @@ def test_trajectory_is_that_of_another_code(programs, config, blocks, ends):
         np.testing.assert_allclose(values, states[:, place], rtol=0, atol=1e-9)
 
 
+def measured(programs, config: dict, scene: str, window: list, count: int) -> xr.Dataset:
+    """A short measurement of the growth of disturbances."""
+    t_end = config["scenes"][scene]["t_transient"] + 4000.0
+    config["synchrony"] |= {"s_window": window, "count": count, "t_end": t_end, "blocks": 10}
+    return programs.made_of("synchrony", synchrony_groups(config, scene))
+
+
 def test_disturbances_grow_as_between_two_blocks(programs, config):
     """kappa = 0.0875: s = 1.175, where disturbances grow along the paper's torus."""
     place = {key: config["scenes"]["torus"][key] for key in ("tau", "epsilon", "xi", "gamma")}
@@ -67,24 +82,96 @@ def test_disturbances_grow_as_between_two_blocks(programs, config):
     highest = distance.sel(t=slice(1000.0, None)).isel(block=0).coarsen(t=2000, boundary="trim")
     peaks = highest.max()
     slope = np.polyfit(peaks.t, np.log(peaks), 1)[0]
-    groups = {
-        "scene": {
-            **{"name": "torus", "parameters": {**place, "law": "slip_delayed_logarithm"}},
-            **{"history": {"theta": 0.0, "u": 0.0, "v": 1.1}, "method": "auto"},
-            **{"t_end": 3000.0, "t_transient": 1000.0, "sample_interval": 1.0},
-            **{"tolerance": 1e-9, "variables": ["v"]},
-        },
-        "synchrony": {
-            **{"s_window": [1.175, 2.0], "count": 2, "t_end": 5000.0, "t_turning": 500.0},
-            **{"interval": 20.0, "blocks": 10},
-        },
-    }
-    found = programs.made_of("synchrony", groups)
+    found = measured(programs, config, "torus", [1.175, 2.0], 2)
     assert found.s.values.tolist() == pytest.approx([1.175, 2.0])
     assert found.exponent.values[0] == pytest.approx(slope, rel=0.02)
     assert found.exponent.values[0] > 0 > found.exponent.values[1]
     assert 1.175 < found.zero_s.item() < 2.0
     assert found.zero_rises.item() == 0
+
+
+@pytest.mark.parametrize(
+    ("scene", "window", "zero"),
+    [("torus", [1.0, 1.4], 1.2549), ("oscillation", [1.012, 3.0], 1.0243)],
+)
+def test_multipliers_and_exponents_agree(programs, config, scene, window, zero):
+    """Two ways to one exponent and to its zero, within three standard errors."""
+    found = measured(programs, config, scene, window, 4)
+    assert "no_multipliers" not in found.attrs
+    np.testing.assert_allclose(found.floquet_s[::10], found.s, rtol=1e-14)
+    assert (abs(found.floquet_exponent.values[::10] - found.exponent) <= 3 * found.error).all()
+    assert found.floquet_error.max() < 1e-9
+    if window[0] == 1:
+        assert found.floquet_exponent[0] == 0
+    assert found.floquet_zero_s.item() == pytest.approx(zero, abs=1e-4)
+    distance = abs(found.floquet_zero_s.item() - found.zero_s.item())
+    assert distance <= 3 * found.zero_error.item() < 1e-2
+    assert growing_ranges(found) == [(1.0, found.floquet_zero_s.item())]
+    assert f"zero at s = {zero}" in synchrony.zeros_in_words(found)
+
+
+def test_motion_without_cycle_has_no_multipliers(programs, config):
+    """Chaos: the ranges are those of the exponents."""
+    found = measured(programs, config, "chaos", [1.0, 41.0], 3)
+    assert "cycle" in found.attrs["no_multipliers"]
+    assert found.sizes["floquet_s"] == found.sizes["floquet_zero"] == 0
+    assert growing_ranges(found) == [(1.0, found.zero_s.item())]
+
+
+@pytest.mark.parametrize(("blocks", "alike"), [(6, True), (7, False)])
+def test_largest_chain_that_moves_as_one(programs, config, blocks, alike):
+    """Along the paper's torus disturbances grow up to s = 1.255: seven blocks separate."""
+    assert (largest_alike([(1.0, 1.25493)], 1.0) >= blocks) == alike
+    place = {key: config["scenes"]["torus"][key] for key in ("tau", "epsilon", "xi", "gamma")}
+    a_chain(
+        config,
+        **{**place, "blocks": blocks, "kappa": 1.0, "disturbance": {"ln_v": 1e-6}},
+        **{"t_end": 8000.0, "sample_interval": 0.5, "tolerance": 1e-12},
+    )
+    chain = programs.made_of("trajectory", chain_groups(config, "mine"))
+    spread = np.log(chain.v).std("block")
+    early, late = (float(spread.sel(t=slice(t, t + 500)).max()) for t in (3000, 7500))
+    assert (late < early) == alike
+
+
+@pytest.mark.parametrize(
+    "ranges", [[], [(1.0, 1.2)], [(1.0, math.inf)], [(1.5, 1.9)], [(1.1, 1.15), (2.0, 2.2)]]
+)
+@pytest.mark.parametrize("kappa", [0.01, 0.1, 1.0, 10.0])
+def test_largest_number_of_blocks_without_a_growing_mode(ranges, kappa):
+    """As by trying all up to 300."""
+    tried = [
+        blocks
+        for blocks in range(1, 301)
+        if not any(
+            low < 1 + kappa * (2 - 2 * math.cos(math.pi * m / blocks)) < high
+            for m in range(1, blocks)
+            for low, high in ranges
+        )
+    ]
+    assert (largest_alike(ranges, kappa) or 300) == tried[-1]
+
+
+def test_ranges_of_growth_end_at_zeros():
+    """By multipliers where there are any; signs follow from the direction of the first zero."""
+
+    def growth(zeros: list, rises: list, exponents: list, multipliers: bool) -> xr.Dataset:
+        kind = "floquet_" if multipliers else ""
+        none = {"floquet_s": [], "floquet_zero_s": [], "zero_s": []}
+        values = {
+            f"{kind}s": np.arange(1.0, len(exponents) + 1.0),
+            f"{kind}exponent": (f"{kind}s", exponents),
+            f"{kind}zero_s": (f"{kind}zero", zeros),
+            f"{kind}zero_rises": (f"{kind}zero", rises),
+        }
+        return xr.Dataset({**none, **values})
+
+    for multipliers in (False, True):
+        assert growing_ranges(growth([], [], [0.0, -1.0], multipliers)) == []
+        assert growing_ranges(growth([], [], [0.0, 1.0], multipliers)) == [(1.0, math.inf)]
+        assert growing_ranges(growth([2.0], [0], [0.0, -1.0], multipliers)) == [(1.0, 2.0)]
+        two = growth([2.0, 3.0, 4.0], [1, 0, 1], [0.0, 1.0], multipliers)
+        assert growing_ranges(two) == [(2.0, 3.0), (4.0, math.inf)]
 
 
 @pytest.mark.parametrize("ends", ENDS)

@@ -7,13 +7,18 @@ program synchrony_program
    use scene_input, only: scene_type
    use transverse_growth, only: find_zeros, measure_transverse_growth, transverse_growth_type, &
                                 zero_type
+   use transverse_multipliers, only: find_transverse_cycle, transverse_cycle_type
    use synchrony_files, only: read_synchrony, synchrony_settings_type, write_synchrony
    implicit none (type, external)
+   !> Parts of the way between two values of s for multipliers, which cost less
+   integer, parameter :: parts = 10
    character(len=:), allocatable :: namelist_path, output_path
    type(error_type), allocatable :: error
+   type(growth_settings_type) :: how
    type(progress_type) :: report
    type(scene_type) :: scene
    type(synchrony_settings_type) :: settings
+   type(transverse_cycle_type) :: on_cycle
    type(transverse_growth_type), allocatable :: growth(:)
    type(zero_type), allocatable :: zeros(:)
 
@@ -21,14 +26,16 @@ program synchrony_program
    call read_synchrony(namelist_path, scene, settings, error)
    call stop_on(error)
    report = progress_type("synchrony of "//trim(scene%name))
-   call measure_transverse_growth( &
-      scene%parameters, scene%history, settings%values(), &
-      growth_settings_type(t_begin=scene%t_transient, t_end=settings%t_end, &
-                           t_turning=settings%t_turning, interval=settings%interval, &
-                           blocks=settings%blocks), &
-      scene%options(), growth, error, report)
+   how = growth_settings_type(t_begin=scene%t_transient, t_end=settings%t_end, &
+                              t_turning=settings%t_turning, interval=settings%interval, &
+                              blocks=settings%blocks)
+   call measure_transverse_growth(scene%parameters, scene%history, settings%values(1), how, &
+                                  scene%options(), growth, error, report)
    call stop_on(error)
-   call find_zeros(growth, zeros)
-   call write_synchrony(output_path, scene, settings, growth, zeros, error)
+   call find_zeros(scene%parameters, scene%history, how, scene%options(), growth, zeros, error)
+   call stop_on(error)
+   call find_transverse_cycle(scene%parameters, scene%history, settings%t_end, scene%options(), &
+                              settings%values(parts), on_cycle)
+   call write_synchrony(output_path, scene, settings, growth, zeros, on_cycle, error)
    call stop_on(error)
 end program synchrony_program

@@ -1,12 +1,19 @@
 """Whether blocks that move alike stay alike: growth of disturbances over the stiffness of modes."""
 
+import math
+
 import xarray as xr
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
 from scripts.drawing.style import INK
-from scripts.figures.wording import with_error
+from scripts.figures.wording import joined
+from scripts.tables.synchrony_ranges import growing_ranges, has_multipliers, largest_alike
 
+KAPPAS = (0.1, 1.0, 10.0)
+"""Spring constants between neighbours at which the largest chains are named."""
+MOST_ACCURATE = 1e-6
+"""An error below this is not named."""
 MARKS = ["o", "s", "^", "D", "v", "P"]
 
 
@@ -18,22 +25,26 @@ def inputs(config: dict) -> dict:
 
 
 def draw(growth: list[xr.Dataset]) -> Figure:
-    """The largest exponent over s, a line for each scene, with its zeros."""
+    """The largest exponent over s, with its zeros: points, joined by the curve of multipliers."""
     figure, (whole, near) = plt.subplots(1, 2, figsize=(6.7, 3.2), sharex=True)
     for axes in (whole, near):
         for number, one in enumerate(growth):
+            by_multipliers = has_multipliers(one)
             axes.errorbar(
                 one.s,
                 one.exponent,
                 3 * one.error,
                 marker=MARKS[number % len(MARKS)],
                 ms=2.5,
-                lw=0.8,
+                lw=0 if by_multipliers else 0.8,
                 elinewidth=0.6,
                 color=f"C{number}",
                 label=one.attrs["scene"].replace("_", " "),
             )
-            axes.plot(one.zero_s, 0 * one.zero_s, ls="", marker="|", ms=9, color=f"C{number}")
+            if by_multipliers:
+                axes.plot(one.floquet_s, one.floquet_exponent, lw=0.5, zorder=1, color=f"C{number}")
+            zeros = one.floquet_zero_s if by_multipliers else one.zero_s
+            axes.plot(zeros, 0 * zeros, ls="", marker="|", ms=9, color=f"C{number}")
         axes.axhline(0, color=INK, lw=0.5)
         axes.set_xscale("log")
         axes.set_xlabel(r"stiffness of the mode $s = 1 + \kappa \mu$")
@@ -48,10 +59,14 @@ def draw(growth: list[xr.Dataset]) -> Figure:
 
 
 def numbers(growth: list[xr.Dataset]) -> dict:
-    """Where each scene's exponent is zero, and what a chain does between."""
+    """Where each scene's exponent is zero, and how many blocks move as one."""
     return {
         "scenes": [
-            {"name": one.attrs["scene"].replace("_", " "), "zeros": zeros_in_words(one)}
+            {
+                "name": one.attrs["scene"].replace("_", " "),
+                "zeros": zeros_in_words(one),
+                "alike": alike_in_words(one),
+            }
             for one in growth
         ]
     }
@@ -59,12 +74,43 @@ def numbers(growth: list[xr.Dataset]) -> dict:
 
 def zeros_in_words(one: xr.Dataset) -> str:
     """The zeros with their errors, and whether modes beyond are stable."""
-    if one.sizes["zero"] == 0:
-        largest = float(one.exponent.isel(s=slice(1, None)).max())
-        return "no zero: " + ("some modes grow" if largest > 0 else "no mode grows")
-    rises = one.zero_rises.values.astype(bool)
+    if not has_multipliers(one):
+        return listed(one, "", "") or without_zero(one)
+    exact = listed(one, "floquet_", " by multipliers") or without_zero(one)
+    return f"{exact}; {listed(one, '', ' by exponents') or 'no zero between the points'}"
+
+
+def listed(one: xr.Dataset, kind: str, how: str) -> str:
+    """The zeros of one kind."""
+    columns = [one[f"{kind}zero_{name}"].values.tolist() for name in ("s", "error", "rises")]
     return "; ".join(
-        f"zero at s = {with_error(float(s), float(bar))}, beyond it disturbances"
+        f"zero at s = {with_its_digits(s, error)}{how}, beyond it disturbances"
         f" {'grow' if up else 'decay'}"
-        for s, bar, up in zip(one.zero_s, one.zero_error, rises, strict=True)
+        for s, error, up in zip(*columns, strict=True)
+    )
+
+
+def without_zero(one: xr.Dataset) -> str:
+    """What modes do where no exponent is zero."""
+    return "no zero: " + ("all modes grow" if growing_ranges(one) else "no mode grows")
+
+
+def with_its_digits(value: float, error: float) -> str:
+    """A value with the digits that its error leaves, up to six."""
+    if error < MOST_ACCURATE:
+        return f"{value:.6f}"
+    digits = max(0, 1 - math.floor(math.log10(error)))
+    return f"{value:.{digits}f} ± {error:.{digits}f}"
+
+
+def alike_in_words(one: xr.Dataset) -> str:
+    """The numbers of blocks of the largest chains that move as one."""
+    ranges = growing_ranges(one)
+    found = [(largest_alike(ranges, kappa), kappa) for kappa in KAPPAS]
+    return joined(
+        [
+            f"{'any' if most is None else 'none' if most == 1 else most}"
+            f" at :math:`\\kappa = {kappa:g}`"
+            for most, kappa in found
+        ]
     )

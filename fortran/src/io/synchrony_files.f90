@@ -8,6 +8,7 @@ module synchrony_files
    use netcdf_output, only: output_file_type
    use scene_input, only: check_scene, scene_type
    use transverse_growth, only: transverse_growth_type, zero_type
+   use transverse_multipliers, only: transverse_cycle_type
    use value_checks, only: check_count, check_number, missing, missing_count
    implicit none (type, external)
    private
@@ -28,20 +29,22 @@ module synchrony_files
       !> Number of parts for the standard error
       integer :: blocks = missing_count
    contains
-      !> The values of s
+      !> The values of s, and those between
       procedure :: values
    end type synchrony_settings_type
 
 contains
 
-   !> The values of s.
-   pure function values(self) result(s)
+   !> The values of s, and those between.
+   pure function values(self, parts) result(s)
       class(synchrony_settings_type), intent(in) :: self
-      real(wp) :: s(self%count)
+      !> Parts of the way between two values, 1 for these values alone
+      integer, intent(in) :: parts
+      real(wp) :: s((self%count - 1)*parts + 1)
       integer :: i
 
-      associate (ends => log(self%s_window))
-         s = [(exp(ends(1) + (ends(2) - ends(1))*(i - 1)/max(1, self%count - 1)), i=1, self%count)]
+      associate (ends => log(self%s_window), steps => (self%count - 1)*parts)
+         s = [(exp(ends(1) + (ends(2) - ends(1))*i/steps), i=0, steps)]
       end associate
    end function values
 
@@ -76,7 +79,7 @@ contains
    end subroutine read_synchrony
 
    !> Write the exponents.
-   subroutine write_synchrony(path, scene, settings, growth, zeros, error)
+   subroutine write_synchrony(path, scene, settings, growth, zeros, on_cycle, error)
       !> Path of the file
       character(len=*), intent(in) :: path
       !> The scene
@@ -87,6 +90,8 @@ contains
       type(transverse_growth_type), intent(in) :: growth(:)
       !> Where they are zero
       type(zero_type), intent(in) :: zeros(:)
+      !> Exponents by multipliers, where the motion is a cycle
+      type(transverse_cycle_type), intent(in) :: on_cycle
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
@@ -100,6 +105,11 @@ contains
       call file%attribute("interval", settings%interval)
       call file%attribute("tolerance", scene%tolerance)
       call file%attribute("method", trim(scene%method))
+      if (on_cycle%reason == "") then
+         call file%attribute("period", on_cycle%period)
+      else
+         call file%attribute("no_multipliers", on_cycle%reason)
+      end if
       rows = file%dimension("s", size(growth))
       call file%column(rows, "s", growth%s, "1 + kappa times the eigenvalue of the mode")
       call file%column(rows, "exponent", growth%value, "largest exponent of its disturbances")
@@ -109,6 +119,19 @@ contains
       call file%column(rows, "zero_error", zeros%error, "its standard error")
       call file%flags(rows, "zero_rises", merge(1, 0, zeros%rises), ["no ", "yes"], &
                       "whether the exponent grows with s")
+      rows = file%dimension("floquet_s", size(on_cycle%growth))
+      call file%column(rows, "floquet_s", on_cycle%growth%s, "s, where multipliers were found")
+      call file%column(rows, "floquet_exponent", on_cycle%growth%value, &
+                       "largest exponent by Floquet multipliers of the cycle")
+      call file%column(rows, "floquet_error", on_cycle%growth%error, &
+                       "its difference between two meshes")
+      rows = file%dimension("floquet_zero", size(on_cycle%zeros), coordinates="floquet_zero_s")
+      call file%column(rows, "floquet_zero_s", on_cycle%zeros%s, &
+                       "s at which the exponent by multipliers is zero")
+      call file%column(rows, "floquet_zero_error", on_cycle%zeros%error, &
+                       "its difference between two meshes")
+      call file%flags(rows, "floquet_zero_rises", merge(1, 0, on_cycle%zeros%rises), &
+                      ["no ", "yes"], "whether the exponent by multipliers grows with s")
       call file%finish(error)
    end subroutine write_synchrony
 end module synchrony_files

@@ -69,18 +69,20 @@ contains
 
    !> A block of which disturbances are those of a mode of a chain: blocks that move alike, and a
    !> second difference of -stiffening times the disturbance of u, with kappa = 1.
-   function transverse_block(parameters, history, stiffening) result(block)
+   function transverse_block(parameters, history, stiffening, keep_delays) result(block)
       !> Parameters of one block, which were checked
       type(block_parameters_type), intent(in) :: parameters
       !> Values for t <= 0
       type(block_history_type), intent(in) :: history
       !> kappa times the eigenvalue of the mode
       real(wp), intent(in) :: stiffening
+      !> Whether a delay of 0 is a delayed value, too; .false. unless given
+      logical, intent(in), optional :: keep_delays
       type(spring_block_type) :: block
 
       block%parameters = parameters
       block%parameters%kappa = 1.0_wp
-      call find_chain(block%parameters, block%model, [history])
+      call find_chain(block%parameters, block%model, [history], keep_delays)
       block%model%mode = stiffening
       call take_shape(block)
    end function transverse_block

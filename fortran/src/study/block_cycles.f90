@@ -2,7 +2,7 @@
 !> trajectories, with their special points.
 module block_cycles
    use block_family, only: block_family_type, vector_of, with_vector
-   use block_parameters, only: block_history_type
+   use block_parameters, only: block_history_type, block_parameters_type
    use branch_ends, only: follow_settings_type
    use collocation_basis, only: collocation_basis_type, radau_points
    use cycle_lines, only: cycle_line_type, find_hopf_starts, hopf_start_type
@@ -20,7 +20,7 @@ module block_cycles
    use spring_block, only: index_of_ln_v, spring_block_type
    implicit none (type, external)
    private
-   public :: cycle_settings_type, cycles_type, find_cycles, left_out_type
+   public :: cycle_settings_type, cycles_type, find_cycles, find_reached_orbit, left_out_type
 
    !> What is computed.
    type :: cycle_settings_type
@@ -184,7 +184,7 @@ contains
       end subroutine leave_out
    end subroutine find_cycles
 
-   !> The cycle that a trajectory reaches.
+   !> The cycle that a trajectory from a start of the line reaches.
    subroutine orbit_at(settings, i, basis, orbit, error)
       type(cycle_settings_type), intent(in) :: settings
       integer, intent(in) :: i
@@ -192,25 +192,47 @@ contains
       type(periodic_orbit_type), intent(out) :: orbit
       !> Error if the trajectory leads to no cycle
       type(error_type), allocatable, intent(out) :: error
-      type(continuation_type) :: arrived
       type(integration_options) :: options
-      type(integration_result) :: outcome
-      type(spring_block_type) :: block
       real(wp) :: vector(4)
 
       vector = vector_of(settings%line%parameters)
       vector(settings%line%along) = settings%starts(i)
-      block = spring_block_type(with_vector(settings%line%parameters, vector), &
-                                block_history_type(v=settings%start_v(i)))
       options%relative = tolerance
       options%absolute = tolerance
-      call integrate(block, 0.0_wp, settings%t_transient, options, outcome, error, &
-                     continuation=arrived)
+      call find_reached_orbit(with_vector(settings%line%parameters, vector), &
+                              block_history_type(v=settings%start_v(i)), settings%t_transient, &
+                              options, basis, settings%intervals, orbit, error)
+   end subroutine orbit_at
+
+   !> The cycle that a trajectory reaches, before it is corrected.
+   subroutine find_reached_orbit(parameters, history, time, options, basis, intervals, orbit, error)
+      !> Parameters of the block, which were checked
+      type(block_parameters_type), intent(in) :: parameters
+      !> Values for t <= 0
+      type(block_history_type), intent(in) :: history
+      !> Time of the trajectory before its cycle is taken
+      real(wp), intent(in) :: time
+      !> Method and tolerances
+      type(integration_options), intent(in) :: options
+      !> Polynomials of the orbit
+      type(collocation_basis_type), intent(in) :: basis
+      !> Intervals of the orbit
+      integer, intent(in) :: intervals
+      !> The orbit
+      type(periodic_orbit_type), intent(out) :: orbit
+      !> Error if the trajectory leads to no cycle
+      type(error_type), allocatable, intent(out) :: error
+      type(continuation_type) :: arrived
+      type(integration_result) :: outcome
+      type(spring_block_type) :: block
+
+      block = spring_block_type(parameters, history)
+      call integrate(block, 0.0_wp, time, options, outcome, error, continuation=arrived)
       if (allocated(error)) return
       call orbit_of_trajectory(block, options, arrived, index_of_ln_v, search_time, basis, &
-                               settings%intervals, orbit, error)
-      orbit%parameters = vector
-   end subroutine orbit_at
+                               intervals, orbit, error)
+      orbit%parameters = vector_of(parameters)
+   end subroutine find_reached_orbit
 
    !> Whether a branch already ends at a Hopf point.
    pure logical function is_end(settings, found, hopf) result(value)

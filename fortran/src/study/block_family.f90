@@ -4,11 +4,11 @@ module block_family
    use dde, only: dde_problem_type
    use dde_kinds, only: wp
    use problem_family, only: problem_family_type
-   use spring_block, only: spring_block_type
+   use spring_block, only: spring_block_type, transverse_block
    implicit none (type, external)
    private
-   public :: along_epsilon, along_gamma, along_tau, along_xi, block_family_type, vector_of, &
-             with_vector
+   public :: along_epsilon, along_gamma, along_tau, along_xi, block_family_type, &
+             transverse_family_type, vector_of, with_vector
 
    !> Numbers of the parameters in the order of the family.
    integer, parameter :: along_tau = 1, along_epsilon = 2, along_xi = 3, along_gamma = 4
@@ -20,6 +20,15 @@ module block_family
    contains
       procedure :: at => block_at
    end type block_family_type
+
+   !> The block, of which disturbances are those of a mode of a chain (`transverse_block`): about a
+   !> cycle of the block it gives the multipliers of the mode, but it is of no use to find cycles.
+   type, extends(block_family_type) :: transverse_family_type
+      !> kappa times the eigenvalue of the mode, s - 1
+      real(wp) :: stiffening = 0.0_wp
+   contains
+      procedure :: at => transverse_at
+   end type transverse_family_type
 
 contains
 
@@ -33,4 +42,16 @@ contains
       allocate (problem, source=spring_block_type(with_vector(self%law, parameters), &
                                                   block_history_type(), keep_delays=.true.))
    end subroutine block_at
+
+   !> The block at parameters, with disturbances of the mode.
+   subroutine transverse_at(self, parameters, problem)
+      class(transverse_family_type), intent(in) :: self
+      !> tau, epsilon, xi, gamma
+      real(wp), intent(in) :: parameters(:)
+      class(dde_problem_type), allocatable, intent(out) :: problem
+
+      allocate (problem, source=transverse_block(with_vector(self%law, parameters), &
+                                                 block_history_type(), self%stiffening, &
+                                                 keep_delays=.true.))
+   end subroutine transverse_at
 end module block_family

@@ -10,6 +10,7 @@ module transverse_growth
    use exponent_averages, only: average_growth, exponent_type
    use lyapunov_spectrum, only: growth_settings_type, growth_type, measure_growth
    use progress_receiver, only: progress_receiver_type
+   use sign_change, only: sign_change_type
    use spring_block, only: transverse_block
    implicit none (type, external)
    private
@@ -17,6 +18,8 @@ module transverse_growth
 
    !> An exponent within so many standard errors of 0 has no sign.
    real(wp), parameter :: most_bars = 3.0_wp
+   !> Most exponents that are measured to find a zero.
+   integer, parameter :: most_rounds = 20
 
    !> The largest exponent of disturbances with one s.
    type :: transverse_growth_type
@@ -54,52 +57,83 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Receiver of the number done
       class(progress_receiver_type), intent(inout), optional :: progress
-      type(exponent_type), allocatable :: exponents(:)
-      type(error_type), allocatable :: problem
-      type(growth_type) :: measured
-      type(growth_settings_type) :: one
       integer :: i
 
-      one = settings
-      one%exponents = 1
-      one%across_flow = .false.
       allocate (growth(size(s)))
       do i = 1, size(s)
-         call measure_growth(transverse_block(parameters, history, s(i) - 1.0_wp), one, options, &
-                             measured, problem)
-         if (allocated(problem)) then
-            call raise(error, "s = "//text(s(i))//": "//problem%message)
-            return
-         end if
-         exponents = average_growth(measured%growth, measured%length, one%blocks, .false.)
-         growth(i) = transverse_growth_type(s(i), exponents(1)%value, exponents(1)%error)
+         call measure_one(parameters, history, s(i), settings, options, growth(i), error)
+         if (allocated(error)) return
          if (present(progress)) call progress%advance(i, size(s))
       end do
    end subroutine measure_transverse_growth
 
-   !> Zeros between values of s whose exponents have signs, on the line through both. The error is
-   !> that of the exponents over the slope of the line. On a cycle or a torus the exponent at s = 1,
-   !> that of the flow, has no sign.
-   pure subroutine find_zeros(growth, zeros)
+   !> The largest exponent for one s.
+   subroutine measure_one(parameters, history, s, settings, options, growth, error)
+      type(block_parameters_type), intent(in) :: parameters
+      type(block_history_type), intent(in) :: history
+      real(wp), intent(in) :: s
+      type(growth_settings_type), intent(in) :: settings
+      type(integration_options), intent(in) :: options
+      type(transverse_growth_type), intent(out) :: growth
+      type(error_type), allocatable, intent(out) :: error
+      type(exponent_type), allocatable :: exponents(:)
+      type(error_type), allocatable :: problem
+      type(growth_type) :: measured
+      type(growth_settings_type) :: one
+
+      one = settings
+      one%exponents = 1
+      one%across_flow = .false.
+      call measure_growth(transverse_block(parameters, history, s - 1.0_wp), one, options, &
+                          measured, problem)
+      if (allocated(problem)) then
+         call raise(error, "s = "//text(s)//": "//problem%message)
+         return
+      end if
+      exponents = average_growth(measured%growth, measured%length, one%blocks, .false.)
+      growth = transverse_growth_type(s, exponents(1)%value, exponents(1)%error)
+   end subroutine measure_one
+
+   !> Zeros between values of s whose exponents have signs. Exponents are measured in between, until
+   !> one has no sign; the error of the zero is that of this exponent over the slope. On cycles and
+   !> tori the exponent at s = 1, that of the flow, has no sign.
+   subroutine find_zeros(parameters, history, settings, options, growth, zeros, error)
+      !> Parameters of one block, which were checked
+      type(block_parameters_type), intent(in) :: parameters
+      !> Values for t <= 0
+      type(block_history_type), intent(in) :: history
+      !> When exponents are measured
+      type(growth_settings_type), intent(in) :: settings
+      !> Method and tolerances
+      type(integration_options), intent(in) :: options
       !> Exponents, s ascending
       type(transverse_growth_type), intent(in) :: growth(:)
       !> Zeros, ascending
       type(zero_type), allocatable, intent(out) :: zeros(:)
+      !> Error if an exponent cannot be measured
+      type(error_type), allocatable, intent(out) :: error
+      type(sign_change_type) :: bracket
+      type(transverse_growth_type) :: ends(2), here
       type(transverse_growth_type), allocatable :: signed(:)
-      real(wp) :: share, slope
-      integer :: i
+      real(wp) :: moved, slope
+      integer :: i, round
 
       allocate (zeros(0))
       signed = pack(growth, abs(growth%value) > most_bars*growth%error)
       do i = 1, size(signed) - 1
-         associate (left => signed(i), right => signed(i + 1))
-            if ((left%value > 0.0_wp) .eqv. (right%value > 0.0_wp)) cycle
-            slope = (right%value - left%value)/(right%s - left%s)
-            share = left%value/(left%value - right%value)
-            zeros = [zeros, zero_type(left%s + share*(right%s - left%s), &
-                                      hypot((1.0_wp - share)*left%error, share*right%error) &
-                                      /abs(slope), slope > 0.0_wp)]
-         end associate
+         ends = signed(i:i + 1)
+         if ((ends(1)%value > 0.0_wp) .eqv. (ends(2)%value > 0.0_wp)) cycle
+         bracket = sign_change_type(ends%s, ends%value)
+         do round = 1, most_rounds
+            call measure_one(parameters, history, bracket%next(), settings, options, here, error)
+            if (allocated(error)) return
+            if (abs(here%value) <= most_bars*here%error) exit
+            call bracket%narrow(here%s, here%value, moved)
+            ends(merge(1, 2, (here%value > 0.0_wp) .eqv. (ends(1)%value > 0.0_wp))) = here
+         end do
+         slope = (ends(2)%value - ends(1)%value)/(ends(2)%s - ends(1)%s)
+         zeros = [zeros, zero_type(here%s - here%value/slope, here%error/abs(slope), &
+                                   slope > 0.0_wp)]
       end do
    end subroutine find_zeros
 end module transverse_growth

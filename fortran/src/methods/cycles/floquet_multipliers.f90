@@ -10,7 +10,7 @@ module floquet_multipliers
    use problem_family, only: free_family_type
    implicit none (type, external)
    private
-   public :: find_multipliers, multipliers_type
+   public :: find_largest_multiplier, find_multipliers, multipliers_type
 
    !> Multipliers of an orbit.
    type :: multipliers_type
@@ -56,11 +56,7 @@ contains
       type(period_map_type) :: map
       integer :: i, kept, trivial
 
-      call linearise_orbit(family, orbit, .true., map%linear, error)
-      if (allocated(error)) return
-      allocate (map%nodes(size(orbit%nodes)))
-      call leading_eigenvalues(map, map%linear%past_size(), wanted + 1, tolerance, values, pasts, &
-                               error)
+      call find_eigenvalues(family, orbit, wanted + 1, map, values, pasts, error)
       if (allocated(error)) return
       trivial = minloc(abs(values - 1.0_wp), dim=1)
       found%trivial_error = abs(values(trivial) - 1.0_wp)
@@ -75,6 +71,44 @@ contains
                                           over_period(map, aimag(pasts(:, i)), orbit), kind=wp)
       end do
    end subroutine find_multipliers
+
+   !> The largest modulus of all multipliers. They may be those of disturbances of which none is the
+   !> flow: then no multiplier is trivial.
+   subroutine find_largest_multiplier(family, orbit, modulus, error)
+      !> Problems; a solution of them is the orbit
+      type(free_family_type), intent(in) :: family
+      !> The orbit
+      type(periodic_orbit_type), intent(in) :: orbit
+      !> The modulus
+      real(wp), intent(out) :: modulus
+      !> No convergence
+      type(error_type), allocatable, intent(out) :: error
+      complex(wp), allocatable :: pasts(:, :), values(:)
+      type(period_map_type) :: map
+
+      modulus = 0.0_wp
+      call find_eigenvalues(family, orbit, 1, map, values, pasts, error)
+      if (allocated(error)) return
+      modulus = abs(values(1))
+   end subroutine find_largest_multiplier
+
+   !> Eigenvalues of greatest modulus of the map of the past, and their eigenvectors.
+   subroutine find_eigenvalues(family, orbit, wanted, map, values, pasts, error)
+      type(free_family_type), intent(in) :: family
+      type(periodic_orbit_type), intent(in) :: orbit
+      integer, intent(in) :: wanted
+      !> The map
+      type(period_map_type), intent(out) :: map
+      complex(wp), allocatable, intent(out) :: values(:)
+      !> Eigenvectors, shape (numbers of a past, size(values))
+      complex(wp), allocatable, intent(out) :: pasts(:, :)
+      type(error_type), allocatable, intent(out) :: error
+
+      call linearise_orbit(family, orbit, .true., map%linear, error)
+      if (allocated(error)) return
+      allocate (map%nodes(size(orbit%nodes)))
+      call leading_eigenvalues(map, map%linear%past_size(), wanted, tolerance, values, pasts, error)
+   end subroutine find_eigenvalues
 
    !> A disturbance over the period.
    function over_period(map, past, orbit) result(disturbance)

@@ -226,7 +226,7 @@ contains
             end associate
          end do
          call problem%rhs(0.0_wp, y, z, f)
-         call find_jacobian(problem, 0.0_wp, y, z, point%by_y, point%by_z)
+         call find_full_jacobian(problem, y, z, point%by_y, point%by_z)
          point%forcing(:, 1) = period*f - y_slope
          point%forcing(:, 2) = period*f + matmul(point%by_z, slope_z*problem%lag)
          do p = 1, size(beside, 2)
@@ -240,4 +240,36 @@ contains
          end do
       end associate
    end subroutine evaluate_point
+
+   !> The Jacobian as full matrices, also of a problem that gives it as a band.
+   pure subroutine find_full_jacobian(problem, y, z, by_y, by_z)
+      class(dde_problem_type), intent(in) :: problem
+      real(wp), intent(in) :: y(:), z(:)
+      !> Derivatives by y and z, shapes (n, n) and (n, delays)
+      real(wp), intent(out) :: by_y(:, :), by_z(:, :)
+      real(wp), allocatable :: band(:, :), columns(:, :)
+      integer :: column, first, last
+
+      if (problem%lower < 0) then
+         call find_jacobian(problem, 0.0_wp, y, z, by_y, by_z)
+         return
+      end if
+      associate (n => problem%n, upper => problem%upper, rows => problem%rows)
+         allocate (band(1 + problem%lower + upper, n))
+         allocate (columns(1 + maxval([0, rows(2, :) - rows(1, :)]), size(z)))
+         call find_jacobian(problem, 0.0_wp, y, z, band, columns)
+         by_y = 0.0_wp
+         do column = 1, n
+            first = max(1, column - upper)
+            last = min(n, column + problem%lower)
+            by_y(first:last, column) = band(1 + upper + first - column:1 + upper + last - column, &
+                                            column)
+         end do
+         by_z = 0.0_wp
+         do column = 1, size(z)
+            by_z(rows(1, column):rows(2, column), column) &
+               = columns(:1 + rows(2, column) - rows(1, column), column)
+         end do
+      end associate
+   end subroutine find_full_jacobian
 end module orbit_linearisation

@@ -1,0 +1,251 @@
+!> Whether blocks that move alike on a cycle stay alike: the largest exponents of disturbances of
+!> the modes of a chain by Floquet multipliers, ln|mu|/T, with the same linear equations as in
+!> `transverse_growth`. All is found on two meshes, the second finer.
+module transverse_multipliers
+   use block_cycles, only: find_reached_orbit
+   use block_family, only: block_family_type, transverse_family_type
+   use block_parameters, only: block_history_type, block_parameters_type
+   use branch_ends, only: refinement_type
+   use collocation_basis, only: collocation_basis_type, radau_points
+   use dde, only: integration_options
+   use dde_errors, only: error_type, raise, text
+   use dde_kinds, only: wp
+   use floquet_multipliers, only: find_largest_multiplier, find_multipliers, multipliers_type
+   use gsl_roots, only: find_root, scalar_function_type
+   use orbit_change, only: orbit_change_type
+   use orbit_equations, only: correct_orbit, newton_type
+   use orbit_mesh, only: adapted_mesh
+   use periodic_orbit, only: periodic_orbit_type
+   use problem_family, only: free_family_type, problem_family_type
+   use transverse_growth, only: transverse_growth_type, zero_type
+   implicit none (type, external)
+   private
+   public :: find_transverse_cycle, transverse_cycle_type
+
+   !> Degree and intervals of the first mesh, and intervals of the second mesh over those of the
+   !> first
+   integer, parameter :: degree = 7, first_intervals = 40
+   real(wp), parameter :: finer = 1.5_wp
+   !> Meshes that are tried: the last has the most intervals of `refinement_type`.
+   integer, parameter :: most_rounds = 9
+   !> The trajectory is on the cycle if no component differs by more than this share of its range.
+   real(wp), parameter :: closed = 1.0e-3_wp
+   !> A motion in which no component has a larger range is rest.
+   real(wp), parameter :: least_amplitude = 1.0e-3_wp
+   !> The exponent is 0 at s = 1. Its sign beside 1 is taken at this share of the way to the next s.
+   real(wp), parameter :: beside = 1.0e-3_wp
+
+   !> Exponents along a cycle.
+   type :: transverse_cycle_type
+      !> Why there are none, as the motion is no cycle; empty where there are exponents
+      character(len=:), allocatable :: reason
+      !> Period of the cycle
+      real(wp) :: period = 0.0_wp
+      !> Exponents in the order of s; their errors are the differences between the meshes
+      type(transverse_growth_type), allocatable :: growth(:)
+      !> Where they are zero beside s = 1, ascending, with errors of the same kind
+      type(zero_type), allocatable :: zeros(:)
+   end type transverse_cycle_type
+
+   !> The largest exponent as a function of s.
+   type, extends(scalar_function_type) :: exponent_of_mode_type
+      !> Parameters of one block
+      type(block_parameters_type) :: parameters
+      !> Its cycle
+      type(periodic_orbit_type) :: orbit
+   contains
+      procedure :: value => exponent_at
+   end type exponent_of_mode_type
+
+contains
+
+   !> Exponents along the cycle at which a motion of one block ends.
+   subroutine find_transverse_cycle(parameters, history, t_end, options, s, on_cycle)
+      !> Parameters of one block, which were checked
+      type(block_parameters_type), intent(in) :: parameters
+      !> Values for t <= 0
+      type(block_history_type), intent(in) :: history
+      !> Time at which the cycle is looked for
+      real(wp), intent(in) :: t_end
+      !> Method and tolerances of the motion
+      type(integration_options), intent(in) :: options
+      !> Stiffness of the modes over that of one block, >= 1, ascending
+      real(wp), intent(in) :: s(:)
+      !> What was found
+      type(transverse_cycle_type), intent(out) :: on_cycle
+      type(error_type), allocatable :: error
+      type(periodic_orbit_type) :: orbits(2)
+
+      allocate (on_cycle%growth(0), on_cycle%zeros(0))
+      call find_cycle(parameters, history, t_end, options, orbits, error)
+      if (.not. allocated(error)) then
+         on_cycle%period = orbits(2)%period
+         call find_exponents(exponent_of_mode_type(parameters, orbits(1)), &
+                             exponent_of_mode_type(parameters, orbits(2)), s, on_cycle, error)
+      end if
+      on_cycle%reason = ""
+      if (allocated(error)) on_cycle%reason = error%message
+   end subroutine find_transverse_cycle
+
+   !> The stable cycle on which a motion is at a time, on both meshes.
+   subroutine find_cycle(parameters, history, t_end, options, orbits, error)
+      type(block_parameters_type), intent(in) :: parameters
+      type(block_history_type), intent(in) :: history
+      real(wp), intent(in) :: t_end
+      type(integration_options), intent(in) :: options
+      type(periodic_orbit_type), intent(out) :: orbits(2)
+      !> There is none
+      type(error_type), allocatable, intent(out) :: error
+      type(free_family_type) :: family
+      type(multipliers_type) :: multipliers
+      type(periodic_orbit_type) :: reached
+      type(error_type), allocatable :: problem
+      real(wp) :: distance
+
+      call find_reached_orbit(parameters, history, t_end, options, &
+                              collocation_basis_type(degree, radau_points), first_intervals, &
+                              reached, error)
+      if (allocated(error)) return
+      if (reached%amplitude() < least_amplitude) then
+         call raise(error, "the motion comes to rest")
+         return
+      end if
+      family = without_free(block_family_type(parameters))
+      call make_accurate(family, reached, orbits(1), multipliers, problem)
+      if (allocated(problem)) then
+         call raise(error, "no cycle was found at the end of the motion: "//problem%message)
+         return
+      end if
+      distance = distance_of(reached, orbits(1))
+      if (distance > closed) then
+         call raise(error, "the motion differs from the nearest cycle by "//text(distance) &
+                    //" of a range; at most "//text(closed)//" expected")
+      else if (multipliers%unstable() > 0) then
+         call raise(error, "the nearest cycle has "//text(multipliers%unstable()) &
+                    //" multipliers outside of the unit circle; none expected")
+      end if
+      if (allocated(error)) return
+      associate (intervals => nint(finer*orbits(1)%intervals()))
+         call make_accurate(family, orbits(1)%on_mesh(adapted_mesh(orbits(1), intervals)), &
+                            orbits(2), multipliers, error)
+      end associate
+   end subroutine find_cycle
+
+   !> Correct a cycle on adapted meshes until its trivial multiplier is accurate.
+   subroutine make_accurate(family, start, orbit, multipliers, error)
+      type(free_family_type), intent(in) :: family
+      type(periodic_orbit_type), intent(in) :: start
+      type(periodic_orbit_type), intent(out) :: orbit
+      type(multipliers_type), intent(out) :: multipliers
+      type(error_type), allocatable, intent(out) :: error
+      type(newton_type) :: newton
+      type(orbit_change_type) :: no_direction(0)
+      type(periodic_orbit_type) :: reference
+      type(refinement_type) :: refinement
+      integer :: intervals, round
+
+      orbit = start
+      intervals = start%intervals()
+      do round = 1, most_rounds
+         reference = orbit
+         call correct_orbit(family, reference, no_direction, [real(wp) ::], orbit, newton, error)
+         if (allocated(error)) return
+         call find_multipliers(family, orbit, refinement%multipliers, multipliers, error)
+         if (allocated(error)) return
+         if (round > 1) then
+            if (multipliers%trivial_error <= refinement%accuracy) return
+            intervals = refinement%next_intervals(intervals)
+         end if
+         if (round < most_rounds) orbit = orbit%on_mesh(adapted_mesh(orbit, intervals))
+      end do
+      call raise(error, "cycle: the trivial multiplier differs from 1 by " &
+                 //text(multipliers%trivial_error)//"; at most "//text(refinement%accuracy) &
+                 //" expected")
+   end subroutine make_accurate
+
+   !> The largest difference of a component at the nodes of the first orbit, over its range.
+   pure real(wp) function distance_of(first, second) result(distance)
+      type(periodic_orbit_type), intent(in) :: first, second
+      real(wp) :: range(size(first%nodes, 1)), times(size(first%nodes, 2))
+      integer :: i
+
+      range = maxval(first%nodes, dim=2) - minval(first%nodes, dim=2)
+      times = first%node_times()
+      distance = 0.0_wp
+      do i = 1, size(times)
+         distance = max(distance, maxval(abs(first%nodes(:, i) - second%at(times(i))) &
+                                         /max(range, tiny(1.0_wp))))
+      end do
+   end function distance_of
+
+   !> Exponents for each s, and their zeros between neighbours.
+   subroutine find_exponents(coarse, fine, s, on_cycle, error)
+      !> The exponent on both meshes
+      type(exponent_of_mode_type), intent(in) :: coarse, fine
+      real(wp), intent(in) :: s(:)
+      type(transverse_cycle_type), intent(inout) :: on_cycle
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: other, places(size(s)), signs(size(s)), value, zeros(2)
+      integer :: i
+
+      places = s
+      if (s(1) <= 1.0_wp) places(1) = s(1) + beside*(s(2) - s(1))
+      do i = 1, size(s)
+         call find_exponent(coarse, places(i), other, error)
+         if (allocated(error)) return
+         call find_exponent(fine, places(i), value, error)
+         if (allocated(error)) return
+         signs(i) = value
+         if (s(i) <= 1.0_wp) then
+            ! the multiplier of the flow, 1, is the largest of a stable cycle
+            on_cycle%growth = [on_cycle%growth, transverse_growth_type(s(i))]
+         else
+            on_cycle%growth = [on_cycle%growth, &
+                               transverse_growth_type(s(i), value, abs(value - other))]
+         end if
+      end do
+      do i = 1, size(s) - 1
+         if ((signs(i) > 0.0_wp) .eqv. (signs(i + 1) > 0.0_wp)) cycle
+         call find_root(coarse, places(i), places(i + 1), zeros(1), error)
+         if (allocated(error)) return
+         call find_root(fine, places(i), places(i + 1), zeros(2), error)
+         if (allocated(error)) return
+         on_cycle%zeros = [on_cycle%zeros, zero_type(zeros(2), abs(zeros(2) - zeros(1)), &
+                                               signs(i + 1) > 0.0_wp)]
+      end do
+   end subroutine find_exponents
+
+   !> The largest exponent of disturbances of a mode.
+   subroutine find_exponent(self, s, exponent, error)
+      type(exponent_of_mode_type), intent(in) :: self
+      !> Stiffness of the mode over that of one block
+      real(wp), intent(in) :: s
+      real(wp), intent(out) :: exponent
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: modulus
+
+      exponent = -huge(1.0_wp)
+      call find_largest_multiplier(without_free(transverse_family_type(self%parameters, &
+                                                                       s - 1.0_wp)), &
+                                   self%orbit, modulus, error)
+      if (allocated(error)) return
+      exponent = log(modulus)/self%orbit%period
+   end subroutine find_exponent
+
+   !> The exponent as GSL asks for it; very negative if it was not found.
+   real(wp) function exponent_at(self, x) result(value)
+      class(exponent_of_mode_type), intent(in) :: self
+      !> Stiffness of the mode over that of one block
+      real(wp), intent(in) :: x
+      type(error_type), allocatable :: error
+
+      call find_exponent(self, x, value, error)
+   end function exponent_at
+
+   !> Problems without a free parameter.
+   type(free_family_type) function without_free(problems) result(family)
+      class(problem_family_type), intent(in) :: problems
+
+      family = free_family_type(problems, [integer ::], [real(wp) ::])
+   end function without_free
+end module transverse_multipliers

@@ -1,0 +1,45 @@
+"""At which stiffness of modes disturbances grow, and up to how many blocks a chain moves as one."""
+
+import math
+
+import xarray as xr
+
+from scripts.namelists.chains import eigenvalues
+
+
+def has_multipliers(one: xr.Dataset) -> bool:
+    """Whether the motion is a cycle of which Floquet multipliers were found."""
+    return one.sizes["floquet_s"] > 0
+
+
+def growing_ranges(one: xr.Dataset) -> list[tuple[float, float]]:
+    """Ranges of s in which disturbances grow, by multipliers where there are any.
+
+    Beyond the largest s that was tried all is as there.
+    """
+    kind = "floquet_" if has_multipliers(one) else ""
+    zeros = one[f"{kind}zero_s"].values.tolist()
+    rises = one[f"{kind}zero_rises"].values.astype(bool).tolist()
+    grows = [not rises[0] if zeros else float(one[f"{kind}exponent"][-1]) > 0, *rises]
+    ends = [1.0, *zeros, math.inf]
+    return [(ends[i], ends[i + 1]) for i, up in enumerate(grows) if up]
+
+
+def largest_alike(ranges: list[tuple[float, float]], kappa: float) -> int | None:
+    """The largest number of blocks with free ends of which no mode has s in a range; None: any.
+
+    Mode m has s = 1 + 4 kappa sin^2(x/2) at x = pi m/N. If the distance pi/N is less than the
+    width of a range in x, the range has a mode.
+    """
+
+    def place(s: float) -> float:
+        return 2 * math.asin(math.sqrt(min((s - 1) / (4 * kappa), 1)))
+
+    widest = max((place(high) - place(low) for low, high in ranges), default=0.0)
+    if widest == 0:
+        return None
+    for blocks in range(math.floor(math.pi / widest) + 1, 1, -1):
+        modes = [1 + kappa * mu for mu in eigenvalues(blocks, "free")[1:]]
+        if not any(low < s < high for s in modes for low, high in ranges):
+            return blocks
+    return 1
