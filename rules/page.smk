@@ -33,6 +33,8 @@ rule page:
         captions=expand("<results>/figures/{figure}.rst", figure=plan.figures),
         claims="<results>/tables/claims.json" if plan.claims else [],
         attractors="<results>/tables/attractors.tsv" if config["scenes"] else [],
+        chain_motions=[] if plan.is_users else "<results>/tables/chain-motions.tsv",
+        event_sizes=[] if plan.is_users else "<results>/tables/event-sizes.tsv",
         fault_limit=[] if plan.is_users else "<results>/tables/fault-limit.tsv",
         friction_laws=[] if plan.is_users else "<results>/tables/friction-laws.tsv",
         hopf_points=[] if plan.is_users else "<results>/tables/hopf-points.tsv",

@@ -137,6 +137,14 @@ def tables_of_findings() -> dict[str, list[dict]]:
             {**plane, "law": law, "class": kind, "period": 1.0}
             for law, kind in (("slip", "chaos"), ("slip", "torus"), ("ageing", "cycle"))
         ],
+        "chain_motions": [
+            {"blocks": blocks, "tau": 7.0, "positive_exponents": count}
+            for blocks, count in ((2, 1), (9, 5))
+        ],
+        "event_sizes": [
+            {"blocks": 50, "gamma": 0.8, "size_exponent": 1.7, "size_cutoff": 2000.0},
+            {"blocks": 5, "gamma": 0.8, "size_exponent": np.nan, "size_cutoff": np.nan},
+        ],
     }  # fmt: skip
 
 
@@ -149,11 +157,15 @@ def test_findings_follow_the_tables(holds):
         tables["attractors"] = [true_torus | {"scene": "torus"}, true_torus]
         tables["stability"] = tables["stability"][1:]
         tables["friction_laws"] = tables["friction_laws"][:2]
-    limit, torus, faults, laws = findings.list_findings([claim("figure_5a")], tables)
+        tables["chain_motions"] = tables["chain_motions"][:1]
+    limit, torus, faults, laws, chains = findings.list_findings([claim("figure_5a")], tables)
     assert laws["title"].startswith("Whether" if holds else "A delay makes chaos under every law")
     assert "1 (slip)" in laws["words"]
     assert torus["title"] == f"The paper's torus is a {'limit cycle' if holds else 'torus'}."
     assert ("not" in faults["title"]) is not holds
+    assert chains["title"].startswith("In chains" if holds else "Chains of blocks are not")
+    assert ("Of 9 blocks with $tau = 7$ as many as 5 Lyapunov" in chains["words"]) is holds
+    assert chains["words"].count("cut off") == 1
     assert [given["id"] for given in torus["claims"]] == ["figure_5a"]
     for words in ("$epsilon = 0.25$ for $xi = 0.5$", "by 0.048 there, but by 9e-18 only at"):
         assert words in limit["words"]

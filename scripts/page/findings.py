@@ -1,5 +1,6 @@
 """The findings at the top of the page, with numbers from the tables."""
 
+import math
 from collections.abc import Callable
 
 from scripts.claims.claims_of_laws import LAWS
@@ -99,6 +100,30 @@ def describe_laws(tables: dict[str, list[dict]]) -> dict:
     }
 
 
+def describe_chains(tables: dict[str, list[dict]]) -> dict:
+    """How chaotic the longest chaotic chain is, and which laws the events of chains follow."""
+    chaotic = [row for row in tables["chain_motions"] if row["positive_exponents"] > 0]
+    longest = max(chaotic, key=lambda row: row["blocks"], default=None)
+    fitted = [row for row in tables["event_sizes"] if not math.isnan(row["size_exponent"])]
+    words = [
+        f"With {row['blocks']:g} blocks at $gamma = {short(row['gamma'])}$ a power law of event"
+        f" sizes is cut off at {short(row['size_cutoff'], 2)} $L$."
+        for row in fitted
+    ]
+    if longest:
+        words = [
+            f"Of {longest['blocks']:g} blocks with $tau = {short(longest['tau'])}$ as many as"
+            f" {longest['positive_exponents']:g} Lyapunov exponents are positive.",
+            *words,
+        ]
+    return {
+        "title": "In chains of blocks chaos has many dimensions."
+        if longest and longest["positive_exponents"] > 1
+        else "Chains of blocks are not more chaotic than one.",
+        "words": " ".join(words),
+    }
+
+
 def describe_motion(row: dict) -> str:
     """How many exponents are zero, and the fundamental frequencies."""
     pairs = [(row[f"exponent_{i}"], row[f"error_{i}"]) for i in (1, 2, 3)]
@@ -117,5 +142,6 @@ FINDINGS: dict[Callable, list[str]] = {
     describe_torus: ["figure_5a", "figure_6b", "second_hopf"],
     describe_real_faults: ["real_gamma_left_out", "very_stiff_at_real_gamma"],
     describe_laws: [f"delay_alone_makes_chaos_{law}" for law in LAWS],
+    describe_chains: ["more_blocks", "gutenberg_richter", "omori_utsu"],
 }
 """Functions that describe the findings, each with its claims."""

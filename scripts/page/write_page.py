@@ -69,7 +69,10 @@ def content(given, params, folder: Path) -> dict:
 
 def content_of_paper(given, claims: list[dict]) -> dict:
     """What only the page of the paper has: opening, equations, findings and how to cite."""
-    names = ("attractors", "fault_limit", "friction_laws", "hopf_points", "stability")
+    names = (
+        *("attractors", "chain_motions", "event_sizes", "fault_limit", "friction_laws"),
+        *("hopf_points", "stability"),
+    )
     by_id = {claim["id"]: claim for claim in claims}
     return {
         **page_content.set_equations(TEMPLATES / "equations.yaml", claims),
