@@ -174,7 +174,10 @@ def measure_costs(
         seconds, memory = our_cost(chain, ours["tolerance"], folder)
         our_seconds.append(seconds)
         if theirs["status"] == "ok" and sum(their_seconds) < LONG_SECONDS:
-            their_seconds.append(worker.seconds(theirs["tolerance"], 1, limit))
+            try:
+                their_seconds.append(worker.seconds(theirs["tolerance"], 1, limit))
+            except SolverError as failure:
+                theirs["status"] = str(failure)
     ours |= {
         "seconds_per_time_and_block": statistics.median(our_seconds),
         "set_up_seconds": None,
