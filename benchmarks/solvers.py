@@ -98,6 +98,13 @@ class TimeLimitError(SolverError):
     """The solver took too long."""
 
 
+def peak_memory_of(process: subprocess.Popen) -> float:
+    """The most memory that a process has held, in MB; 0 if it has ended."""
+    status = Path(f"/proc/{process.pid}/status").read_text()
+    found = re.search(r"VmHWM:\s+(\d+) kB", status)
+    return int(found[1]) * 1024 / 1e6 if found else 0.0
+
+
 @dataclass
 class Worker:
     """One solver on one scene; its process starts with a request, and again after its end."""
@@ -124,8 +131,7 @@ class Worker:
 
     def peak_memory(self) -> float:
         """The most memory that the process has held, in MB."""
-        status = Path(f"/proc/{self.process.pid}/status").read_text()
-        return int(re.search(r"VmHWM:\s+(\d+) kB", status)[1]) * 1024 / 1e6
+        return peak_memory_of(self.process)
 
     def stop(self) -> None:
         """End the process, if there is one."""

@@ -1,9 +1,11 @@
 """The benchmarks where they need no other solver: ratios, scenes, workers, tables."""
 
+import json
 import math
 import subprocess
 import sys
 
+import chains
 import compare
 import cycles
 import numpy as np
@@ -117,6 +119,20 @@ def test_worker_answers_and_says_why_not():
         with pytest.raises(solvers.TimeLimitError, match=r"longer than 0\.2 s"):
             worker.seconds(1e-3, 9, 0.2)
         assert worker.seconds(1e-3, 7, 30.0) == 0.5
+
+
+@pytest.mark.parametrize("blocks", [1, 3])
+def test_chain_is_the_same_for_both_solvers(blocks):
+    """For JiTCDDE theta, u and ln v of one block after another."""
+    apart = {"theta": 0.1, "u": 0.2, "ln_v": 0.3}
+    chain = chains.chain_of(blocks, 0.8, disturbance=apart)
+    groups, line = chain.groups(1e-6), json.loads(chain.line())
+    assert groups["scene"]["parameters"]["blocks"] == line["blocks"] == blocks
+    past = np.reshape(line["past"], (blocks, 3))
+    histories = groups["blocks"]
+    np.testing.assert_array_equal(past[:, :2].T, [histories["theta"], histories["u"]])
+    np.testing.assert_allclose(np.exp(past[:, 2]), histories["v"])
+    assert np.unique(past).size == 3 * blocks
 
 
 def test_answer_of_biftool_is_read():

@@ -6,13 +6,15 @@ import math
 import numpy as np
 import pytest
 import xarray as xr
+from conftest import ROOT
 from independent_chain import second_difference, solve_chain
+from scipy.integrate import solve_ivp
 
 from scripts.claims.claims_of_chains import blocks_differ
 from scripts.claims.claims_results import NOT_REPRODUCED, REPRODUCED, Results
 from scripts.config.check_config import checked
 from scripts.figures import synchrony
-from scripts.files.read_config import ConfigError
+from scripts.files.read_config import ConfigError, read
 from scripts.namelists.chains import (
     chain_groups,
     eigenvalues,
@@ -59,6 +61,30 @@ def test_trajectory_is_that_of_another_code(programs, config, blocks, ends):
     states = solve_chain({**PLACE, **how, **history}, 20.0, 0.005)[::100]
     for place, values in enumerate((found.theta, found.u, np.log(found.v))):
         np.testing.assert_allclose(values, states[:, place], rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize("name", ["erickson", "erickson_chaos"])
+def test_chain_without_delay_is_that_of_scipy(programs, config, name):
+    """The chains of Erickson, Birnir and Lavallee."""
+    chain = read(ROOT / "config" / "long_chains.yaml")["chains"][name]
+    bump = 1.5 * np.exp(-((np.arange(0.0, 21.0, 2.0) - 10.0) ** 2))
+    np.testing.assert_allclose(chain["history"]["u"], bump, rtol=0, atol=1e-6)
+    own = {"t_end": 100.0, "t_transient": 0.0, "tolerance": 1e-11}
+    a_chain(config, **{**chain, **own})
+    found = programs.made_of("trajectory", chain_groups(config, "mine"))
+    epsilon, xi, gamma, kappa = (chain[key] for key in ("epsilon", "xi", "gamma", "kappa"))
+
+    def rates(_, y: np.ndarray) -> np.ndarray:
+        theta, u, w = y.reshape(3, -1)
+        v = np.exp(w)
+        force = u - kappa * second_difference(u, "free") + (theta + w) / xi
+        return np.concatenate([-v * (theta + (1 + epsilon) * w), v - 1, -(gamma**2) / v * force])
+
+    start = np.concatenate([np.zeros(11), chain["history"]["u"], np.zeros(11)])
+    options = {"method": "DOP853", "t_eval": found.t.values, "rtol": 1e-12, "atol": 1e-12}
+    expected = solve_ivp(rates, (0.0, 100.0), start, **options)
+    values = np.concatenate([found.theta, found.u, np.log(found.v)], axis=1)
+    np.testing.assert_allclose(values, expected.y.T, rtol=0, atol=1e-8)
 
 
 def measured(programs, config: dict, scene: str, window: list, count: int) -> xr.Dataset:
