@@ -51,6 +51,29 @@ def test_blocks_without_springs_between_have_the_exponents_of_one(programs, stud
     assert values[2] < -0.001
 
 
+@pytest.mark.parametrize("ends", ["free", "plate"])
+def test_exponents_at_rest_are_those_of_the_linear_chain(programs, study, ends):
+    """Without delay they are real parts of eigenvalues, by NumPy; all blocks come to rest."""
+    place = {"tau": 0.0, "epsilon": 0.12, "xi": 0.5, "gamma": 0.5}
+    study["scenes"]["torus"] |= place
+    study["chain_motions"] |= {"kappa": [0.25], "ends": ends}
+    row = row_of(programs, study, "torus_2_kappa_0_25")
+    epsilon, xi, gamma = place["epsilon"], place["xi"], place["gamma"]
+    second = np.array([[-1.0, 1.0], [1.0, -1.0]]) - (ends == "plate") * np.eye(2)
+    one, none = np.eye(2), np.zeros((2, 2))
+    stretch = -(gamma**2) * (one - 0.25 * second)
+    linear = np.block(
+        [
+            [-one, none, -(1 + epsilon) * one],
+            [none, none, one],
+            [-(gamma**2) / xi * one, stretch, -(gamma**2) / xi * one],
+        ]
+    )
+    expected = sorted(np.linalg.eigvals(linear).real, reverse=True)[:4]
+    assert row["motion"] == "rest"
+    np.testing.assert_allclose(exponents_of(row), expected, atol=2e-3)
+
+
 NO_DISTURBANCE = {"theta": 0.0, "u": 0.0, "ln_v": 0.0, "seed": 1, "block": 0}
 
 
@@ -65,7 +88,7 @@ def test_motion_in_words():
 def test_names_of_chains_are_words(study):
     """A kappa with a point has none in the name: names are names of files."""
     study["chain_motions"] |= {"kappa": [0.1], "blocks": [5], "scenes": ["chaos"]}
-    assert list(motion_chains(study)) == ["chaos_5_kappa_0_1"]
+    assert list(motion_chains(study)) == [*study["chain_motions"]["chains"], "chaos_5_kappa_0_1"]
 
 
 PLACE = {"ends": "free", "tau": 7.0, "epsilon": 0.7, "xi": 0.5, "gamma": 0.8, "law": "slip"}
@@ -91,6 +114,7 @@ def test_figure_has_a_line_for_each_chaotic_chain():
     ("change", "said"),
     [
         ({"scenes": ["nothing"]}, "config chain_motions scenes: 'nothing'; expected one of: fixed"),
+        ({"chains": ["nothing"]}, "config chain_motions chains: 'nothing'; expected one of: pat"),
         ({"t_end": 900.0}, "config chain_motions: t_end = 900.0; expected a finite number > t_tr"),
         ({"blocks": [2], "ends": "ring"}, "config chain_motions: blocks = 2; expected a whole num"),
     ],

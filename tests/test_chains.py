@@ -63,13 +63,13 @@ def test_trajectory_is_that_of_another_code(programs, config, blocks, ends):
         np.testing.assert_allclose(values, states[:, place], rtol=0, atol=1e-9)
 
 
-@pytest.mark.parametrize("name", ["erickson", "erickson_chaos"])
-def test_chain_without_delay_is_that_of_scipy(programs, config, name):
+@pytest.mark.parametrize(("file", "name"), [("long_chains", "erickson"), ("config", "no_delay")])
+def test_chain_without_delay_is_that_of_scipy(programs, config, file, name):
     """The chains of Erickson, Birnir and Lavallee."""
-    chain = read(ROOT / "config" / "long_chains.yaml")["chains"][name]
+    chain = read(ROOT / "config" / f"{file}.yaml")["chains"][name]
     bump = 1.5 * np.exp(-((np.arange(0.0, 21.0, 2.0) - 10.0) ** 2))
     np.testing.assert_allclose(chain["history"]["u"], bump, rtol=0, atol=1e-6)
-    own = {"t_end": 100.0, "t_transient": 0.0, "tolerance": 1e-11}
+    own = {"t_end": 100.0, "t_transient": 0.0, "tolerance": 1e-11, "variables": ["theta", "u", "v"]}
     a_chain(config, **{**chain, **own})
     found = programs.made_of("trajectory", chain_groups(config, "mine"))
     epsilon, xi, gamma, kappa = (chain[key] for key in ("epsilon", "xi", "gamma", "kappa"))

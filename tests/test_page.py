@@ -138,8 +138,9 @@ def tables_of_findings() -> dict[str, list[dict]]:
             for law, kind in (("slip", "chaos"), ("slip", "torus"), ("ageing", "cycle"))
         ],
         "chain_motions": [
-            {"blocks": blocks, "tau": 7.0, "positive_exponents": count}
-            for blocks, count in ((2, 1), (9, 5))
+            {**limit, "gamma": 0.8, "epsilon": 0.5, "blocks": blocks, "tau": tau}
+            | {"positive_exponents": count}
+            for blocks, tau, count in ((2, 7.0, 1), (9, 7.0, 5), (11, 0.0, 2))
         ],
         "event_sizes": [
             {"blocks": 50, "gamma": 0.8, "size_exponent": 1.7, "size_cutoff": 2000.0},
@@ -166,6 +167,7 @@ def test_findings_follow_the_tables(holds):
     assert chains["title"].startswith("In chains" if holds else "Chains of blocks are not")
     assert ("Of 9 blocks with $tau = 7$ as many as 5 Lyapunov" in chains["words"]) is holds
     assert chains["words"].count("cut off") == 1
+    assert ("Without delay 11 blocks have 2 positive" in chains["words"]) is holds
     assert [given["id"] for given in torus["claims"]] == ["figure_5a"]
     for words in ("$epsilon = 0.25$ for $xi = 0.5$", "by 0.048 there, but by 9e-18 only at"):
         assert words in limit["words"]

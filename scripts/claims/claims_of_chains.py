@@ -25,7 +25,7 @@ Decades = Annotated[float, number("decades that a power law spans")]
     "The strategy applied to one block can be replicated for a greater number of blocks, in order "
     "to understand chaos better."
 )
-@tested_with(chains=["pattern", "delay_pattern", "chaos"])
+@tested_with(chains=["pattern", "delay_pattern", "chaos", "no_delay"])
 @reads("chains")
 def blocks_differ(results: Results, *, chains: Chains) -> Finding:
     """Whether chains were computed in which the blocks move differently: more than one block can.

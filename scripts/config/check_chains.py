@@ -51,6 +51,9 @@ def _contradictions_of_motions(config: dict):
     study = config["chain_motions"]
     place = "config chain_motions"
     yield from _contradictions_of_scenes(place, study, config["scenes"])
+    for name in study["chains"]:
+        if name not in config["chains"]:
+            yield f"{place} chains: {name!r}; expected one of: {', '.join(config['chains'])}"
     for blocks in study["blocks"]:
         yield from _contradictions_of_ends(place, {**study, "blocks": blocks})
     begin = study["t_transient"] + study["t_turning"]

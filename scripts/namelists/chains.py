@@ -9,9 +9,7 @@ from scripts.namelists.study_cases import HISTORY, place_of, with_parameters
 
 CHAIN = ["blocks", "kappa", "ends"]
 """Keys of a chain beside those of a block."""
-OF_MOTIONS = (
-    *("ends", "disturbance", "t_end", "t_transient", "sample_interval", "tolerance", "method"),
-)
+OF_MOTIONS = ("t_end", "t_transient", "sample_interval", "tolerance", "method")
 """What all chains of the table of motions have."""
 MORE_EXPONENTS = 2
 """Exponents of a chain beyond one a block."""
@@ -48,13 +46,15 @@ def event_chain_groups(config: dict, event_chain: str) -> dict[str, dict]:
 
 
 def motion_chains(config: dict) -> dict[str, dict]:
-    """Chains of scenes whose motions are told apart, by name."""
+    """Chains whose motions are told apart, by name: those named, and chains of blocks of scenes."""
     study = config["chain_motions"]
     shared = {key: study[key] for key in OF_MOTIONS}
-    return {
+    chains = {name: {**config["chains"][name], **shared} for name in study["chains"]}
+    return chains | {
         f"{scene}_{blocks}_kappa_{kappa:g}".replace(".", "_"): {
             **place_of(config, config["scenes"][scene]),
             **{"history": config["scenes"][scene]["history"], "blocks": blocks, "kappa": kappa},
+            **{key: study[key] for key in ("ends", "disturbance")},
             **shared,
         }
         for scene in study["scenes"]

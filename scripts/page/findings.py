@@ -103,12 +103,20 @@ def describe_laws(tables: dict[str, list[dict]]) -> dict:
 def describe_chains(tables: dict[str, list[dict]]) -> dict:
     """How chaotic the longest chaotic chain is, and which laws the events of chains follow."""
     chaotic = [row for row in tables["chain_motions"] if row["positive_exponents"] > 0]
-    longest = max(chaotic, key=lambda row: row["blocks"], default=None)
+    delayed = [row for row in chaotic if row["tau"] > 0]
+    longest = max(delayed, key=lambda row: row["blocks"], default=None)
     fitted = [row for row in tables["event_sizes"] if not math.isnan(row["size_exponent"])]
     words = [
         f"With {row['blocks']:g} blocks at $gamma = {short(row['gamma'])}$ a power law of event"
         f" sizes is cut off at {short(row['size_cutoff'], 2)} $L$."
         for row in fitted
+    ]
+    without_delay = [row for row in chaotic if row["tau"] == 0]
+    words += [
+        f"Without delay {row['blocks']:g} blocks have {row['positive_exponents']:g} positive"
+        f" exponents at $epsilon = {short(row['epsilon'])}$, $xi = {short(row['xi'])}$ and"
+        f" $gamma = {short(row['gamma'])}$: chaos in a chain needs no delay."
+        for row in without_delay
     ]
     if longest:
         words = [

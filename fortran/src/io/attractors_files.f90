@@ -84,7 +84,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
       character(len=*), parameter :: ordinals(3) = ["first ", "second", "third "]
-      real(wp), dimension(size(findings)) :: least, most
+      real(wp), dimension(size(findings)) :: least, mean_time, most, variation
       integer :: i, rows
 
       call file%create(path, "Attractors of the spring block with delayed friction")
@@ -140,11 +140,11 @@ contains
          call file%column(rows, "smallest_maximum", least, "smallest maximum of v")
          call file%column(rows, "largest_maximum", most, "largest maximum of v")
          do i = 1, size(findings)
-            call recur(findings(i), least(i), most(i))
+            call recur(findings(i), mean_time(i), variation(i))
          end do
-         call file%column(rows, "recurrence_time", least, &
+         call file%column(rows, "recurrence_time", mean_time, &
                           "mean time between rises of v through 1")
-         call file%column(rows, "recurrence_variation", most, &
+         call file%column(rows, "recurrence_variation", variation, &
                           "standard deviation of this time over its mean")
       end associate
       call put_kept(file, points%kept, findings, rows)

@@ -158,8 +158,8 @@ contains
       type(exponent_type), allocatable :: exponents(:)
 
       if (.not. settles(attractor%motion%samples(index_of_ln_v))) return
-      call sliding_exponents(search%block_model, search%most_exponents(search%settings%exponents), &
-                             exponents, error)
+      call sliding_exponents(search%block_model%parameters, &
+                             search%most_exponents(search%settings%exponents), exponents, error)
       if (allocated(error)) return
       if (.not. all(exponents%value < 0.0_wp)) return
       attractor%exponents = exponents

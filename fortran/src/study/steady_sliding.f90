@@ -2,13 +2,14 @@
 !> of (5).
 module steady_sliding
    use block_parameters, only: block_parameters_type
+   use chain, only: mode_eigenvalue
    use block_roots, only: roots_of_block
    use dde, only: integrate, integration_options, integration_result, table_sampler
    use dde_errors, only: error_type
    use exponent_averages, only: exponent_type
    use dde_kinds, only: wp
    use root_counts, only: roots_right_of
-   use spring_block, only: index_of_ln_v, spring_block_type
+   use spring_block, only: components_of_block, index_of_ln_v, spring_block_type
    implicit none (type, external)
    private
    public :: comes_to_rest, settles, sliding_exponents
@@ -25,34 +26,58 @@ module steady_sliding
 
 contains
 
-   !> Whether the block of its own history comes to rest: ln v settles between two times, and steady
-   !> sliding is stable.
+   !> Whether the blocks of their own histories come to rest: ln v settles between two times, and
+   !> steady sliding is stable to all modes of the chain.
    subroutine comes_to_rest(block_model, t_begin, t_end, options, rest, error)
-      !> The block and its history
+      !> The blocks and their histories
       type(spring_block_type), intent(in) :: block_model
       !> Time from which it is looked at, and time up to which
       real(wp), intent(in) :: t_begin, t_end
       !> Method and tolerances
       type(integration_options), intent(in) :: options
-      !> Whether the block comes to rest
+      !> Whether they come to rest
       logical, intent(out) :: rest
       !> The run ended before its time, or the roots of (5) cannot be found
       type(error_type), allocatable, intent(out) :: error
       type(exponent_type), allocatable :: exponents(:)
       type(integration_result) :: outcome
       type(table_sampler) :: samples
-      integer :: i
+      integer :: first, i, mode
 
       rest = .false.
-      samples = table_sampler([index_of_ln_v], [(t_begin + (t_end - t_begin)*i/samples_of_rest, &
-                                                 i=1, samples_of_rest - 1)])
+      samples = table_sampler([(i, i=index_of_ln_v, block_model%n, components_of_block)], &
+                              [(t_begin + (t_end - t_begin)*i/samples_of_rest, &
+                                i=1, samples_of_rest - 1)])
       call integrate(block_model, 0.0_wp, t_end, options, outcome, error, sampler=samples)
       if (allocated(error)) return
-      if (.not. settles(samples%values(1, :))) return
-      call sliding_exponents(block_model, 1, exponents, error)
-      if (allocated(error)) return
-      rest = all(exponents%value < 0.0_wp)
+      if (.not. settles(maxval(abs(samples%values), dim=1))) return
+      associate (p => block_model%parameters)
+         first = merge(1, 0, p%ends == "plate")
+         do mode = first, first + p%blocks - 1
+            call sliding_exponents(block_of_mode(p, mode), 1, exponents, error)
+            if (allocated(error)) return
+            if (any(exponents%value >= 0.0_wp)) return
+         end do
+      end associate
+      rest = .true.
    end subroutine comes_to_rest
+
+   !> The block whose linear equations are those of a mode of a chain; a block alone has mode 0.
+   pure type(block_parameters_type) function block_of_mode(p, mode) result(one)
+      !> Parameters of the chain
+      type(block_parameters_type), intent(in) :: p
+      !> Number of the mode: from 0, with plates at the ends from 1
+      integer, intent(in) :: mode
+      real(wp) :: s
+
+      s = 1.0_wp + p%kappa*mode_eigenvalue(mode, p%blocks, p%ends)
+      one = p
+      one%xi = s*p%xi
+      one%gamma = sqrt(s)*p%gamma
+      one%blocks = 1
+      one%kappa = 0.0_wp
+      one%ends = "free"
+   end function block_of_mode
 
    !> Whether ln v stays close to 0 or decays towards it; steady sliding is the attractor if it is
    !> stable, too.
@@ -71,9 +96,9 @@ contains
    end function settles
 
    !> The real parts of the rightmost roots of (5); fewer where there are no more to be found.
-   subroutine sliding_exponents(block_model, count, exponents, error)
-      !> The block
-      type(spring_block_type), intent(in) :: block_model
+   subroutine sliding_exponents(p, count, exponents, error)
+      !> Parameters of the block
+      type(block_parameters_type), intent(in) :: p
       !> How many
       integer, intent(in) :: count
       !> Exponents, descending, without error
@@ -83,9 +108,7 @@ contains
       complex(wp), allocatable :: roots(:)
       integer :: i
 
-      associate (p => block_model%parameters)
-         call roots_of_block(p, bound_for(p, count), roots, error)
-      end associate
+      call roots_of_block(p, bound_for(p, count), roots, error)
       if (allocated(error)) return
       exponents = [(exponent_type(value=real(roots(i))), i=1, min(count, size(roots)))]
    end subroutine sliding_exponents

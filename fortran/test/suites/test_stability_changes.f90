@@ -1,7 +1,6 @@
 !> Changes of stability with the delay and with epsilon, against the number of roots between them;
 !> blocks that approach steady sliding, and the exponents there.
 module test_stability_changes
-   use block_builder, only: build_block
    use block_parameters, only: block_parameters_type
    use block_roots, only: roots_of_block
    use closed_form, only: block_with_pair
@@ -203,8 +202,8 @@ contains
                call expect_success(error, failure)
                known = [maxval(roots%re), sum(roots%re) - maxval(roots%re) - minval(roots%re), &
                         minval(roots%re)]
-               call sliding_exponents(build_block(0.0_wp, epsilon, xi, all_gamma(j)), 3, &
-                                      exponents, failure)
+               call sliding_exponents(block_parameters_type(0.0_wp, epsilon, xi, all_gamma(j)), &
+                                      3, exponents, failure)
             end associate
             call expect_success(error, failure)
             if (allocated(error)) return
@@ -213,7 +212,8 @@ contains
             call expect(error, all(abs(exponents%error) <= 0.0_wp), "no error bars")
          end do
       end do
-      call sliding_exponents(build_block(0.0_wp, 0.3_wp, 1.0_wp, 10.0_wp), 3, exponents, failure)
+      call sliding_exponents(block_parameters_type(0.0_wp, 0.3_wp, 1.0_wp, 10.0_wp), 3, exponents, &
+                             failure)
       call expect_success(error, failure)
       call expect(error, size(exponents) == 2, "the third root is below the last bound, -8")
    end subroutine test_cubic
@@ -234,8 +234,7 @@ contains
             do k = 0, 1
                associate (omega => all_omega(i), gamma => all_gamma(j))
                   p = block_with_pair(omega, 0.8_wp, gamma, k)
-                  call sliding_exponents(build_block(p%tau, p%epsilon, p%xi, p%gamma), 30, &
-                                         exponents, failure)
+                  call sliding_exponents(p, 30, exponents, failure)
                   call expect_success(error, failure)
                   if (allocated(error)) return
                   call expect(error, count(abs(exponents%value) <= 1.0e-9_wp) == 2, &
