@@ -4,7 +4,9 @@ import numpy as np
 import xarray as xr
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
+from matplotlib.colors import TwoSlopeNorm
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter
 
 from scripts.drawing import parameters
 from scripts.figures.wording import place_in_words, short
@@ -19,6 +21,8 @@ from scripts.tables.chain_motions import (
 VARIABLES = ("v",)
 SHOWN = 150.0
 """Time at the end that the maps show."""
+FLAT = 1e-6
+"""ln v that is as near to 0 has no colour."""
 LEAST_SPREAD = 1e-12
 """Standard deviations of ln v below this are rounding errors."""
 
@@ -61,14 +65,14 @@ def draw_map(figure: Figure, axes: Axes, chain: xr.Dataset) -> None:
     """ln v over time and block at the end of the run."""
     last = chain.sel(t=slice(float(chain.t[-1]) - SHOWN, None))
     values = np.log(last.v.values.T)
-    most = float(np.abs(values).max())
+    # v may span many powers of ten below 1, and few above
+    ends = {"vmin": min(float(values.min()), -FLAT), "vmax": max(float(values.max()), FLAT)}
     shades = axes.pcolormesh(
         last.t.values,
         1 + np.arange(values.shape[0]),
         values,
         cmap="RdBu_r",
-        vmin=-most,
-        vmax=most,
+        norm=TwoSlopeNorm(vcenter=0.0, **ends),
         shading="nearest",
         rasterized=True,
     )
@@ -87,6 +91,7 @@ def draw_modes(axes: Axes, chain: xr.Dataset) -> None:
     """The mean square of each mode of ln v after the transient."""
     powers = powers_of(chain)
     axes.semilogy(first_mode(chain) + np.arange(powers.size), powers, "o-", ms=2.5, lw=0.7)
+    axes.yaxis.set_minor_formatter(NullFormatter())
     axes.set_ylabel("mean square")
 
 

@@ -36,7 +36,7 @@ def draw(motions: list[dict]) -> Figure:
     figure, (spectra, counts) = plt.subplots(1, 2, figsize=(6.7, 3.2), width_ratios=[1.3, 1])
     for number, rows in enumerate(families_of(motions).values()):
         colour, mark = f"C{number}", MARKS[number % len(MARKS)]
-        shades = np.linspace(0.35, 1.0, len(rows))
+        shades = np.linspace(1.0, 0.35, len(rows))[::-1]
         for row, shade in zip(rows, shades, strict=True):
             values = exponents_of(row)
             share = (np.arange(len(values)) + 0.5) / row["blocks"]
