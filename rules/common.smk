@@ -5,7 +5,7 @@ from os.path import normpath
 from pathlib import Path
 
 from scripts.namelists import laws
-from scripts.namelists.chains import motion_chains
+from scripts.namelists.chains import motion_chains, stiffness_of_modes
 from scripts.figures import registry
 from scripts.namelists.study_cases import measured_study
 from scripts.results.programs import BUILD, PAPER, RUNS

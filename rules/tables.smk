@@ -73,6 +73,15 @@ TABLES = {
     "exponents_table": table(
         "exponents.tsv", "exponents_table", runs=paths.exponents_of_scenes(config)
     ),
+    "chain_modes_table": table(
+        "chain-modes.tsv",
+        "chain_modes_table",
+        {
+            "planes": list(config["chain_modes"]["planes"]),
+            "stiffness": stiffness_of_modes(config["chain_modes"]),
+        },
+        modes=paths.curves_of_modes(config),
+    ),
     "chain_motions_table": table(
         "chain-motions.tsv", "chain_motions_table", **paths.runs_of_motions(config)
     ),

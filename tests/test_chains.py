@@ -13,15 +13,17 @@ from scipy.integrate import solve_ivp
 from scripts.claims.claims_of_chains import blocks_differ
 from scripts.claims.claims_results import NOT_REPRODUCED, REPRODUCED, Results
 from scripts.config.check_config import checked
-from scripts.figures import synchrony
+from scripts.figures import chain_modes, synchrony
 from scripts.files.read_config import ConfigError, read
 from scripts.namelists.chains import (
     chain_groups,
     eigenvalues,
     histories_of,
     mode_groups,
+    stiffness_of_modes,
     synchrony_groups,
 )
+from scripts.tables.chain_modes_table import mode_rows
 from scripts.tables.chain_motions import moves_alike, powers_of, rests, strongest_mode
 from scripts.tables.synchrony_ranges import growing_ranges, largest_alike
 
@@ -335,3 +337,30 @@ def test_chains_that_move_alike_do_not_show_that_more_blocks_differ():
         ({"a": alike, "b": differ}, REPRODUCED),
     ):
         assert blocks_differ(Results(chains=chains), chains=["a", "b"]).verdict == verdict
+
+
+def curves_of(programs, config: dict, plane: str) -> list[xr.Dataset]:
+    """Hopf curves of all modes in a plane."""
+    modes = range(len(stiffness_of_modes(config["chain_modes"])))
+    return [programs.made_of("hopf", mode_groups(config, plane, str(mode))) for mode in modes]
+
+
+def test_first_mode_of_a_fault_is_the_uniform_one(programs, config):
+    """At gamma = 1e8 mode s becomes unstable without delay, at epsilon = xi s (Ruina 1983)."""
+    config["chain_modes"] |= {"blocks": 2, "kappa": 0.5, "cells": 20}
+    stiffness = stiffness_of_modes(config["chain_modes"])
+    rows = mode_rows("fault", curves_of(programs, config, "fault"), stiffness)
+    assert [row["s"] for row in rows] == [1.0, 2.0]
+    np.testing.assert_allclose([row["epsilon"] for row in rows], [0.5, 1.0], rtol=1e-6)
+    np.testing.assert_allclose([row["tau"] for row in rows], 0.0, atol=1e-9)
+    assert [row["critical"] for row in rows] == ["yes", "no"]
+
+
+def test_plane_without_curves_has_no_critical_mode(programs, config):
+    """Below the least epsilon no mode becomes unstable."""
+    config["chain_modes"] |= {"blocks": 2, "cells": 10}
+    config["chain_modes"]["planes"]["block"]["epsilon_window"] = [0.0, 0.1]
+    modes = curves_of(programs, config, "block")
+    stiffness = stiffness_of_modes(config["chain_modes"])
+    assert {row["critical"] for row in mode_rows("block", modes, stiffness)} == {"no"}
+    assert chain_modes.critical_of(modes, stiffness) == "no mode becomes unstable"

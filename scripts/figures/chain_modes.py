@@ -13,6 +13,8 @@ from matplotlib.patches import Patch
 from scripts.drawing import parameters
 from scripts.figures.wording import short
 from scripts.namelists.chains import stiffness_of_modes
+from scripts.results.paths import curves_of_modes
+from scripts.tables.chain_modes_table import mode_rows
 
 REGIONS = {
     "all modes stable": "#ffffff",
@@ -23,13 +25,7 @@ REGIONS = {
 
 def inputs(config: dict) -> dict:
     """Hopf curves of each mode in each plane, mode by mode."""
-    study = config["chain_modes"]
-    modes = range(len(stiffness_of_modes(study)))
-    return {
-        "curves": [
-            f"<results>/modes/{plane}/{mode}.nc" for plane in study["planes"] for mode in modes
-        ]
-    }
+    return {"curves": curves_of_modes(config)}
 
 
 def params(config: dict) -> dict:
@@ -109,7 +105,20 @@ def numbers(
                 "xi": plane["xi"],
                 "gamma": plane["gamma"],
                 "share": short(100 * float((regions_of(modes) == 1).mean()), 2),
+                "critical": critical_of(modes, stiffness),
             }
             for plane, modes in zip(planes, by_plane(curves, planes), strict=True)
         ],
     }
+
+
+def critical_of(modes: list[xr.Dataset], stiffness: list[float]) -> str:
+    """Where the first mode becomes unstable as epsilon grows, at any delay of the window."""
+    first = [row for row in mode_rows("", modes, stiffness) if row["critical"] == "yes"]
+    if not first:
+        return "no mode becomes unstable"
+    (row, *_) = first
+    return (
+        f"the first unstable mode has :math:`s` = {short(row['s'])}, from :math:`\\varepsilon` ="
+        f" {short(row['epsilon'])} at :math:`\\tau` = {short(row['tau'])}"
+    )

@@ -105,6 +105,7 @@ OF_USERS = {
     "cycles": Figure("Cycles", cycles, ("cycles", "lines")),
     "atlas": Figure("Atlas", atlas, ("atlas", "planes")),
     "chains": Figure("Chains", chain, ("chains",)),
+    "mode_planes": Figure("Chains", chain_modes, ("chain_modes", "planes")),
     "event_chains": Figure("Chains", event_sizes, ("event_sizes", "chains")),
 }
 """By kind."""

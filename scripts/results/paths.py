@@ -3,7 +3,7 @@
 In paths `<results>` stands for the folder of the results.
 """
 
-from scripts.namelists.chains import motion_chains
+from scripts.namelists.chains import motion_chains, stiffness_of_modes
 from scripts.namelists.laws import law_in_words, own_place
 from scripts.namelists.study_cases import HISTORY, PARAMETERS
 
@@ -93,6 +93,13 @@ def runs_of_laws(config: dict) -> list[str]:
         for law in study["laws"]
         for part in [*study["planes"], *study["scenes"]]
     ]
+
+
+def curves_of_modes(config: dict) -> list[str]:
+    """Hopf curves of the modes of a chain, plane by plane."""
+    study = config["chain_modes"]
+    modes = range(len(stiffness_of_modes(study)))
+    return [f"<results>/modes/{plane}/{mode}.nc" for plane in study["planes"] for mode in modes]
 
 
 def runs_of_motions(config: dict) -> dict[str, list[str]]:

@@ -25,6 +25,7 @@ SECTIONS = {
     "atlas": ("atlas", "planes"),
     "planes": ("hopf_curves",),
     "chains": ("chains",),
+    "mode_planes": ("chain_modes", "planes"),
     "event_chains": ("event_sizes", "chains"),
     "routes": ("routes", "lines"),
     "cycles": ("cycles", "lines"),
@@ -98,6 +99,7 @@ TABLES = {
     "basins": "basins",
     "stability": "families",
     "dimensions": "dimensions",
+    "chain-modes": "mode_planes",
     "event-sizes": "event_chains",
     "tolerance-proportionality": "measured_scenes",
 }

@@ -1,0 +1,52 @@
+"""Modes of a chain in planes of epsilon and tau: where each becomes unstable, which is first."""
+
+import numpy as np
+import xarray as xr
+
+from scripts.files.inputs import read
+from scripts.files.outputs import logged
+from scripts.files.tsv import write_table
+
+
+def mode_rows(plane: str, modes: list[xr.Dataset], stiffness: list[float]) -> list[dict]:
+    """A row for each mode: the block that it is, and the least epsilon on its Hopf curves.
+
+    A mode without a curve in the window has none. The critical mode has the least of all.
+    """
+    rows = [
+        {
+            "plane": plane,
+            "s": s,
+            "block_xi": float(mode.attrs["xi"]),
+            "block_gamma": float(mode.attrs["gamma"]),
+            **least_of(mode),
+            "unstable_share": float((mode.map_unstable_pairs.values > 0).mean()),
+        }
+        for s, mode in zip(stiffness, modes, strict=True)
+    ]
+    least = min((row["epsilon"] for row in rows if not np.isnan(row["epsilon"])), default=np.nan)
+    return [{**row, "critical": "yes" if row["epsilon"] == least else "no"} for row in rows]
+
+
+def least_of(mode: xr.Dataset) -> dict:
+    """The least epsilon on the Hopf curves, the delay there, and the frequency omega."""
+    if mode.sizes["point"] == 0:
+        return {"epsilon": np.nan, "tau": np.nan, "omega": np.nan}
+    point = mode.isel(point=int(mode.epsilon.values.argmin()))
+    # a curve may end at tau = 0 but for rounding
+    return {key: max(0.0, float(point[key])) for key in ("epsilon", "tau", "omega")}
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        stiffness = snakemake.params.stiffness
+        runs = [read(path) for path in snakemake.input.modes]
+        size = len(stiffness)
+        write_table(
+            snakemake.output[0],
+            [
+                row
+                for number, plane in enumerate(snakemake.params.planes)
+                for row in mode_rows(plane, runs[number * size : (number + 1) * size], stiffness)
+            ],
+        )
