@@ -93,7 +93,7 @@ TABLES = {
                 wildcards.event_chain
             ]["t_transient"]
         },
-        slips="<results>/slip_events/chains/{event_chain}.nc",
+        slips="<results>/chain_slips/{event_chain}.nc",
     ),
     "event_sizes_table": table(
         "event-sizes.tsv",

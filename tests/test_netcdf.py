@@ -12,6 +12,7 @@ KINDS = {
     *("friction", "measurements/stability", "measurements/trust", "measurements/work_precision"),
     *("attractors/scenes", "attractors/basins", "attractors/routes", "attractors/atlas"),
     *("attractors/laws", "chains", "modes", "synchrony"),
+    *("chain_exponents", "chain_motions", "chain_slips"),
 }
 """Folders with NetCDF files, each with those of one program."""
 

@@ -107,13 +107,13 @@ def runs_of_motions(config: dict) -> dict[str, list[str]]:
     names = motion_chains(config)
     return {
         "trajectories": [f"<results>/chain_motions/{name}.nc" for name in names],
-        "exponents": [f"<results>/exponents/chains/{name}.nc" for name in names],
+        "exponents": [f"<results>/chain_exponents/{name}.nc" for name in names],
     }
 
 
 def slips_of_chains(config: dict) -> list[str]:
     """Slips of the blocks of chains whose events are sized."""
-    return [f"<results>/slip_events/chains/{name}.nc" for name in config["event_sizes"]["chains"]]
+    return [f"<results>/chain_slips/{name}.nc" for name in config["event_sizes"]["chains"]]
 
 
 def events_of_chains(config: dict) -> list[str]:

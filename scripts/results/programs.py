@@ -91,12 +91,12 @@ RUNS = [
     Run("chain_trajectory", "trajectory", "chains/{chain}.nc", chains.chain_groups),
     Run("motion_trajectory", "trajectory", "chain_motions/{motion}.nc", chains.motion_groups),
     Run(
-        *("motion_exponents", "exponents", "exponents/chains/{motion}.nc"),
+        *("motion_exponents", "exponents", "chain_exponents/{motion}.nc"),
         chains.motion_exponents_groups,
         **LONG_RUN,
     ),
     Run(
-        *("chain_slips", "slip_events", "slip_events/chains/{event_chain}.nc"),
+        *("chain_slips", "slip_events", "chain_slips/{event_chain}.nc"),
         chains.event_chain_groups,
         **LONG_RUN,
     ),

@@ -203,6 +203,8 @@ def restrict(config: dict, *groups: dict[str, list[str]]) -> dict:
             kept[first][rest[0]] = inside
         else:
             kept[first] = inside
+    # motions are told apart of the paper's chains and scenes alone
+    kept["chain_motions"] |= {"chains": [], "scenes": []}
     for scene in kept["scenes"].values():
         scene.setdefault("attractors", {})
     return kept

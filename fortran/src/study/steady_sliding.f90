@@ -21,8 +21,8 @@ module steady_sliding
    real(wp), parameter :: first_bound = -1.0_wp/64.0_wp, last_bound = -8.0_wp
    !> Halvings of the interval between a bound with too few roots and one with many.
    integer, parameter :: most_halvings = 20
-   !> Samples of a motion that may come to rest.
-   integer, parameter :: samples_of_rest = 10000
+   !> Samples of a motion that may come to rest: of all blocks, and at least of each.
+   integer, parameter :: samples_of_rest = 10000, least_samples = 500
 
 contains
 
@@ -42,12 +42,12 @@ contains
       type(exponent_type), allocatable :: exponents(:)
       type(integration_result) :: outcome
       type(table_sampler) :: samples
-      integer :: first, i, mode
+      integer :: first, i, last, mode
 
       rest = .false.
+      last = max(least_samples, samples_of_rest/block_model%parameters%blocks)
       samples = table_sampler([(i, i=index_of_ln_v, block_model%n, components_of_block)], &
-                              [(t_begin + (t_end - t_begin)*i/samples_of_rest, &
-                                i=1, samples_of_rest - 1)])
+                              [(t_begin + (t_end - t_begin)*i/last, i=1, last - 1)])
       call integrate(block_model, 0.0_wp, t_end, options, outcome, error, sampler=samples)
       if (allocated(error)) return
       if (.not. settles(maxval(abs(samples%values), dim=1))) return
