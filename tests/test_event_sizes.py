@@ -133,23 +133,29 @@ ROW = {
     },
     **{"exponential_ratio": 9.0, "exponential_chance": 0.0, "lognormal_ratio": 0.1},
     **{"lognormal_chance": 0.9, "truncated_power_law_ratio": 0.0},
+    **{"cutoff_over_exponential_ratio": 9.0, "cutoff_over_exponential_chance": 0.0},
+    **{"cutoff_over_lognormal_ratio": -0.1, "cutoff_over_lognormal_chance": 0.9},
     **{"truncated_power_law_chance": 1.0, "aftershock_main_shocks": 50},
     **{"aftershock_first": 3.0, "aftershock_first_error": 0.1, "aftershock_chance": 1e-6},
     "aftershock_over_exponential": 8.0,
 }
 CUT_OFF = {"truncated_power_law_ratio": -5.0, "truncated_power_law_chance": 1e-7}
+IN_PART = [CUT_OFF, {"size_goodness": 0.01}, {"lognormal_ratio": -5.0, "lognormal_chance": 1e-5}]
 SHORT_OR_LIKE_OTHERS = [
     {"size_exponent": np.nan},
-    {"largest": 500.0},
-    {"size_goodness": 0.01},
-    {"lognormal_ratio": -5.0, "lognormal_chance": 1e-5},
+    {"largest": 500.0, "size_cutoff": 50.0},
     {**CUT_OFF, "size_cutoff": 50.0},
+    {**CUT_OFF, "cutoff_over_lognormal_ratio": -5.0, "cutoff_over_lognormal_chance": 1e-6},
 ]
 
 
 @pytest.mark.parametrize(
     ("change", "verdict"),
-    [({}, YES), (CUT_OFF, PARTLY), *((change, NO) for change in SHORT_OR_LIKE_OTHERS)],
+    [
+        ({}, YES),
+        *((change, PARTLY) for change in IN_PART),
+        *((change, NO) for change in SHORT_OR_LIKE_OTHERS),
+    ],
 )
 def test_verdict_on_sizes(change, verdict):
     """A pure power law over two decades; one with a cut-off in part; others not."""
@@ -161,14 +167,14 @@ def test_verdict_on_sizes(change, verdict):
     ("change", "verdict"),
     [
         ({}, YES),
-        ({"aftershock_over_exponential": 1.0}, PARTLY),
+        ({"aftershock_over_exponential": 1.0}, NO),
         ({"aftershock_chance": 0.5}, NO),
         ({"aftershock_first": 0.5}, NO),
         ({"aftershock_chance": np.nan}, NO),
     ],
 )
 def test_verdict_on_aftershocks(change, verdict):
-    """A decay by a power; a higher rate in part; none."""
+    """A decay by a power; one that may be exponential; none."""
     made = Results(event_sizes=[{**ROW, **change}])
     assert decaying_aftershocks(made, chains=["mine"]).verdict == verdict
 

@@ -1,6 +1,7 @@
 """Claims about models with more than one block."""
 
 import math
+from collections.abc import Iterable
 from typing import Annotated
 
 from scripts.claims.claims_results import Finding, Results, decided, join, short
@@ -69,20 +70,17 @@ def power_law_of_sizes(results: Results, *, chains: EventChains, decades: Decade
             continue
         span = math.log10(row["largest"] / row["size_least"])
         cut_span = math.log10(row["size_cutoff"] / row["size_least"])
-        better = [
-            rival.replace("_", " ")
-            for rival in RIVALS
-            if row[f"{rival}_ratio"] < 0 and row[f"{rival}_chance"] < LEVEL
-        ]
+        better = better_laws(row, RIVALS)
+        than_cut_off = better_laws(row, [f"cutoff_over_{rival}" for rival in RIVALS[:-1]])
         pure = pure or (span >= decades and row["size_goodness"] >= PLAUSIBLE and not better)
-        cut_off = cut_off or (cut_span >= decades / 2 and better == ["truncated power law"])
+        cut_off = cut_off or (cut_span >= decades / 2 and not than_cut_off)
         parts.append(
             f"{place} Above a size of {short(row['size_least'], 3)}, over {short(span, 2)} decades,"
             f" the density falls with the exponent {short(row['size_exponent'], 3)} +-"
             f" {short(row['size_error'], 1)}. The share {short(row['size_goodness'], 2)} of samples"
             f" of this law is farther from it. More likely laws: {join(better)}. With a cut-off at"
             f" {short(row['size_cutoff'], 3)} the exponent is"
-            f" {short(row['size_cutoff_exponent'], 3)}."
+            f" {short(row['size_cutoff_exponent'], 3)}, and more likely laws: {join(than_cut_off)}."
         )
     return decided(
         pure,
@@ -94,6 +92,15 @@ def power_law_of_sizes(results: Results, *, chains: EventChains, decades: Decade
     )
 
 
+def better_laws(row: dict, rivals: Iterable[str]) -> list[str]:
+    """Names of the laws that are more likely."""
+    return [
+        rival.removeprefix("cutoff_over_").replace("_", " ")
+        for rival in rivals
+        if row[f"{rival}_ratio"] < 0 and row[f"{rival}_chance"] < LEVEL
+    ]
+
+
 @claim(57, "omori_utsu", "section 5", look_at="event_sizes")
 @says("Spring-block models follow the law of Omori and Utsu.")
 @tested_with(chains=["chaos_50", "chaos_100", "fault_100"])
@@ -101,7 +108,7 @@ def power_law_of_sizes(results: Results, *, chains: EventChains, decades: Decade
 def decaying_aftershocks(results: Results, *, chains: EventChains) -> Finding:
     """Whether in some chain events follow large ones at a rate that decays by a power of time.
 
-    Only in part if the rate is higher after large events, but decays as likely exponentially.
+    An exponential decay must be much less likely.
     """
     parts, power, more = [], False, False
     for name in chains:
@@ -129,5 +136,4 @@ def decaying_aftershocks(results: Results, *, chains: EventChains) -> Finding:
         " as likely as the law."
         if more
         else "Large events are not followed by more events.",
-        partly=more,
     )

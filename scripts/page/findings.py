@@ -101,10 +101,10 @@ def describe_laws(tables: dict[str, list[dict]]) -> dict:
 
 
 def describe_chains(tables: dict[str, list[dict]]) -> dict:
-    """How chaotic the longest chaotic chain is, and which laws the events of chains follow."""
+    """How many exponents of a chain are positive, and which laws the events of chains follow."""
     chaotic = [row for row in tables["chain_motions"] if row["positive_exponents"] > 0]
     delayed = [row for row in chaotic if row["tau"] > 0]
-    longest = max(delayed, key=lambda row: row["blocks"], default=None)
+    most = max(delayed, key=lambda row: row["positive_exponents"], default=None)
     fitted = [row for row in tables["event_sizes"] if not math.isnan(row["size_exponent"])]
     words = [
         f"With {row['blocks']:g} blocks at $gamma = {short(row['gamma'])}$ a power law of event"
@@ -118,15 +118,15 @@ def describe_chains(tables: dict[str, list[dict]]) -> dict:
         f" $gamma = {short(row['gamma'])}$: chaos in a chain needs no delay."
         for row in without_delay
     ]
-    if longest:
+    if most:
         words = [
-            f"Of {longest['blocks']:g} blocks with $tau = {short(longest['tau'])}$ as many as"
-            f" {longest['positive_exponents']:g} Lyapunov exponents are positive.",
+            f"{most['blocks']:g} blocks with $tau = {short(most['tau'])}$ have"
+            f" {most['positive_exponents']:g} positive Lyapunov exponents.",
             *words,
         ]
     return {
         "title": "In chains of blocks chaos has many dimensions."
-        if longest and longest["positive_exponents"] > 1
+        if most and most["positive_exponents"] > 1
         else "Chains of blocks are not more chaotic than one.",
         "words": " ".join(words),
     }

@@ -16,7 +16,8 @@ from scipy.special import boxcox
 
 FEWEST = 100
 """Events that a fit needs."""
-RIVALS = ("exponential", "lognormal", "truncated_power_law")
+CUT_OFF = "truncated_power_law"
+RIVALS = ("exponential", "lognormal", CUT_OFF)
 """Laws that a power law is compared with: the last is one with an exponential cut-off."""
 SAMPLES = 999
 """Random samples of the power law from which the goodness of fit is found."""
@@ -47,15 +48,12 @@ class SizeLaw:
     ratios: dict[str, tuple[float, float]]
     """Of each rival the logarithm of the likelihoods' ratio over its standard deviation, positive
     in favour of the power law, and the probability that it is as large by chance."""
+    cutoff_ratios: dict[str, tuple[float, float]]
+    """The same of the power law with a cut-off and the other rivals."""
     cutoff_exponent: float
     """Exponent of the power law with a cut-off."""
     cutoff: float
     """Size at which it is cut off."""
-
-    def beaten_by(self, rival: str, level: float = 0.01) -> bool:
-        """Whether a rival is more likely at this level."""
-        ratio, chance = self.ratios[rival]
-        return ratio < 0 and chance < level
 
 
 def fit_sizes(sizes: np.ndarray) -> SizeLaw | None:
@@ -69,10 +67,10 @@ def fit_sizes(sizes: np.ndarray) -> SizeLaw | None:
         if above.size < FEWEST:
             return None
         ratios = {
-            rival: fit.distribution_compare(
-                "power_law", rival, nested=rival == "truncated_power_law", normalized_ratio=True
-            )
-            for rival in RIVALS
+            rival: compare(fit, "power_law", rival, nested=rival == CUT_OFF) for rival in RIVALS
+        }
+        cutoff_ratios = {
+            rival: compare(fit, CUT_OFF, rival) for rival in RIVALS if rival != CUT_OFF
         }
         cut_off = fit.truncated_power_law
         test = stats.goodness_of_fit(
@@ -89,10 +87,19 @@ def fit_sizes(sizes: np.ndarray) -> SizeLaw | None:
         least=float(fit.xmin),
         events=above.size,
         goodness=float(test.pvalue),
-        ratios={rival: (float(ratio), float(p)) for rival, (ratio, p) in ratios.items()},
+        ratios=ratios,
+        cutoff_ratios=cutoff_ratios,
         cutoff_exponent=float(cut_off.parameter1),
         cutoff=1.0 / float(cut_off.parameter2),
     )
+
+
+def compare(
+    fit: powerlaw.Fit, law: str, rival: str, *, nested: bool = False
+) -> tuple[float, float]:
+    """The logarithm of the likelihoods' ratio over its standard deviation, and its probability."""
+    ratio, chance = fit.distribution_compare(law, rival, nested=nested, normalized_ratio=True)
+    return float(ratio), float(chance)
 
 
 @dataclass(frozen=True)

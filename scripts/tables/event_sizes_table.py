@@ -27,11 +27,13 @@ def laws_row(chain: str, slips: xr.Dataset, events: list[dict], t_transient: flo
     )
     time = slips.attrs["t_end"] - t_transient
     sizes, aftershocks = fit_sizes(size), fit_aftershocks(onset, duration, size, time)
-    ratios = {
-        f"{rival}_{key}": sizes.ratios[rival][number] if sizes else math.nan
-        for rival in RIVALS
-        for number, key in enumerate(("ratio", "chance"))
-    }
+    ratios = {}
+    for rival in RIVALS:
+        ratio, chance = sizes.ratios[rival] if sizes else (math.nan, math.nan)
+        ratios |= {f"{rival}_ratio": ratio, f"{rival}_chance": chance}
+    for rival in RIVALS[:-1]:
+        ratio, chance = sizes.cutoff_ratios[rival] if sizes else (math.nan, math.nan)
+        ratios |= {f"cutoff_over_{rival}_ratio": ratio, f"cutoff_over_{rival}_chance": chance}
     return {
         "chain": chain,
         **{key: slips.attrs[key] for key in ("blocks", "kappa", "ends", *PARAMETERS)},
