@@ -364,3 +364,31 @@ def test_plane_without_curves_has_no_critical_mode(programs, config):
     stiffness = stiffness_of_modes(config["chain_modes"])
     assert {row["critical"] for row in mode_rows("block", modes, stiffness)} == {"no"}
     assert chain_modes.critical_of(modes, stiffness) == "no mode becomes unstable"
+
+
+@pytest.mark.parametrize("ends", ENDS)
+def test_roots_of_modes_are_those_of_the_chain(programs, config, ends):
+    """At each root the characteristic matrix of all blocks, by NumPy, is singular."""
+    blocks, kappa, place = 4, 0.7, {"tau": 3.0, "epsilon": 0.9, "xi": 0.5, "gamma": 0.8}
+    one = np.eye(blocks)
+    stiffness = one - kappa * np.array([second_difference(row, ends) for row in one])
+    for mu in eigenvalues(blocks, ends):
+        s = 1 + kappa * mu
+        of_mode = {**place, "xi": s * place["xi"], "gamma": math.sqrt(s) * place["gamma"]}
+        own = {"law": config["scenes"]["torus"]["law"], **config["linear_stability"]}
+        own["root_bound"] = -1.0
+        found = programs.made_by("linear_stability", {**of_mode, **own})
+        roots = found.root_real.values + 1j * found.root_imag.values
+        assert roots.size > 3
+        for root in roots:
+            delayed = (1 + place["epsilon"]) * np.exp(-root * place["tau"])
+            square = place["gamma"] ** 2
+            friction = square / place["xi"]
+            matrix = np.block(
+                [
+                    [(root + 1) * one, 0 * one, delayed * one],
+                    [0 * one, root * one, -one],
+                    [friction * one, square * stiffness, (root + friction) * one],
+                ]
+            )
+            assert np.linalg.svd(matrix, compute_uv=False)[-1] < 1e-9
