@@ -95,7 +95,13 @@ PLACE = {"ends": "free", "tau": 7.0, "epsilon": 0.7, "xi": 0.5, "gamma": 0.8, "l
 ROWS = [
     {"chain": "a", "blocks": 2, "kappa": 1.0, "positive_exponents": 1, "exponents": "0.2 0.0 -0.1"},
     {"chain": "b", "blocks": 4, "kappa": 1.0, "positive_exponents": 3, "exponents": "0.3 0.2 0.1"},
-    {"chain": "c", "blocks": 2, "kappa": 9.0, "positive_exponents": 0, "exponents": "0.0 -0.1"},
+    {
+        "chain": "torus_2_kappa_9",
+        "blocks": 2,
+        "kappa": 9.0,
+        "positive_exponents": 0,
+        "exponents": "0.0 -0.1",
+    },
 ]
 
 
@@ -107,7 +113,9 @@ def test_figure_has_a_line_for_each_chaotic_chain():
     assert lines == [[0.25, 0.75, 1.25], [0.125, 0.375, 0.625]]
     (line,) = counts.lines
     assert (list(line.get_xdata()), list(line.get_ydata())) == ([2, 4], [1, 3])
-    assert chain_exponents.numbers(rows)["others"] == ["c: pattern"]
+    assert chain_exponents.numbers(rows)["others"] == [
+        r"torus (2 blocks, :math:`\kappa` = 9): pattern"
+    ]
 
 
 @pytest.mark.parametrize(

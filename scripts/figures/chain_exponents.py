@@ -76,8 +76,14 @@ def numbers(motions: list[dict]) -> dict:
             for rows in families_of(motions).values()
         ],
         "others": [
-            f"{row['chain'].replace('_', ' ')}: {row['motion']}"
+            f"{name_of(row)} ({row['blocks']:g} blocks, :math:`\\kappa` = {short(row['kappa'])}):"
+            f" {row['motion']}"
             for row in motions
             if row["positive_exponents"] == 0
         ],
     }
+
+
+def name_of(row: dict) -> str:
+    """The scene of the blocks, or the name of the chain."""
+    return row["chain"].partition(f"_{row['blocks']:g}_kappa_")[0].replace("_", " ")
