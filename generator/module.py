@@ -5,7 +5,7 @@ from pathlib import Path
 import jinja2
 import sympy
 
-from generator import chain, pointwise, series, slow, tangents
+from generator import chain, chain_series, chain_tangents, pointwise, series, slow, tangents
 from generator.definition import TIME, Model
 from generator.fortran import text_of, wrapped
 from generator.graph import Graph, in_order
@@ -72,13 +72,13 @@ def procedures_of_chain(model: Model, balance: slow.Balance | None) -> dict[str,
     parts = {
         "rhs": chain.rhs_procedure(model),
         "jacobian": chain.jacobian_procedure(model),
-        "series": chain.series_procedure(model),
-        "tangent_series": chain.tangent_series_procedure(model),
+        "series": chain_series.series_procedure(model),
+        "tangent_series": chain_tangents.tangent_series_procedure(model),
     }
     if balance:
         parts["relaxation_rate"] = chain.relaxation_procedure(model, balance)
-        parts["slow_series"] = chain.slow_series_procedure(model, balance)
-        parts["slow_tangent_series"] = chain.slow_tangent_series_procedure(model, balance)
+        parts["slow_series"] = chain_series.slow_series_procedure(model, balance)
+        parts["slow_tangent_series"] = chain_tangents.slow_tangent_series_procedure(model, balance)
     return parts
 
 

@@ -36,19 +36,19 @@ def blocks_differ(results: Results, *, chains: Chains) -> Finding:
     parts, differ = [], 0
     for name in chains:
         chain = results.chains[name]
-        place = f"Chain {name.replace('_', ' ')} of {chain.attrs['blocks']} blocks"
+        place = f"{name.replace('_', ' ')} of {chain.attrs['blocks']} blocks"
         if rests(chain):
-            parts.append(f"{place} comes to rest.")
+            parts.append(f"Chain {place} comes to rest.")
         elif moves_alike(chain):
-            parts.append(f"{place} moves as one block.")
+            parts.append(f"Chain {place} moves as one block.")
         else:
             mode, share = strongest_mode(chain)
             differ += 1
             parts.append(
-                f"In {place[0].lower()}{place[1:]} mode {mode} is the strongest beside the mean;"
+                f"In chain {place} mode {mode} is the strongest beside the mean;"
                 f" {100 * share:.0f} % of the mean square of ln v is in such modes."
             )
-    return decided(differ > 0, " ".join(parts), "All chains move as one block does.", partly=False)
+    return decided(differ > 0, " ".join(parts), "All chains move as one block does.")
 
 
 @claim(56, "gutenberg_richter", "sections 1 and 5", look_at="event_sizes")
@@ -61,7 +61,7 @@ def power_law_of_sizes(results: Results, *, chains: EventChains, decades: Decade
     Only in part if the power law is cut off, over half as many decades, and neither an exponential
     law nor a lognormal one is more likely than the one with the cut-off.
     """
-    parts, pure, cut_off = [], False, False
+    parts, pure, decades_cut_off = [], False, 0.0
     for name in chains:
         row = results.laws_of_events(name)
         place = f"Chain {name.replace('_', ' ')} has {row['events']:g} events."
@@ -73,7 +73,8 @@ def power_law_of_sizes(results: Results, *, chains: EventChains, decades: Decade
         better = better_laws(row, RIVALS)
         than_cut_off = better_laws(row, [f"cutoff_over_{rival}" for rival in RIVALS[:-1]])
         pure = pure or (span >= decades and row["size_goodness"] >= PLAUSIBLE and not better)
-        cut_off = cut_off or (cut_span >= decades / 2 and not than_cut_off)
+        if not than_cut_off:
+            decades_cut_off = max(decades_cut_off, cut_span)
         parts.append(
             f"{place} Above a size of {short(row['size_least'], 3)}, over {short(span, 2)} decades,"
             f" the density falls with the exponent {short(row['size_exponent'], 3)} +-"
@@ -85,10 +86,10 @@ def power_law_of_sizes(results: Results, *, chains: EventChains, decades: Decade
     return decided(
         pure,
         " ".join(parts),
-        "Sizes follow a power law with a cut-off, over one to two decades."
-        if cut_off
+        f"Sizes follow a power law with a cut-off, over up to {short(decades_cut_off, 2)} decades."
+        if decades_cut_off >= decades / 2
         else "Sizes of these chains do not follow a power law.",
-        partly=cut_off,
+        partly=decades_cut_off >= decades / 2,
     )
 
 
@@ -113,15 +114,15 @@ def decaying_aftershocks(results: Results, *, chains: EventChains) -> Finding:
     parts, power, more = [], False, False
     for name in chains:
         row = results.laws_of_events(name)
-        place = f"hain {name.replace('_', ' ')}"
+        place = name.replace("_", " ")
         if math.isnan(row["aftershock_chance"]):
-            parts.append(f"C{place} has too few events after large ones.")
+            parts.append(f"Chain {place} has too few events after large ones.")
             continue
         here = row["aftershock_chance"] < LEVEL and row["aftershock_first"] > 1
         more = more or here
         power = power or (here and row["aftershock_over_exponential"] > MUCH_MORE_LIKELY)
         parts.append(
-            f"In c{place} the rate of events in the first unit of time after"
+            f"In chain {place} the rate of events in the first unit of time after"
             f" {row['aftershock_main_shocks']:g} large events is"
             f" {short(row['aftershock_first'], 3)} +- {short(row['aftershock_first_error'], 1)} of"
             " its mean. If it were constant, chance alone would make the law of Omori and Utsu as"
