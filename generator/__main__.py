@@ -1,7 +1,8 @@
-"""Write the Fortran module of a model, or the module that makes models by their names.
+"""Write the Fortran module of a model, or compile it, or write the module of the interface.
 
     python -m generator DEFINITION ... MODULE.f90
-    python -m generator --registry NAME ... MODULE.f90
+    python -m generator DEFINITION ... OBJECT.so
+    python -m generator INTERFACE.f90
 
 Several definitions are one model: later files add to earlier ones.
 """
@@ -10,32 +11,39 @@ import argparse
 import sys
 from pathlib import Path
 
+from generator.compile import COMPILER, FLAGS, CompileError, compile_module
 from generator.definition import ModelError, read_files
-from generator.module import write_module, write_registry
+from generator.module import write_interface, write_module
 
 
 def main() -> None:
-    """Write a module; the file is complete or absent."""
+    """Write a file, which is complete or absent."""
     parser = argparse.ArgumentParser(
         prog="python -m generator",
         description=__doc__,
         formatter_class=argparse.RawTextHelpFormatter,
     )
-    parser.add_argument("--registry", action="store_true", help="write the module of all names")
     parser.add_argument("--name", help="name of the model, in place of that of the definition")
-    parser.add_argument("sources", nargs="+", help="files of one definition, or names of models")
-    parser.add_argument("module", type=Path, help="file to write")
+    parser.add_argument("--compiler", default=COMPILER, help="Fortran compiler of an object")
+    parser.add_argument("--flags", default=FLAGS, help="its flags")
+    parser.add_argument("--quad", action="store_true", help="an object in quadruple precision")
+    parser.add_argument("sources", nargs="*", type=Path, help="files of one definition")
+    parser.add_argument("made", type=Path, help="file to write")
     arguments = parser.parse_args()
     try:
-        if arguments.registry:
-            text = write_registry(arguments.sources, arguments.module.stem)
+        if arguments.sources:
+            text = write_module(read_files(arguments.sources, arguments.name))
         else:
-            text = write_module(read_files(map(Path, arguments.sources), arguments.name))
-        unfinished = arguments.module.with_suffix(".unfinished")
+            text = write_interface()
+        if arguments.made.suffix == ".so":
+            how = {key: getattr(arguments, key) for key in ("compiler", "flags", "quad")}
+            compile_module(text, arguments.made, **how)
+            return
+        unfinished = arguments.made.with_suffix(".unfinished")
         unfinished.write_text(text, encoding="utf-8")
-    except (ModelError, OSError) as problem:
+    except (CompileError, ModelError, OSError) as problem:
         sys.exit(f"error: {problem}")
-    unfinished.replace(arguments.module)
+    unfinished.replace(arguments.made)
 
 
 if __name__ == "__main__":

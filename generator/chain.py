@@ -52,7 +52,7 @@ def difference_lines(model: Model, block: str, value: Callable[[str], str], lane
         name = f"{symbol.name}{lane}"
         lines.append(f"{name} = -2.0_wp*{state}{lane}")
         for side in ("left", "right"):
-            neighbour = f"self%{side}({block})"
+            neighbour = f"{side}({block})"
             at = value(column_of(model, state, neighbour))
             lines.append(f"if ({neighbour} > 0) {name} = {name} + {at}")
     return lines
@@ -146,8 +146,8 @@ def neighbour_entries(model: Model, row: int, state: str, text: str) -> list[str
     lines = [f"by_difference = {text}"]
     for block, weight in (
         ("block", "-(2.0_wp + self%mode)*by_difference"),
-        ("self%left(block)", "by_difference"),
-        ("self%right(block)", "by_difference"),
+        ("left(block)", "by_difference"),
+        ("right(block)", "by_difference"),
     ):
         entry = banded(f"at + {row}", column_of(model, state, block))
         line = f"{entry} = {entry} + {braced(weight)}"

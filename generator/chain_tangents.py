@@ -40,9 +40,9 @@ def disturbed_differences(model: Model, parts: Parts) -> list[str]:
         name = f"d_{symbol.name}"
         lines.append(f"{name} = -(2.0_wp + self%mode)*{parts.texts[state]}")
         for side in ("left", "right"):
-            column = column_of(model, state, f"self%{side}(block)")
+            column = column_of(model, state, f"{side}(block)")
             lines.append(
-                f"if (self%{side}(block) > 0) {name}(:used) = {name}(:used) "
+                f"if ({side}(block) > 0) {name}(:used) = {name}(:used) "
                 f"+ dy(k, {column}, first:last)"
             )
     return lines

@@ -30,6 +30,8 @@ TAKEN = {
     *("by_y", "by_z", "lag", "past", "power", "coefficient", "delay", "state", "derivative"),
     *("sum", "real", "abs", "merge", "size", "steady", "parameter", "component", "place", "delays"),
     *("slow", "rate_before", "integer", "end", "do", "if", "top", "component_series"),
+    *("parameters", "left", "right", "value", "order", "delayed", "terms", "text", "tab"),
+    *("rows_y", "rows_z", "part", "number", "length"),
     *("slot", "front", "lane", "block", "at", "last_tile", "second_difference", "start", "i"),
     *FUNCTIONS,
 }

@@ -1,5 +1,6 @@
 """The Fortran module of a model."""
 
+import hashlib
 from pathlib import Path
 
 import jinja2
@@ -14,6 +15,8 @@ from generator.series import Procedure
 
 LONGEST = 70
 """Letters of a character constant on one line."""
+SUPPORT = Path(__file__).parent / "fortran"
+"""Fortran that models or programs with models are built with."""
 TEMPLATES = jinja2.Environment(
     loader=jinja2.FileSystemLoader(Path(__file__).parent),
     trim_blocks=True,
@@ -30,17 +33,12 @@ def write_module(model: Model) -> str:
     flow = series.flow_of(model)
     parts = {
         "made": (procedures_of_chain if model.differences else procedures)(model, balance),
-        "coupled": chain.couplings(model),
         "description": description_lines(model),
         "delayed": delayed_procedure(model),
-        "steady_state": steady_state_procedure(model),
-        "derivative": None,
-        "characteristic": Procedure([], [], [], []),
-        "terms": [],
-        "history_series": {},
         "flow_texts": flow_texts(model, flow),
     }
     if model.steady_state:
+        parts["steady_state"] = steady_state_procedure(model)
         parts["derivative"] = pointwise.derivative_procedure(model)
         parts["characteristic"] = pointwise.characteristic_procedure(model)
         parts["terms"] = pointwise.characteristic_terms(model)
@@ -82,11 +80,6 @@ def procedures_of_chain(model: Model, balance: slow.Balance | None) -> dict[str,
     return parts
 
 
-def write_registry(names: list[str], registry: str) -> str:
-    """The text of the module that makes models by their names."""
-    return rendered("registry.f90.jinja", names=names, registry=registry)
-
-
 def rendered(template: str, **values) -> str:
     """The text of a template, in lines of a length that compilers take."""
     text = TEMPLATES.get_template(template).render(**values)
@@ -104,31 +97,36 @@ def flow_texts(model: Model, flow: series.Flow) -> dict[str, str]:
 
 
 def description_lines(model: Model) -> list[str]:
-    """Statements that describe the model."""
+    """Lines that describe the model, as expressions of Fortran; the interface first."""
     equations = [f"{state}' = {text}" for state, text in model.texts.items()]
     equations += [f"{name} = {text}" for name, text in model.definitions.items()]
     equations += [f"{name} = exp({state})" for name, state in model.auxiliary.items()]
+    terms = pointwise.characteristic_terms(model) if model.steady_state else []
+    counted = (model.parameters, equations, model.states, model.delayed, terms)
     lines = [
-        f"description%name = {quoted(model.name)}",
-        f"description%source = {quoted(model.source)}",
-        f"allocate (description%parameters({len(model.parameters)}))",
-        f"allocate (description%equations({len(equations)}))",
+        ("sizes", *(str(len(each)) for each in counted)),
+        *(("coupling", str(row), str(column)) for row, column in chain.couplings(model)),
+        ("name", model.name),
+        ("source", model.source),
+        *(("equation", text) for text in equations),
     ]
-    for place, one in enumerate(model.parameters, 1):
-        lines += [
-            f"description%parameters({place})%name = {quoted(one.name)}",
-            f"description%parameters({place})%meaning = {quoted(one.meaning)}",
-            f"description%parameters({place})%unit = {quoted(one.unit)}",
-        ]
+    for one in model.parameters:
+        lines.append(("parameter", one.name, one.meaning, one.unit))
         for key in ("above", "at_least"):
             if getattr(one, key) is not None:
-                value = text_of(sympy.Rational(str(getattr(one, key))))
-                lines.append(f"description%parameters({place})%{key} = {value}")
-    lines += [
-        f"description%equations({place}) = {quoted(text)}"
-        for place, text in enumerate(equations, 1)
-    ]
-    return lines
+                lines.append((key, str(getattr(one, key))))
+    interface = f'"{interface_digest()} " // achar(iachar("0") + storage_size(1.0_wp)/32)'
+    return [interface, *(" // tab // ".join(map(quoted, line)) for line in lines)]
+
+
+def interface_digest() -> str:
+    """A digest of what models and programs share; a program refuses models of another one."""
+    return hashlib.sha256((SUPPORT / "model_border.f90").read_bytes()).hexdigest()[:32]
+
+
+def write_interface() -> str:
+    """The text of the module with the digest that a program expects of its models."""
+    return rendered("interface.f90.jinja", digest=interface_digest())
 
 
 def quoted(text: str) -> str:
@@ -141,19 +139,17 @@ def delayed_procedure(model: Model) -> Procedure:
     """Delays and components of the delayed states."""
     parameters = series.uses_parameters(model, [one.lag for one in model.delayed])
     states = list(model.states)
-    components = [str(states.index(one.state) + 1) for one in model.delayed]
+    components = [states.index(one.state) + 1 for one in model.delayed]
     lines = [
         *fetch_parameters(model, parameters),
-        f"lag = [real(wp) :: {', '.join(text_of(one.lag) for one in model.delayed)}]",
-        f"component = [integer :: {', '.join(components)}]",
+        *(f"lag({i}) = {text_of(one.lag)}" for i, one in enumerate(model.delayed, 1)),
+        *(f"component({i}) = {number}" for i, number in enumerate(components, 1)),
     ]
     return Procedure(parameters, [], [], lines)
 
 
 def steady_state_procedure(model: Model) -> Procedure:
     """The state at rest."""
-    if model.steady_state is None:
-        return Procedure([], [], [], ["state = ieee_value(1.0_wp, ieee_quiet_nan)"])
     values = list(model.steady_state.values())
     parameters = series.uses_parameters(model, values)
     lines = [*fetch_parameters(model, parameters)]

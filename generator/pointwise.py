@@ -30,7 +30,7 @@ def fetch_states(
             name = one.symbol.name
             states += [
                 f"{name} = {one.state}",
-                f"if (self%place({number}) > 0) {name} = z(self%place({number}))",
+                f"if (place({number}) > 0) {name} = z(place({number}))",
             ]
             names.append(name)
     auxiliary = [
@@ -106,7 +106,7 @@ def jacobian_procedure(model: Model) -> Procedure:
     # without its delay a delayed state is the present one
     for number, one in enumerate(model.delayed, 1):
         rows = {row: text for (row, of), text in texts.items() if of == one.symbol}
-        place = f"self%place({number})"
+        place = f"place({number})"
         lines += [f"if ({place} > 0) then", f"   by_z(:, {place}) = 0.0_wp"]
         lines += [f"   by_z({row}, {place}) = {text}" for row, text in rows.items()]
         lines += ["else"]
@@ -196,12 +196,11 @@ def characteristic_terms(model: Model) -> list[tuple[sympy.Expr, int, sympy.Expr
 
 
 def characteristic_procedure(model: Model) -> Procedure:
-    """Coefficients, powers and delays of the terms, and their derivatives by the parameters."""
+    """Coefficients, powers and delays of the terms, and their derivatives where these are not 0."""
     terms = characteristic_terms(model)
     values = [value for coefficient, _, delay in terms for value in (coefficient, delay)]
     parameters = uses_parameters(model, values)
     lines = fetch_parameters(model, parameters)
-    lines += ["coefficient_by = 0.0_wp", "delay_by = 0.0_wp"]
     parts = [sympy.S.Zero]
     for i, (coefficient, power, delay) in enumerate(terms, 1):
         if delay not in parts:

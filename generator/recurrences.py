@@ -60,7 +60,7 @@ class Constants:
 def fetch_parameters(model: Model, names: list[str]) -> list[str]:
     """Statements that give parameters their names."""
     order = [one.name for one in model.parameters]
-    return [f"{name} = self%parameters({order.index(name) + 1})" for name in names]
+    return [f"{name} = parameters({order.index(name) + 1})" for name in names]
 
 
 def weighted_sum(parts: list[tuple[sympy.Expr, str]], constants: Constants) -> str:

@@ -158,7 +158,7 @@ def fetch_inputs(model: Model, nodes: list[Node], order: str) -> tuple[list[str]
 
 def fetch_places(model: Model) -> list[str]:
     """Statements that set where the delayed states are."""
-    return [f"place_{number} = self%place({number})" for number, _ in enumerate(model.delayed, 1)]
+    return [f"place_{number} = place({number})" for number, _ in enumerate(model.delayed, 1)]
 
 
 def place_names(model: Model) -> list[str]:

@@ -1,18 +1,18 @@
-!> What all models have whose equations are made from a definition (generator/README.md): a problem
+!> A model whose equations were made from a definition and compiled (generator/README.md): a problem
 !> of the solver, its derivatives of any order at the steady state, and its characteristic function.
+!> `open_model` (model_library) fills it with the procedures of a shared object.
 module model_problem
+   use, intrinsic :: iso_c_binding, only: c_char, c_int
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde, only: problem_with_tangents
    use dde_kinds, only: wp
+   use model_border, only: describe_line, expand, expand_past, expand_tangents, find_delayed, &
+                           find_forms, find_jacobian, find_past, find_rate, find_rhs, find_state, &
+                           list_terms, letters => line_length, shape_type
    implicit none (type, external)
    private
-   public :: description_type, lanes, model_type, parameter_type, reciprocal, unbounded, word_length
-
-   !> Disturbances computed at a time.
-   integer, parameter :: lanes = 4
-   !> Highest degree of a series, and 1/k up to it; i is only that of the list.
-   integer, parameter :: highest_degree = 256
-   integer :: i
-   real(wp), parameter :: reciprocal(highest_degree) = [(1.0_wp/i, i=1, highest_degree)]
+   public :: code_type, description_type, line_length, model_type, parameter_type, unbounded, &
+             word_length
 
    !> Letters of names; of meanings and equations.
    integer, parameter :: word_length = 64, line_length = 512
@@ -41,100 +41,154 @@ module model_problem
       character(len=line_length), allocatable :: equations(:)
    end type description_type
 
+   !> Procedures of a compiled model. Those that it has not are not associated.
+   type :: code_type
+      procedure(describe_line), pointer, nopass :: description => null()
+      procedure(find_rhs), pointer, nopass :: rhs => null()
+      procedure(find_jacobian), pointer, nopass :: jacobian => null()
+      procedure(expand), pointer, nopass :: series => null(), slow_series => null()
+      procedure(expand_tangents), pointer, nopass :: tangent_series => null(), &
+                                                     slow_tangent_series => null()
+      procedure(find_rate), pointer, nopass :: relaxation_rate => null()
+      procedure(find_delayed), pointer, nopass :: delayed => null()
+      procedure(find_state), pointer, nopass :: steady_state => null()
+      procedure(find_forms), pointer, nopass :: derivative => null()
+      procedure(list_terms), pointer, nopass :: characteristic_terms => null()
+      procedure(find_past), pointer, nopass :: past => null()
+      procedure(expand_past), pointer, nopass :: past_series => null()
+   end type code_type
+
    !> A model: its parameters, and constant values up to the initial time unless it has others.
-   type, abstract, extends(problem_with_tangents) :: model_type
+   type, extends(problem_with_tangents) :: model_type
+      !> The compiled procedures
+      type(code_type) :: code
+      !> Numbers of parameters, equations with their parts, states and delayed states of the
+      !> definition, and of terms of the characteristic function
+      integer :: count = 0, equations = 0, states = 0, delayed = 0, terms = 0
+      !> Equations of a chain with a second difference, and the states of which they take it, shape
+      !> (2, couplings)
+      integer, allocatable :: couplings(:, :)
       !> Parameters, in the order of the definition
       real(wp), allocatable :: parameters(:)
       !> States up to the initial time, shape (n)
       real(wp), allocatable :: past(:)
       !> Where each delayed state of the definition is among the delayed values of the problem; 0
       !> where its delay is 0
-      integer, allocatable :: place(:)
-      !> Blocks of a chain, and delayed values of each
-      integer :: blocks = 1, delays = 0
-      !> Neighbours of the blocks of a chain on both sides; 0: the plate, which is at rest
-      integer, allocatable :: left(:), right(:)
-      !> Largest distance of neighbours, at least 1
-      integer :: reach = 1
-      !> Of a chain whose blocks move alike: minus the second difference of a disturbance over the
-      !> disturbance, an eigenvalue
-      real(wp) :: mode = 0.0_wp
+      integer(c_int), allocatable :: place(:)
+      !> Sizes, and the eigenvalue of disturbances of blocks that move alike
+      type(shape_type) :: shape
+      !> Neighbours of the blocks of a chain on both sides; 0: the plate, which is at rest. Empty
+      !> for a model that is no chain.
+      integer(c_int), allocatable :: left(:), right(:)
    contains
+      !> What the definition says
+      procedure :: describe
+      !> Read the sizes from the description
+      procedure :: read_sizes
       !> Give the model its parameters and its past
       procedure :: set
-      !> Equations of a chain that contain second differences
-      procedure :: couplings => no_couplings
-      procedure :: initial => past_state
-      procedure :: history => past_component
-      procedure :: past_series => past_component_series
-      !> What the definition says
-      procedure(describe_model), deferred :: describe
-      !> Delayed states of the definition: delays and components
-      procedure(list_delayed), deferred :: delayed
+      !> Whether it has blocks with neighbours
+      procedure :: is_chain
+      procedure :: initial
+      procedure :: history
+      procedure :: past_series
+      procedure :: rhs
+      procedure :: jacobian
+      procedure :: series
+      procedure :: tangent_series
+      procedure :: relaxation_rate
+      procedure :: slow_series
+      procedure :: slow_tangent_series
       !> State at rest, shape (n)
-      procedure(find_state), deferred :: steady_state
+      procedure :: steady_state
       !> Derivative form of the right-hand side at the steady state
-      procedure(evaluate_form), deferred :: derivative
+      procedure :: derivative
       !> Terms of the characteristic function
-      procedure(list_terms), deferred :: characteristic_terms
+      procedure :: characteristic_terms
    end type model_type
 
-   abstract interface
-      !> What the definition says.
-      pure function describe_model(self) result(description)
-         import :: description_type, model_type
-         implicit none (type, external)
-         class(model_type), intent(in) :: self
-         type(description_type) :: description
-      end function describe_model
-
-      !> Delays and components of the delayed states.
-      pure subroutine list_delayed(self, lag, component)
-         import :: model_type, wp
-         implicit none (type, external)
-         class(model_type), intent(in) :: self
-         !> Delays, >= 0
-         real(wp), allocatable, intent(out) :: lag(:)
-         !> Components, 1..n
-         integer, allocatable, intent(out) :: component(:)
-      end subroutine list_delayed
-
-      !> The state at rest.
-      pure function find_state(self) result(state)
-         import :: model_type, wp
-         implicit none (type, external)
-         class(model_type), intent(in) :: self
-         real(wp) :: state(self%n)
-      end function find_state
-
-      !> The derivative of the order of the number of arguments, linear in each of them.
-      pure function evaluate_form(self, arguments) result(form)
-         import :: model_type, wp
-         implicit none (type, external)
-         class(model_type), intent(in) :: self
-         !> Disturbances of the state and of the delayed states of the definition, shape
-         !> (n, 1 + delayed states, order)
-         complex(wp), intent(in) :: arguments(:, :, :)
-         complex(wp) :: form(size(arguments, 1))
-      end function evaluate_form
-
-      !> The terms coefficient s**power exp(-s delay) of
-      !> det(s I - A_0 - sum over k of A_k exp(-s lag_k)), the highest power first.
-      pure subroutine list_terms(self, coefficient, power, delay, part, coefficient_by, &
-                                 delay_by)
-         import :: model_type, wp
-         implicit none (type, external)
-         class(model_type), intent(in) :: self
-         !> Coefficients and delays, shape (terms)
-         real(wp), allocatable, intent(out) :: coefficient(:), delay(:)
-         !> Powers of s, and numbers of the delays, where 1 is that of no delay; shape (terms)
-         integer, allocatable, intent(out) :: power(:), part(:)
-         !> Derivatives by the parameters, shape (terms, parameters)
-         real(wp), allocatable, intent(out) :: coefficient_by(:, :), delay_by(:, :)
-      end subroutine list_terms
-   end interface
-
 contains
+
+   !> What the definition says.
+   function describe(self) result(description)
+      class(model_type), intent(in) :: self
+      type(description_type) :: description
+      character(len=line_length) :: words(4)
+      integer :: equation, number, parameter
+      real(wp) :: bound
+
+      allocate (description%parameters(self%count), description%equations(self%equations))
+      equation = 0
+      parameter = 0
+      number = 2
+      do while (has_line(self%code%description, number, words))
+         select case (words(1))
+         case ("name")
+            description%name = words(2)
+         case ("source")
+            description%source = words(2)
+         case ("equation")
+            equation = equation + 1
+            description%equations(equation) = words(2)
+         case ("parameter")
+            parameter = parameter + 1
+            description%parameters(parameter) = parameter_type(words(2), words(3), words(4))
+         case ("above", "at_least")
+            read (words(2), *) bound
+            associate (one => description%parameters(parameter))
+               if (words(1) == "above") one%above = bound
+               if (words(1) == "at_least") one%at_least = bound
+            end associate
+         end select
+         number = number + 1
+      end do
+   end function describe
+
+   !> Read the sizes, which are the first lines of the description after that of the interface.
+   subroutine read_sizes(self)
+      class(model_type), intent(inout) :: self
+      character(len=line_length) :: words(6)
+      integer :: number, pair(2)
+
+      allocate (self%couplings(2, 0))
+      number = 2
+      do while (has_line(self%code%description, number, words))
+         select case (words(1))
+         case ("sizes")
+            read (words(2:6), *) self%count, self%equations, self%states, self%delayed, self%terms
+         case ("coupling")
+            read (words(2:3), *) pair
+            self%couplings = reshape([self%couplings, pair], [2, size(self%couplings, 2) + 1])
+         case default
+            return
+         end select
+         number = number + 1
+      end do
+   end subroutine read_sizes
+
+   !> A line of a description, if there is one, in words.
+   logical function has_line(description, number, words)
+      procedure(describe_line), pointer, intent(in) :: description
+      integer, intent(in) :: number
+      character(len=*), intent(out) :: words(:)
+      character(kind=c_char) :: text(letters)
+      integer :: at, i, length, word
+
+      length = description(number, text)
+      has_line = length > 0
+      words = ""
+      word = 1
+      at = 0
+      do i = 1, length
+         if (text(i) == achar(9)) then
+            word = word + 1
+            at = 0
+         else if (word <= size(words) .and. at < len(words)) then
+            at = at + 1
+            words(word) (at:at) = text(i)
+         end if
+      end do
+   end function has_line
 
    !> Give a model its parameters and its past. A delay of 0 is none unless it is kept. A chain has
    !> its neighbours before.
@@ -146,8 +200,8 @@ contains
       real(wp), intent(in) :: past(:)
       !> Whether delays of 0 are delayed values, too; .false. unless given
       logical, intent(in), optional :: keep_delays
-      integer, allocatable :: component(:)
-      real(wp), allocatable :: lag(:)
+      integer(c_int) :: component(self%delayed)
+      real(wp) :: lag(self%delayed)
       logical, allocatable :: kept(:)
       integer :: block, k, states
 
@@ -156,16 +210,21 @@ contains
       self%analytic_tangents = .true.
       self%parameters = parameters
       self%past = past
-      call self%delayed(lag, component)
+      call self%code%delayed(parameters, lag, component)
       kept = lag > 0.0_wp
       if (present(keep_delays)) kept = kept .or. keep_delays
       self%place = merge([(count(kept(:k)), k=1, size(lag))], 0, kept)
-      if (allocated(self%left)) self%blocks = size(self%left)
-      self%delays = count(kept)
-      states = self%n/self%blocks
-      self%component = [(pack(component, kept) + states*(block - 1), block=1, self%blocks)]
-      self%lag = [(pack(lag, kept), block=1, self%blocks)]
-      if (allocated(self%left)) call set_band(self, states)
+      if (.not. allocated(self%left)) allocate (self%left(0), self%right(0))
+      associate (blocks => self%shape%blocks)
+         blocks = max(1, size(self%left))
+         states = self%n/blocks
+         self%component = [(pack(component, kept) + states*(block - 1), block=1, blocks)]
+         self%lag = [(pack(lag, kept), block=1, blocks)]
+      end associate
+      self%shape%n = self%n
+      self%shape%values = size(self%lag)
+      self%shape%delays = count(kept)
+      if (self%is_chain()) call set_band(self, states)
    end subroutine set
 
    !> The band of the Jacobian of a chain, and the equations of each delayed value.
@@ -173,59 +232,210 @@ contains
       class(model_type), intent(inout) :: self
       !> States of a block
       integer, intent(in) :: states
-      integer, allocatable :: column(:), row(:)
       integer :: block, k
 
-      call self%couplings(row, column)
-      self%reach = 1
-      do block = 1, self%blocks
-         associate (beside => [self%left(block), self%right(block)])
-            self%reach = max(self%reach, maxval(abs(beside - block), mask=beside > 0))
-         end associate
-      end do
-      self%lower = min(self%n - 1, max(states - 1, states*self%reach + maxval(row - column)))
-      self%upper = min(self%n - 1, max(states - 1, states*self%reach + maxval(column - row)))
-      self%rows = reshape([((states*(block - 1) + 1, states*block, k=1, self%delays), &
-                            block=1, self%blocks)], [2, self%blocks*self%delays])
+      associate (shape => self%shape, row => self%couplings(1, :), &
+                 column => self%couplings(2, :))
+         shape%reach = 1
+         do block = 1, shape%blocks
+            associate (beside => [self%left(block), self%right(block)])
+               shape%reach = max(shape%reach, maxval(abs(beside - block), mask=beside > 0))
+            end associate
+         end do
+         self%lower = min(self%n - 1, max(states - 1, states*shape%reach + maxval(row - column)))
+         self%upper = min(self%n - 1, max(states - 1, states*shape%reach + maxval(column - row)))
+         shape%upper = self%upper
+         self%rows = reshape([((states*(block - 1) + 1, states*block, k=1, shape%delays), &
+                               block=1, shape%blocks)], [2, shape%blocks*shape%delays])
+      end associate
    end subroutine set_band
 
-   !> None.
-   pure subroutine no_couplings(self, row, column)
+   !> Whether it has blocks with neighbours, even one block.
+   pure logical function is_chain(self)
       class(model_type), intent(in) :: self
-      !> Numbers of equations within a block, and of the states of which they take a second
-      !> difference
-      integer, allocatable, intent(out) :: row(:), column(:)
 
-      allocate (row(0), column(0))
-   end subroutine no_couplings
+      is_chain = allocated(self%left)
+      if (is_chain) is_chain = size(self%left) > 0
+   end function is_chain
 
    !> The past holds up to the initial time.
-   pure subroutine past_state(self, y)
+   pure subroutine initial(self, y)
       class(model_type), intent(in) :: self
       real(wp), intent(out) :: y(self%n)
+      integer :: k
 
-      y = self%past
-   end subroutine past_state
+      y = [(self%history(0.0_wp, k), k=1, self%n)]
+   end subroutine initial
 
-   !> A constant past.
-   pure function past_component(self, t, component) result(value)
+   !> A component up to the initial time: as the definition has it, or constant.
+   pure function history(self, t, component) result(value)
       class(model_type), intent(in) :: self
       real(wp), intent(in) :: t
       integer, intent(in) :: component
       real(wp) :: value
 
-      value = self%past(component)
-   end function past_component
+      if (associated(self%code%past)) then
+         call self%code%past(self%parameters, t, component, value)
+      else
+         value = self%past(component)
+      end if
+   end function history
 
-   !> The series of a constant past.
-   pure subroutine past_component_series(self, t, component, unit, y)
+   !> Its Taylor coefficients.
+   pure subroutine past_series(self, t, component, unit, y)
       class(model_type), intent(in) :: self
       real(wp), intent(in) :: t
       integer, intent(in) :: component
       real(wp), intent(in) :: unit
       real(wp), intent(out) :: y(0:)
+      real(wp) :: whole(0:ubound(y, 1))
 
-      y = 0.0_wp
-      y(0) = self%past(component)
-   end subroutine past_component_series
+      if (associated(self%code%past_series)) then
+         call self%code%past_series(self%parameters, t, component, unit, ubound(y, 1), whole)
+         y = whole
+      else
+         y = 0.0_wp
+         y(0) = self%past(component)
+      end if
+   end subroutine past_series
+
+   !> The equations.
+   pure subroutine rhs(self, t, y, z, dydt)
+      class(model_type), intent(in) :: self
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
+      real(wp), intent(out) :: dydt(self%n)
+
+      call self%code%rhs(self%shape, self%parameters, self%place, self%left, self%right, t, y, z, &
+                         dydt)
+   end subroutine rhs
+
+   !> Their derivatives by states and delayed values.
+   pure subroutine jacobian(self, t, y, z, by_y, by_z)
+      class(model_type), intent(in) :: self
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
+      real(wp), contiguous, intent(out) :: by_y(:, :), by_z(:, :)
+
+      call self%code%jacobian(self%shape, self%parameters, self%place, self%left, self%right, &
+                              t, y, z, size(by_y, 1), size(by_z, 1), by_y, by_z)
+   end subroutine jacobian
+
+   !> Taylor coefficients of the solution.
+   pure subroutine series(self, t, unit, degree, z, y)
+      class(model_type), intent(in) :: self
+      real(wp), intent(in) :: t, unit
+      integer, intent(in) :: degree
+      real(wp), intent(in) :: z(0:degree, size(self%lag))
+      real(wp), intent(inout) :: y(0:degree, self%n)
+
+      call self%code%series(self%shape, self%parameters, self%place, self%left, self%right, &
+                            t, unit, degree, z, y)
+   end subroutine series
+
+   !> Taylor coefficients of disturbances of the solution.
+   pure subroutine tangent_series(self, t, unit, degree, z, y, vectors, dz, dy)
+      class(model_type), intent(in) :: self
+      real(wp), intent(in) :: t, unit
+      integer, intent(in) :: degree
+      real(wp), intent(in) :: z(0:degree, size(self%lag)), y(0:degree, self%n)
+      integer, intent(in) :: vectors
+      real(wp), intent(in) :: dz(0:degree, size(self%lag), vectors)
+      real(wp), intent(inout) :: dy(0:degree, self%n, vectors)
+
+      call self%code%tangent_series(self%shape, self%parameters, self%place, self%left, &
+                                    self%right, t, unit, degree, z, y, y, vectors, dz, dy)
+   end subroutine tangent_series
+
+   !> The rate at which the fast state approaches its balance; 0 if there is none.
+   pure function relaxation_rate(self, t, y) result(rate)
+      class(model_type), intent(in) :: self
+      real(wp), intent(in) :: t, y(self%n)
+      real(wp) :: rate
+
+      rate = 0.0_wp
+      if (associated(self%code%relaxation_rate)) then
+         call self%code%relaxation_rate(self%shape, self%parameters, t, y, rate)
+      end if
+   end function relaxation_rate
+
+   !> Better Taylor coefficients of the slow solution; not a number if there is none.
+   pure subroutine slow_series(self, t, unit, degree, z, y)
+      class(model_type), intent(in) :: self
+      real(wp), intent(in) :: t, unit
+      integer, intent(in) :: degree
+      real(wp), intent(in) :: z(0:degree, size(self%lag))
+      real(wp), intent(inout) :: y(0:degree, self%n)
+
+      if (associated(self%code%slow_series)) then
+         call self%code%slow_series(self%shape, self%parameters, self%place, self%left, &
+                                    self%right, t, unit, degree, z, y)
+      else
+         y = ieee_value(1.0_wp, ieee_quiet_nan)
+      end if
+   end subroutine slow_series
+
+   !> Better Taylor coefficients of disturbances of the slow solution; not a number if there is none.
+   pure subroutine slow_tangent_series(self, t, unit, degree, z, before, y, vectors, dz, dy)
+      class(model_type), intent(in) :: self
+      real(wp), intent(in) :: t, unit
+      integer, intent(in) :: degree
+      real(wp), intent(in) :: z(0:degree, size(self%lag))
+      real(wp), intent(in) :: before(0:degree, self%n), y(0:degree, self%n)
+      integer, intent(in) :: vectors
+      real(wp), intent(in) :: dz(0:degree, size(self%lag), vectors)
+      real(wp), intent(inout) :: dy(0:degree, self%n, vectors)
+
+      if (associated(self%code%slow_tangent_series)) then
+         call self%code%slow_tangent_series(self%shape, self%parameters, self%place, self%left, &
+                                            self%right, t, unit, degree, z, before, y, vectors, &
+                                            dz, dy)
+      else
+         dy = ieee_value(1.0_wp, ieee_quiet_nan)
+      end if
+   end subroutine slow_tangent_series
+
+   !> The state at rest; not a number if the definition has none.
+   pure function steady_state(self) result(state)
+      class(model_type), intent(in) :: self
+      real(wp) :: state(self%n)
+
+      state = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (associated(self%code%steady_state)) call self%code%steady_state(self%parameters, state)
+   end function steady_state
+
+   !> The derivative of the order of the number of arguments, linear in each of them; not a number
+   !> without a state at rest.
+   pure function derivative(self, arguments) result(form)
+      class(model_type), intent(in) :: self
+      !> Disturbances of the state and of the delayed states of the definition, shape
+      !> (n, 1 + delayed states, order)
+      complex(wp), intent(in) :: arguments(:, :, :)
+      complex(wp) :: form(size(arguments, 1))
+
+      form = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (associated(self%code%derivative)) then
+         call self%code%derivative(self%shape, self%parameters, size(arguments, 2) - 1, &
+                                   size(arguments, 3), arguments, form)
+      end if
+   end function derivative
+
+   !> The terms coefficient s**power exp(-s delay) of
+   !> det(s I - A_0 - sum over k of A_k exp(-s lag_k)), the highest power first.
+   pure subroutine characteristic_terms(self, coefficient, power, delay, part, coefficient_by, &
+                                        delay_by)
+      class(model_type), intent(in) :: self
+      !> Coefficients and delays, shape (terms)
+      real(wp), allocatable, intent(out) :: coefficient(:), delay(:)
+      !> Powers of s, and numbers of the delays, where 1 is that of no delay; shape (terms)
+      integer(c_int), allocatable, intent(out) :: power(:), part(:)
+      !> Derivatives by the parameters, shape (terms, parameters)
+      real(wp), allocatable, intent(out) :: coefficient_by(:, :), delay_by(:, :)
+
+      associate (terms => self%terms, parameters => size(self%parameters))
+         allocate (coefficient(terms), delay(terms), power(terms), part(terms))
+         allocate (coefficient_by(terms, parameters), delay_by(terms, parameters), source=0.0_wp)
+         if (terms == 0) return
+         call self%code%characteristic_terms(self%parameters, terms, coefficient, power, delay, &
+                                             part, coefficient_by, delay_by)
+      end associate
+   end subroutine characteristic_terms
 end module model_problem

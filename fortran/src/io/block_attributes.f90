@@ -2,6 +2,7 @@
 module block_attributes
    use block_parameters, only: block_history_type, block_parameters_type, describe_law, &
                                history_names, parameter_names, vector_of
+   use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
    use model_problem, only: description_type
    use netcdf_output, only: output_file_type
@@ -20,9 +21,14 @@ contains
       type(block_parameters_type), intent(in) :: parameters
       type(description_type) :: law
       character(len=:), allocatable :: equations, own
+      type(error_type), allocatable :: error
       integer :: i
 
-      call describe_law(parameters%law, law)
+      call describe_law(parameters%law, law, error)
+      if (allocated(error)) then
+         call move_alloc(error, file%error)
+         return
+      end if
       call file%attribute("law", trim(parameters%law))
       call file%attribute("law_source", trim(law%source))
       equations = trim(law%equations(1))

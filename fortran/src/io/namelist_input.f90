@@ -2,12 +2,14 @@
 !> types: the keys are their components, as scene%t_end. A component without a value keeps its
 !> default, `missing` where it must be given. So each key stands once, in its type.
 module namelist_input
+   use, intrinsic :: iso_fortran_env, only: output_unit
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
+   use process, only: end_at_once
    use value_checks, only: absent, missing_count
    implicit none (type, external)
    private
-   public :: elements, element_length, namelist_file_type, word_length
+   public :: elements, element_length, help, namelist_file_type, word_length
 
    !> Length of a word in a namelist: far above any that is allowed, so that one too long is met and
    !> refused instead of cut.
@@ -16,6 +18,8 @@ module namelist_input
    integer, parameter :: element_length = 32
    !> Length and number of lines that hold the longest namelist: 16 words in a line, 1000 cases.
    integer, parameter :: line_length = 1024, most_lines = 12000
+   !> In place of a path: the keys of the group are written, and the program ends.
+   character(len=*), parameter :: help = "--help"
    !> The group.
    character(len=*), parameter :: group = "settings"
 
@@ -45,6 +49,15 @@ contains
 
       self%path = path
       allocate (self%copy(most_lines))
+      if (path == help) then
+         open (newunit=self%unit, status="scratch", action="readwrite", iostat=self%status, &
+               iomsg=self%reason)
+         if (self%status /= 0) call raise(error, "a file for a while: "//trim(self%reason))
+         if (allocated(error)) return
+         write (self%unit, "(3a)") "&", group, " /"
+         rewind (self%unit)
+         return
+      end if
       open (newunit=self%unit, file=path, status="old", action="read", iostat=self%status, &
             iomsg=self%reason)
       if (self%status /= 0) call raise(error, path//": "//trim(self%reason))
@@ -66,6 +79,8 @@ contains
          call raise(error, self%path//": namelist group &"//group//": "//trim(self%reason))
       else if (status /= 0) then
          call raise(error, self%path//": cannot be closed: "//trim(reason))
+      else if (self%path == help) then
+         call show_keys(self%copy)
       else
          call check_numbers(self%path, self%copy, error)
       end if
@@ -99,6 +114,26 @@ contains
          if (allocated(error)) return
       end do
    end subroutine check_numbers
+
+   !> Write all keys with their values, and end the program.
+   subroutine show_keys(lines)
+      !> All keys and their values, as Fortran writes a namelist
+      character(len=*), intent(in) :: lines(:)
+      character(len=:), allocatable :: value
+      integer :: at, i
+
+      do i = 2, size(lines)
+         if (lines(i) == " /") exit
+         at = index(lines(i), "=")
+         value = lines(i) (at + 1:)
+         if (index(value, "NaN") > 0 .or. index(value, text(missing_count)) > 0) then
+            value = "must be given"
+         end if
+         write (output_unit, "(3a)") in_small_letters(lines(i) (:at)), " ", trim(value)
+      end do
+      flush (output_unit)
+      call end_at_once(0)
+   end subroutine show_keys
 
    !> Text in small letters.
    pure function in_small_letters(words) result(small)

@@ -7,7 +7,7 @@ module netcdf_output
    use netcdf, only: nf90_char, nf90_close, nf90_create, nf90_def_dim, nf90_def_var, nf90_double, &
                      nf90_global, nf90_int, nf90_netcdf4, nf90_noclobber, nf90_noerr, &
                      nf90_put_att, nf90_put_var, nf90_strerror
-   use program_arguments, only: program_name
+   use program_arguments, only: command_name
    use unfinished_file, only: remedy, unfinished_type
    use version, only: project_version
    implicit none (type, external)
@@ -66,8 +66,8 @@ contains
       call self%attribute("Conventions", "CF-1.8")
       call self%attribute("title", title)
       call self%attribute("institution", "the maintainers of this reproduction")
-      call self%attribute("source", "program "//program_name()//" "//project_version)
-      call self%attribute("history", "written by "//program_name() &
+      call self%attribute("source", "program "//command_name()//" "//project_version)
+      call self%attribute("history", "written by "//command_name() &
                           //"; without a time, so that two runs give the same bytes")
       call self%attribute("references", paper)
       call self%attribute("program_version", project_version)

@@ -1,29 +1,95 @@
-!> The command line of every program: a namelist file and the path of the output.
+!> The command line of the program, which does one of its commands with a namelist and the path of the
+!> output, and how it ends.
 module program_arguments
-   use, intrinsic :: iso_fortran_env, only: error_unit
+   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use dde_errors, only: error_type, raise
    use file_system, only: file_is_same, file_is_special, nul
+   use namelist_input, only: help
    use process, only: end_at_once
    use unfinished_file, only: check_place
    implicit none (type, external)
    private
-   public :: check_input, get_paths, program_name, stop_on
+   public :: check_input, command_name, command_type, run_command, stop_on
+
+   !> What a command does with a namelist and the path of a file to write.
+   abstract interface
+      subroutine run_with_paths(namelist_path, output_path)
+         implicit none (type, external)
+         character(len=*), intent(in) :: namelist_path, output_path
+      end subroutine run_with_paths
+   end interface
+
+   !> A command of a program.
+   type :: command_type
+      !> Its name
+      character(len=20) :: name
+      !> What it makes
+      character(len=70) :: about
+      !> What it does
+      procedure(run_with_paths), pointer, nopass :: run
+   end type command_type
 
 contains
 
-   !> The two arguments. If there are not two, or the input cannot be read, or the output cannot be
-   !> written, the program ends.
-   subroutine get_paths(namelist_path, output_path)
-      !> First argument
-      character(len=:), allocatable, intent(out) :: namelist_path
-      !> Second argument
-      character(len=:), allocatable, intent(out) :: output_path
+   !> Run the command that the first argument names with the paths that the others are, or show help.
+   !> If the arguments are wrong, or the input cannot be read, or the output cannot be written, the
+   !> program ends.
+   subroutine run_command(commands)
+      !> All commands of the program
+      type(command_type), intent(in) :: commands(:)
       type(error_type), allocatable :: error
+      integer :: at
 
-      namelist_path = argument(1)
-      output_path = argument(2)
-      if (command_argument_count() /= 2) then
-         call raise(error, "usage: "//argument(0)//" NAMELIST OUTPUT")
+      at = findloc(commands%name == argument(1), .true., dim=1)
+      if (argument(1) == help) then
+         call show_commands(commands)
+      else if (at == 0) then
+         call raise(error, "the command '"//argument(1)//"'; expected one of: " &
+                    //names_of(commands)//", or "//help)
+      else if (argument(2) == help) then
+         write (output_unit, "(a)") trim(commands(at)%about), "", "Keys of its namelist group " &
+            //"&settings, with their values where these are not given:"
+         call commands(at)%run(help, help)
+      else
+         call check_paths(argument(2), argument(3), error)
+         call stop_on(error)
+         call check_input(argument(2), argument(3))
+         call commands(at)%run(argument(2), argument(3))
+      end if
+      call stop_on(error)
+   end subroutine run_command
+
+   !> How the program is called.
+   subroutine show_commands(commands)
+      type(command_type), intent(in) :: commands(:)
+      integer :: i
+
+      write (output_unit, "(a)") "usage: "//argument(0)//" COMMAND NAMELIST OUTPUT", &
+         "       "//argument(0)//" COMMAND "//help, ""
+      do i = 1, size(commands)
+         write (output_unit, "(2a)") commands(i)%name, trim(commands(i)%about)
+      end do
+   end subroutine show_commands
+
+   !> Names with commas between them.
+   pure function names_of(commands) result(list)
+      type(command_type), intent(in) :: commands(:)
+      character(len=:), allocatable :: list
+      integer :: i
+
+      list = trim(commands(1)%name)
+      do i = 2, size(commands)
+         list = list//", "//trim(commands(i)%name)
+      end do
+   end function names_of
+
+   !> Refuse paths that are missing, and an output where no file can be written.
+   subroutine check_paths(namelist_path, output_path, error)
+      character(len=*), intent(in) :: namelist_path, output_path
+      type(error_type), allocatable, intent(out) :: error
+
+      if (command_argument_count() /= 3) then
+         call raise(error, "usage: "//argument(0)//" "//argument(1)//" NAMELIST OUTPUT")
       else if (namelist_path == "") then
          call raise(error, "the namelist path is empty; expected the path of a file")
       else if (output_path == "") then
@@ -31,9 +97,7 @@ contains
       else
          call check_place(output_path, error)
       end if
-      call stop_on(error)
-      call check_input(namelist_path, output_path)
-   end subroutine get_paths
+   end subroutine check_paths
 
    !> Refuse to read what may have no end, and to replace what the program reads: the program ends.
    subroutine check_input(input_path, output_path)
@@ -53,13 +117,12 @@ contains
       call stop_on(error)
    end subroutine check_input
 
-   !> Name of this program, without its folder.
-   function program_name() result(name)
+   !> Name of the command that the program runs.
+   function command_name() result(name)
       character(len=:), allocatable :: name
 
-      name = argument(0)
-      name = name(index(name, "/", back=.true.) + 1:)
-   end function program_name
+      name = argument(1)
+   end function command_name
 
    !> One word of the command line.
    function argument(i) result(word)

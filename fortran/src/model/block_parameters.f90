@@ -3,16 +3,15 @@
 !> by the paper's law.
 module block_parameters
    use chain, only: chain_ends, ends_length => word_length
-   use chain_registry, only: laws_of_chains => model_names
    use dde_errors, only: error_type
    use dde_kinds, only: wp
+   use model_library, only: list_models, open_model
    use model_problem, only: description_type, model_type, unbounded, word_length
-   use model_registry, only: make_model, model_names
    use value_checks, only: absent, check_choice, check_count, check_number, missing
    implicit none (type, external)
    private
    public :: absent_history, block_history_type, block_parameters_type, chain_law, describe_law, &
-             history_names, law_parameters, missing_history, missing_parameters, &
+             history_names, law_names, law_parameters, missing_history, missing_parameters, &
              most_own, paper_law, parameter_meanings, parameter_names, with_vector, vector_of
 
    !> The law of equation (4).
@@ -114,15 +113,13 @@ contains
       !> The model of the law
       class(model_type), intent(in) :: model
       real(wp), allocatable :: vector(:)
-      type(description_type) :: law
       integer :: own
 
-      law = model%describe()
-      own = size(law%parameters) - size(parameter_names)
+      own = model%count - size(parameter_names)
       ! of a chain the last one is kappa
-      if (allocated(model%left)) own = own - 1
+      if (model%is_chain()) own = own - 1
       vector = [vector_of(parameters), parameters%own(:own)]
-      if (allocated(model%left)) vector = [vector, parameters%kappa]
+      if (model%is_chain()) vector = [vector, parameters%kappa]
    end function law_parameters
 
    !> Whether there are several blocks.
@@ -132,16 +129,26 @@ contains
       value = self%blocks > 1
    end function is_chain
 
+   !> Names of the laws that are compiled.
+   function law_names() result(names)
+      character(len=word_length), allocatable :: names(:)
+
+      names = list_models("")
+      names = pack(names, index(names, chain_prefix) /= 1)
+   end function law_names
+
    !> What the definition of a law says.
-   subroutine describe_law(law, description)
-      !> Name of a law that there is
+   subroutine describe_law(law, description, error)
+      !> Name of the law
       character(len=*), intent(in) :: law
       !> What it says
       type(description_type), intent(out) :: description
-      class(model_type), allocatable :: model
+      !> Error if there is no law of this name
+      type(error_type), allocatable, intent(out) :: error
+      type(model_type) :: model
 
-      call make_model(trim(law), model)
-      description = model%describe()
+      call open_model(trim(law), model, error)
+      if (.not. allocated(error)) description = model%describe()
    end subroutine describe_law
 
    !> Refuse a law that there is not, and parameters out of its ranges; keep an earlier error.
@@ -153,9 +160,9 @@ contains
       type(description_type) :: law
       integer :: i
 
-      call check_choice(error, place, "law", self%law, model_names)
+      call check_choice(error, place, "law", self%law, law_names())
+      if (.not. allocated(error)) call describe_law(self%law, law, error)
       if (allocated(error)) return
-      call describe_law(self%law, law)
       vector = [vector_of(self), self%own]
       do i = 1, size(law%parameters)
          associate (one => law%parameters(i))
@@ -184,8 +191,7 @@ contains
       if (self%ends == "ring") then
          call check_count(error, place//": ends = ring: ", "blocks", self%blocks, at_least=3)
       end if
-      call check_choice(error, place//": a chain", "law", self%law, &
-                        laws_of_chains(:) (len(chain_prefix) + 1:))
+      call check_choice(error, place//": a chain", "law", self%law, list_models(chain_prefix))
    end subroutine check_chain
 
    !> The name of the model of a chain with a law.

@@ -5,12 +5,12 @@ module spring_block
    use block_parameters, only: block_history_type, block_parameters_type, chain_law, law_parameters
    use block_state, only: components_of_block, index_of_ln_v, index_of_theta, index_of_u
    use chain, only: blocks_in_order, find_neighbours
-   use chain_registry, only: make_chain => make_model
    use characteristic_function, only: characteristic_of, characteristic_type
    use dde, only: problem_with_tangents
+   use dde_errors, only: error_type
    use dde_kinds, only: wp
+   use model_library, only: open_model
    use model_problem, only: model_type
-   use model_registry, only: make_model
    implicit none (type, external)
    private
    public :: block_characteristic, components_of_block, find_model, index_of_ln_v, &
@@ -21,7 +21,7 @@ module spring_block
       !> Parameters of the block and name of its law
       type(block_parameters_type) :: parameters
       !> The equations of the law
-      class(model_type), allocatable :: model
+      type(model_type) :: model
    contains
       procedure :: initial
       procedure :: history
@@ -83,7 +83,7 @@ contains
       block%parameters = parameters
       block%parameters%kappa = 1.0_wp
       call find_chain(block%parameters, block%model, [history], keep_delays)
-      block%model%mode = stiffening
+      block%model%shape%mode = stiffening
       call take_shape(block)
    end function transverse_block
 
@@ -93,7 +93,7 @@ contains
       !> Parameters, with the name of a law that there is
       type(block_parameters_type), intent(in) :: parameters
       !> The model
-      class(model_type), allocatable, intent(out) :: model
+      type(model_type), intent(out) :: model
       !> Values for t <= 0 of each block
       type(block_history_type), intent(in), optional :: histories(:)
       !> Whether a delay of 0 is a delayed value, too; .false. unless given
@@ -104,7 +104,7 @@ contains
       if (parameters%is_chain()) then
          call find_chain(parameters, model, past, keep_delays)
       else
-         call make_model(trim(parameters%law), model)
+         call open_checked(trim(parameters%law), model)
          call model%set(law_parameters(parameters, model), states_of(past), keep_delays)
       end if
    end subroutine find_model
@@ -114,19 +114,29 @@ contains
       !> Parameters, with the name of a law that chains have
       type(block_parameters_type), intent(in) :: parameters
       !> The model
-      class(model_type), allocatable, intent(out) :: model
+      type(model_type), intent(out) :: model
       !> Values for t <= 0 of each block
       type(block_history_type), intent(in) :: histories(:)
       !> Whether a delay of 0 is a delayed value, too; .false. unless given
       logical, intent(in), optional :: keep_delays
 
-      call make_chain(chain_law(parameters%law), model)
+      call open_checked(chain_law(parameters%law), model)
       associate (blocks => parameters%blocks, ends => parameters%ends)
          call find_neighbours(blocks, ends, model%left, model%right)
          call model%set(law_parameters(parameters, model), &
                         states_of(histories(blocks_in_order(blocks, ends))), keep_delays)
       end associate
    end subroutine find_chain
+
+   !> Open a model that was there when its parameters were checked.
+   subroutine open_checked(name, model)
+      character(len=*), intent(in) :: name
+      type(model_type), intent(out) :: model
+      type(error_type), allocatable :: error
+
+      call open_model(name, model, error)
+      if (allocated(error)) error stop error%message
+   end subroutine open_checked
 
    !> States of blocks, one after another.
    pure function states_of(histories) result(states)
@@ -160,7 +170,7 @@ contains
    type(characteristic_type) function block_characteristic(parameters) result(function_of_block)
       !> Parameters, with the name of a law that there is
       type(block_parameters_type), intent(in) :: parameters
-      class(model_type), allocatable :: model
+      type(model_type) :: model
 
       call find_model(parameters, model)
       function_of_block = characteristic_of(model)

@@ -12,7 +12,7 @@ module block_equation
    !> The block by its derivatives; lag 1 is 0, lag 2 is tau.
    type, extends(delay_equation_type) :: block_equation_type
       !> The model of the law
-      class(model_type), allocatable :: model
+      type(model_type) :: model
    contains
       procedure :: derivative
    end type block_equation_type

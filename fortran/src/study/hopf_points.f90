@@ -13,6 +13,7 @@ module hopf_points
    use dde_kinds, only: wp
    use normal_form, only: first_lyapunov_coefficient
    use root_counts, only: pairs_beside
+   use spring_block, only: block_characteristic
    use stability_changes, only: angle_above, omega_function_type
    implicit none (type, external)
    private
@@ -71,7 +72,8 @@ contains
             call first_lyapunov_coefficient(block_equation_type(point%parameters), point%omega, &
                                             point%l1, error)
             if (allocated(error)) return
-            point%unstable_pairs = pairs_beside(point%parameters, [point%omega])
+            point%unstable_pairs = pairs_beside(block_characteristic(point%parameters), &
+                                                [point%omega])
          end associate
       end do
    end subroutine judge_points
@@ -161,7 +163,7 @@ contains
       point%kind = kind
       point%parameters = plane%at(omega(1), branch(1))
       point%parameters%tau = max(point%parameters%tau, 0.0_wp)
-      point%unstable_pairs = pairs_beside(point%parameters, omega)
+      point%unstable_pairs = pairs_beside(block_characteristic(point%parameters), omega)
       do i = 1, size(omega)
          point%omega(i) = omega(i)
          point%branch(i) = branch(i)

@@ -1,12 +1,10 @@
-!> How many characteristic roots of the block lie to the right of a line, by the principle of the
+!> How many characteristic roots lie to the right of a line, by the principle of the
 !> argument: along s = bound + i w, w = 0..infinity, the argument of Delta(s) grows by
 !> (n/2 - Z) pi, where Z is their number and n that of equations. The largest terms of Delta(s) at
 !> large w are the leading part s^(n-1) (s + c), the argument of which is known.
 module root_counts
-   use block_parameters, only: block_parameters_type
    use characteristic_function, only: characteristic_type
    use dde_kinds, only: wp
-   use spring_block, only: block_characteristic
    implicit none (type, external)
    private
    public :: has_more_roots, pairs_beside, roots_right_of
@@ -27,14 +25,12 @@ module root_counts
 contains
 
    !> Number of roots with real part above `bound`.
-   integer function roots_right_of(p, bound) result(number)
-      !> Parameters
-      type(block_parameters_type), intent(in) :: p
+   pure integer function roots_right_of(c, bound) result(number)
+      !> Characteristic function
+      type(characteristic_type), intent(in) :: c
       !> Real part of the line, on which no root lies
       real(wp), intent(in) :: bound
-      type(characteristic_type) :: c
 
-      c = block_characteristic(p)
       number = number_of(c, line_growth(c, bound, 0.0_wp, far_end(c, bound)), bound)
    end function roots_right_of
 
@@ -42,21 +38,19 @@ contains
    !> count them, which takes long. Where the delayed terms are larger than twice the sum of the
    !> others, the argument of Delta falls by tau per unit of w. The rest of the line changes it by a
    !> few turns.
-   logical function has_more_roots(p, bound, number) result(value)
-      !> Parameters
-      type(block_parameters_type), intent(in) :: p
+   pure logical function has_more_roots(c, bound, number) result(value)
+      !> Characteristic function
+      type(characteristic_type), intent(in) :: c
       !> Real part of the line
       real(wp), intent(in) :: bound
       !> The number
       integer, intent(in) :: number
-      type(characteristic_type) :: c
       real(wp) :: first, last, w
       complex(wp) :: s
       integer :: i
 
-      value = -bound*p%tau > largest_exponent
+      value = -bound*maxval(c%delay) > largest_exponent
       if (value) return
-      c = block_characteristic(p)
       if (size(c%delay) /= 2) return
       first = 0.0_wp
       last = 0.0_wp
@@ -87,16 +81,14 @@ contains
 
    !> Number of pairs of roots with positive real part where some pairs i omega are on the
    !> imaginary axis, which are left out.
-   integer function pairs_beside(p, omega) result(number)
-      !> Parameters
-      type(block_parameters_type), intent(in) :: p
+   pure integer function pairs_beside(c, omega) result(number)
+      !> Characteristic function
+      type(characteristic_type), intent(in) :: c
       !> Frequencies of the pairs on the axis, ascending
       real(wp), intent(in) :: omega(:)
-      type(characteristic_type) :: c
       real(wp) :: from, growth, radius
       integer :: i
 
-      c = block_characteristic(p)
       from = 0.0_wp
       growth = 0.0_wp
       do i = 1, size(omega)

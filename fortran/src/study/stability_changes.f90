@@ -145,7 +145,7 @@ contains
 
       c = block_characteristic(p)
       speed = real(c%root_by(parameter, cmplx(0.0_wp, omega, kind=wp)))
-      beside = pairs_beside(p, [omega])
+      beside = pairs_beside(c, [omega])
       change = stability_change_type(p, omega, beside, beside)
       if (speed > 0.0_wp) then
          change%pairs_after = beside + 1

@@ -3,13 +3,14 @@
 module steady_sliding
    use block_parameters, only: block_parameters_type
    use chain, only: mode_eigenvalue
+   use characteristic_function, only: characteristic_type
    use block_roots, only: roots_of_block
    use dde, only: integrate, integration_options, integration_result, table_sampler
    use dde_errors, only: error_type
    use exponent_averages, only: exponent_type
    use dde_kinds, only: wp
    use root_counts, only: roots_right_of
-   use spring_block, only: components_of_block, index_of_ln_v, spring_block_type
+   use spring_block, only: block_characteristic, components_of_block, index_of_ln_v, spring_block_type
    implicit none (type, external)
    private
    public :: comes_to_rest, settles, sliding_exponents
@@ -117,21 +118,23 @@ contains
    real(wp) function bound_for(p, count) result(bound)
       type(block_parameters_type), intent(in) :: p
       integer, intent(in) :: count
+      type(characteristic_type) :: c
       real(wp) :: nearer
       integer :: i, number, there
 
+      c = block_characteristic(p)
       bound = first_bound
       nearer = bound
-      number = roots_right_of(p, bound)
+      number = roots_right_of(c, bound)
       do while (number < count .and. bound > last_bound)
          nearer = bound
          bound = 2.0_wp*bound
-         number = roots_right_of(p, bound)
+         number = roots_right_of(c, bound)
       end do
       do i = 1, most_halvings
          if (number <= 2*count .or. nearer <= bound) exit
          associate (middle => 0.5_wp*(nearer + bound))
-            there = roots_right_of(p, middle)
+            there = roots_right_of(c, middle)
             if (there < count) then
                nearer = middle
             else

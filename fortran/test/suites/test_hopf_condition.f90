@@ -2,7 +2,8 @@
 !> the block's own linearisation; those of the paper's law against (5) to (10) as the paper has
 !> them, and these against the curves in closed form.
 module test_hopf_condition
-   use block_parameters, only: block_history_type, block_parameters_type, vector_of, with_vector
+   use block_parameters, only: block_history_type, block_parameters_type, law_names, vector_of, &
+                               with_vector
    use characteristic_function, only: characteristic_type
    use closed_form, only: closed_epsilon, closed_tau
    use dde_errors, only: failure_type => error_type, text
@@ -10,9 +11,9 @@ module test_hopf_condition
    use hopf_condition, only: find_hopf_condition, hopf_condition_type
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use model_registry, only: model_names
    use paper_equations, only: delta, hopf_epsilon, hopf_tau, hopf_xi, relative_residual
    use printed_delay, only: printed_tau
+   use model_problem, only: word_length
    use pseudo_random, only: uniform
    use spring_block, only: block_characteristic, spring_block_type
    implicit none (type, external)
@@ -41,6 +42,7 @@ contains
    !> from the right-hand side of the block by differences.
    subroutine test_linearisation(error)
       type(error_type), allocatable, intent(out) :: error
+      character(len=word_length), allocatable :: names(:)
       type(block_parameters_type) :: p
       type(characteristic_type) :: c
       type(spring_block_type) :: block
@@ -49,9 +51,10 @@ contains
       real(wp) :: after(3), before(3), shift(4)
       integer :: i, j
 
+      names = law_names()
       do i = 1, points
          call random_point(i, p, s)
-         p%law = model_names(1 + modulo(i, size(model_names)))
+         p%law = names(1 + modulo(i, size(names)))
          p%own = 0.5_wp
          block = spring_block_type(p, block_history_type())
          matrix = 0.0_wp
@@ -77,15 +80,17 @@ contains
    !> Delta(s) of the paper's law, and of all that share its linear part, is (5).
    subroutine test_equation_5(error)
       type(error_type), allocatable, intent(out) :: error
+      character(len=word_length), allocatable :: names(:)
       type(block_parameters_type) :: p
       type(characteristic_type) :: c
       complex(wp) :: s
       integer :: i
 
+      names = law_names()
       do i = 1, points
          call random_point(i, p, s)
          ! without its cut-off, that law is the paper's
-         p%law = model_names(1 + modulo(i, size(model_names)))
+         p%law = names(1 + modulo(i, size(names)))
          if (index(p%law, "quasistatic") > 0) cycle
          c = block_characteristic(p)
          call expect_close(error, abs(c%value(s) - delta(p, s))/size_of(p, s), 0.0_wp, &
@@ -99,15 +104,17 @@ contains
    !> slope by s holds it.
    subroutine test_derivatives(error)
       type(error_type), allocatable, intent(out) :: error
+      character(len=word_length), allocatable :: names(:)
       type(block_parameters_type) :: p
       type(characteristic_type) :: c
       complex(wp) :: known, s
       real(wp), parameter :: h = 5.0e-4_wp
       integer :: by, i
 
+      names = law_names()
       do i = 1, points
          call random_point(i, p, s)
-         p%law = model_names(1 + modulo(i, size(model_names)))
+         p%law = names(1 + modulo(i, size(names)))
          p%own = 0.5_wp
          c = block_characteristic(p)
          do by = 1, 5
@@ -202,6 +209,7 @@ contains
    !> frequency has the same epsilon; lines along xi and gamma find these values again.
    subroutine test_laws(error)
       type(error_type), allocatable, intent(out) :: error
+      character(len=word_length), allocatable :: names(:)
       type(block_parameters_type) :: p
       type(characteristic_type) :: c
       type(failure_type), allocatable :: failure
@@ -209,8 +217,9 @@ contains
       real(wp) :: partner, x(3)
       integer :: i, law
 
-      do law = 1, size(model_names)
-         p = block_parameters_type(law=model_names(law), own=0.7_wp)
+      names = law_names()
+      do law = 1, size(names)
+         p = block_parameters_type(law=names(law), own=0.7_wp)
          call find_hopf_condition(p, condition, failure)
          call expect_success(error, failure)
          do i = 1, points/4

@@ -19,6 +19,7 @@ module test_linear_stability
    use normal_form, only: first_lyapunov_coefficient
    use pseudo_random, only: uniform
    use root_counts, only: pairs_beside, roots_right_of
+   use spring_block, only: block_characteristic
    use traced_planes, only: new_plane
    implicit none (type, external)
    private
@@ -90,7 +91,7 @@ contains
                                 "residual of root "//text(j)//" of block "//text(i))
          end do
          do j = 1, size(bounds)
-            call expect(error, count(real(roots) > bounds(j)) == roots_right_of(p, bounds(j)), &
+            call expect(error, count(real(roots) > bounds(j)) == roots_right_of(block_characteristic(p), bounds(j)), &
                         "number of roots of block "//text(i)//" above "//text(bounds(j)) &
                         //" by the argument")
          end do
@@ -120,7 +121,7 @@ contains
             if (allocated(error)) return
             call expect_close(error, minval(abs(roots - cmplx(0.0_wp, omega, kind=wp))), 0.0_wp, &
                               1.0e-12_wp, "distance of a root to i omega")
-            pairs = pairs_beside(p, [omega])
+            pairs = pairs_beside(block_characteristic(p), [omega])
             call expect(error, pairs == count(real(roots) > 1.0e-9_wp)/2, &
                         "pairs beside omega = "//text(omega)//" on branch "//text(k))
             counts(pairs) = counts(pairs) + 1
@@ -142,10 +143,10 @@ contains
             p = block_parameters_type(xi=10.0_wp**j, gamma=gamma)
             lost = gamma**2*p%xi/(p%xi + gamma**2)
             p%epsilon = 0.9_wp*lost
-            call expect(error, roots_right_of(p, 0.0_wp) == 0, "stable at gamma = "//text(gamma) &
+            call expect(error, roots_right_of(block_characteristic(p), 0.0_wp) == 0, "stable at gamma = "//text(gamma) &
                         //", xi = "//text(p%xi))
             p%epsilon = 1.1_wp*lost
-            call expect(error, roots_right_of(p, 0.0_wp) == 2, "unstable at gamma = "//text(gamma))
+            call expect(error, roots_right_of(block_characteristic(p), 0.0_wp) == 2, "unstable at gamma = "//text(gamma))
          end do
       end do
    end subroutine test_extremes
@@ -239,7 +240,7 @@ contains
                call find_roots(equation%linear, bound, roots, failure)
                call expect_success(error, failure)
                if (allocated(error)) return
-               call expect(error, size(roots) == roots_right_of(p, bound), "number of roots at " &
+               call expect(error, size(roots) == roots_right_of(block_characteristic(p), bound), "number of roots at " &
                            //"tau "//text(p%tau)//", xi "//text(p%xi)//", gamma "//text(p%gamma))
                do m = 1, size(roots)
                   call expect_close(error, abs(roots(m) - quadruple_root(p, roots(m))) &

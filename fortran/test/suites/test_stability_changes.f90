@@ -13,6 +13,7 @@ module test_stability_changes
    use paper_equations, only: relative_residual
    use pseudo_random, only: uniform
    use root_counts, only: pairs_beside, roots_right_of
+   use spring_block, only: block_characteristic
    use stability_changes, only: changes_with_epsilon, changes_with_tau, stability_change_type
    use steady_sliding, only: settles, sliding_exponents
    implicit none (type, external)
@@ -93,7 +94,7 @@ contains
          else
             there%tau = place
          end if
-         pairs = roots_right_of(there, 0.0_wp)/2
+         pairs = roots_right_of(block_characteristic(there), 0.0_wp)/2
       end function pairs_at
    end subroutine check_changes
 
@@ -241,7 +242,7 @@ contains
                               "two zero exponents at tau = "//text(p%tau)//", epsilon = " &
                               //text(p%epsilon)//", gamma = "//text(gamma))
                   call expect(error, count(exponents%value > 1.0e-9_wp) &
-                              == 2*pairs_beside(p, [omega]), &
+                              == 2*pairs_beside(block_characteristic(p), [omega]), &
                               "unstable pairs beside it at tau = "//text(p%tau))
                   if (j == 1 .and. k == 0) call expect(error, &
                                                        all(exponents(3:)%value < -1.0e-3_wp), &

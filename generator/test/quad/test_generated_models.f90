@@ -1,19 +1,14 @@
 !> Models made from definitions, in quadruple precision: all forms against the right-hand side, and
 !> against the same models written by hand.
 module test_generated_models
-   use chain_registry, only: chain_names => model_names, make_chain => make_model
    use dde, only: problem_with_tangents
+   use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
-   use expectations, only: expect_close
+   use expectations, only: expect_close, expect_success
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use made_enzyme_model, only: made_enzyme_type
-   use made_fast_model, only: made_fast_type
-   use made_infection_model, only: made_infection_type
-   use made_mackey_glass_model, only: made_mackey_glass_type
-   use made_zoo_model, only: made_zoo_type
    use model_consistency, only: check_forms, check_model
-   use model_problem, only: description_type, model_type
-   use model_registry, only: make_model, model_names
+   use model_library, only: list_models, open_model
+   use model_problem, only: model_type, word_length
    use pseudo_random, only: uniform
    use published_problems, only: enzyme, infection, mackey_glass
    use solving, only: at_tolerance, solve
@@ -39,9 +34,11 @@ contains
    !> One of everything, with both delays and with one of 0.
    subroutine test_zoo(error)
       type(error_type), allocatable, intent(out) :: error
-      type(made_zoo_type) :: zoo
+      type(model_type) :: zoo
       integer :: i
 
+      call open_there(error, "made_zoo", zoo)
+      if (allocated(error)) return
       do i = 0, 1
          call zoo%set([1.3_wp, 0.9_wp*i], [0.0_wp, 0.0_wp, 0.0_wp])
          call check_model(error, zoo, [0.4_wp, -0.7_wp, 0.3_wp], &
@@ -52,9 +49,11 @@ contains
    !> A balance with a constant part, from soft to stiff.
    subroutine test_fast(error)
       type(error_type), allocatable, intent(out) :: error
-      type(made_fast_type) :: model
+      type(model_type) :: model
       integer :: i
 
+      call open_there(error, "made_fast", model)
+      if (allocated(error)) return
       do i = 0, 3
          call model%set([10.0_wp**(2*i), 1.5_wp*modulo(i, 2)], [0.0_wp, 0.0_wp])
          call check_model(error, model, [0.4_wp, -0.7_wp], &
@@ -65,11 +64,13 @@ contains
    !> An expression of t, its value and its series.
    subroutine test_histories(error)
       type(error_type), allocatable, intent(out) :: error
-      type(made_zoo_type) :: zoo
+      type(model_type) :: zoo
       real(wp), parameter :: t = -0.6_wp, s = 1.0e-3_wp
       real(wp) :: series(0:12)
       integer :: component, k
 
+      call open_there(error, "made_zoo", zoo)
+      if (allocated(error)) return
       call zoo%set([1.3_wp, 0.9_wp], [0.0_wp, 0.0_wp, 0.0_wp])
       call expect_close(error, zoo%history(t, 1), 1.0_wp + t/3.0_wp, 1.0e-33_wp, "1 + t/3")
       call expect_close(error, zoo%history(t, 2), exp(t/5.0_wp)*cos(t), 1.0e-32_wp, &
@@ -85,11 +86,13 @@ contains
    !> Series and series of disturbances of the model written by hand; itself with and without delay.
    subroutine test_mackey_glass(error)
       type(error_type), allocatable, intent(out) :: error
-      type(made_mackey_glass_type) :: made
+      type(model_type) :: made
       type(mackey_glass) :: hand
       real(wp), dimension(0:12, 1) :: y, y_by_hand, z
       real(wp), dimension(0:12, 1, 5) :: dy, dy_by_hand, dz
 
+      call open_there(error, "made_mackey_glass", made)
+      if (allocated(error)) return
       call made%set([17.0_wp], [1.2_wp])
       hand = mackey_glass()
       z(:, 1) = uniform(1, 13, 0.2_wp, 0.9_wp)
@@ -112,8 +115,10 @@ contains
    !> Whole runs of the model written by hand.
    subroutine test_infection(error)
       type(error_type), allocatable, intent(out) :: error
-      type(made_infection_type) :: made
+      type(model_type) :: made
 
+      call open_there(error, "made_infection", made)
+      if (allocated(error)) return
       call made%set([real(wp) ::], [0.0_wp, 0.0_wp, 0.0_wp])
       call compare_runs(error, made, infection(), 15.0_wp, "taylor")
       call check_model(error, made, [2.0_wp, 0.3_wp, 1.0_wp], [0.4_wp, 0.2_wp], "infection")
@@ -122,8 +127,10 @@ contains
    !> Whole runs of the model written by hand, which has no series.
    subroutine test_enzyme(error)
       type(error_type), allocatable, intent(out) :: error
-      type(made_enzyme_type) :: made
+      type(model_type) :: made
 
+      call open_there(error, "made_enzyme", made)
+      if (allocated(error)) return
       call made%set([real(wp) ::], [0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp])
       call compare_runs(error, made, enzyme(), 6.0_wp, "dop853")
       call check_model(error, made, [50.0_wp, 12.0_wp, 9.0_wp, 15.0_wp], [14.0_wp], "enzyme")
@@ -148,23 +155,24 @@ contains
    !> Every law at random states, with delay and without, and its derivative forms.
    subroutine test_laws(error)
       type(error_type), allocatable, intent(out) :: error
-      class(model_type), allocatable :: model
-      type(description_type) :: description
+      type(model_type) :: model
       real(wp), allocatable :: own(:)
+      character(len=word_length), allocatable :: names(:)
       integer :: i, law
 
-      do law = 1, size(model_names)
+      names = list_models("")
+      names = pack(names, index(names, "made_") /= 1 .and. index(names, "chain_") /= 1)
+      do law = 1, size(names)
          do i = 1, 8
-            call make_model(trim(model_names(law)), model)
-            description = model%describe()
-            own = uniform(10 + i, size(description%parameters) - 4, 0.1_wp, 1.0_wp)
+            call open_there(error, trim(names(law)), model)
+            own = uniform(10 + i, model%count - 4, 0.1_wp, 1.0_wp)
             ! from soft to stiff
             call model%set([2.0_wp*modulo(i, 2), uniform(20 + i, 2, 0.3_wp, 2.0_wp), &
                             10.0_wp**(i - 2), own], [0.0_wp, 0.0_wp, 0.0_wp])
             call check_model(error, model, uniform(30 + i, 3, -1.0_wp, 1.0_wp), &
                              uniform(40 + i, size(model%lag), -1.0_wp, 1.0_wp), &
-                             trim(model_names(law)))
-            if (modulo(i, 2) == 1) call check_forms(error, model, trim(model_names(law)))
+                             trim(names(law)))
+            if (modulo(i, 2) == 1) call check_forms(error, model, trim(names(law)))
          end do
       end do
    end subroutine test_laws
@@ -173,20 +181,20 @@ contains
    !> neighbours, and all forms against the right-hand side.
    subroutine test_chains(error)
       type(error_type), allocatable, intent(out) :: error
-      class(model_type), allocatable :: model, one
+      type(model_type) :: model, one
       integer, parameter :: lengths(5) = [1, 2, 3, 5, 11]
-      type(description_type) :: description
       real(wp), allocatable :: dydt(:), own(:), shared(:), y(:), z(:)
       real(wp) :: expected(3), pull
+      character(len=word_length), allocatable :: names(:)
       integer :: block, i, law, n
 
-      do law = 1, size(chain_names)
+      names = list_models("chain_")
+      do law = 1, size(names)
          do i = 1, 3*size(lengths)
             n = lengths(1 + modulo(i, size(lengths)))
-            call make_chain(trim(chain_names(law)), model)
-            call make_model(chain_names(law) (7:), one)
-            description = model%describe()
-            own = uniform(10 + i, size(description%parameters) - 5, 0.1_wp, 1.0_wp)
+            call open_there(error, "chain_"//trim(names(law)), model)
+            call open_there(error, trim(names(law)), one)
+            own = uniform(10 + i, model%count - 5, 0.1_wp, 1.0_wp)
             ! from soft to stiff, with and without delay
             shared = [2.0_wp*modulo(i, 2), uniform(20 + i, 2, 0.3_wp, 2.0_wp), &
                       10.0_wp**modulo(i, 4), own]
@@ -210,10 +218,21 @@ contains
                                  1.0e-28_wp*max(1.0_wp, maxval(abs(expected))), "equations")
             end do
             deallocate (dydt)
-            call check_model(error, model, y, z, trim(chain_names(law)))
+            call check_model(error, model, y, z, trim(names(law)))
          end do
       end do
    end subroutine test_chains
+
+   !> A model that the build has made.
+   subroutine open_there(error, name, model)
+      type(error_type), allocatable, intent(inout) :: error
+      character(len=*), intent(in) :: name
+      type(model_type), intent(out) :: model
+      type(failure_type), allocatable :: failure
+
+      call open_model(name, model, failure)
+      call expect_success(error, failure)
+   end subroutine open_there
 
    !> Neighbours of a chain with free ends, with the plate at its ends, and of a folded ring.
    subroutine put_neighbours(model, blocks, kind)

@@ -1,0 +1,43 @@
+!> Cycles along a line of parameters: stable and unstable branches, their special points, and curves
+!> of these over epsilon and tau.
+module cycles_command
+   use block_cycles, only: cycle_settings_type, cycles_type, find_cycles, left_out_type
+   use cycle_curves, only: cycle_curve_type, find_curves
+   use cycle_lines, only: hopf_start_type
+   use cycles_files, only: read_cycles, write_cycles
+   use dde_errors, only: error_type
+   use progress, only: progress_type
+   use program_arguments, only: stop_on
+   implicit none (type, external)
+   private
+   public :: run_cycles
+
+contains
+
+   !> Cycles along a line of parameters: stable and unstable branches, their special points, and curves
+   !> of these over epsilon and tau.
+   subroutine run_cycles(namelist_path, output_path)
+      !> Path of the namelist
+      character(len=*), intent(in) :: namelist_path
+      !> Path of the file to write
+      character(len=*), intent(in) :: output_path
+      type(cycle_settings_type) :: settings
+      type(cycle_curve_type), allocatable :: curves(:)
+      type(cycles_type), allocatable :: found(:)
+      type(error_type), allocatable :: error
+      type(hopf_start_type), allocatable :: hopf(:)
+      type(left_out_type), allocatable :: left_out(:)
+      type(progress_type) :: report
+
+      call read_cycles(namelist_path, settings, error)
+      call stop_on(error)
+      report = progress_type("branches of cycles")
+      call find_cycles(settings, hopf, found, left_out, error, report)
+      call stop_on(error)
+      report = progress_type("curves of their special points")
+      call find_curves(settings, found, curves, error, report)
+      call stop_on(error)
+      call write_cycles(output_path, settings, hopf, found, left_out, curves, error)
+      call stop_on(error)
+   end subroutine run_cycles
+end module cycles_command

@@ -1,0 +1,40 @@
+!> Hopf curves in one plane of parameters, their special points, and the number of unstable pairs.
+module hopf_command
+   use dde_errors, only: error_type
+   use hopf_curves, only: curve_point_type, trace_curves
+   use hopf_files, only: hopf_settings_type, read_plane, write_curves
+   use hopf_planes, only: curve_plane_type
+   use hopf_points, only: find_hopf_points, hopf_point_type, judge_points
+   use program_arguments, only: stop_on
+   use stability_map, only: unstable_pairs
+   implicit none (type, external)
+   private
+   public :: run_hopf
+
+contains
+
+   !> Hopf curves in one plane of parameters, their special points, and the number of unstable pairs.
+   subroutine run_hopf(namelist_path, output_path)
+      !> Path of the namelist
+      character(len=*), intent(in) :: namelist_path
+      !> Path of the file to write
+      character(len=*), intent(in) :: output_path
+      type(error_type), allocatable :: error
+      type(hopf_settings_type) :: settings
+      type(curve_plane_type) :: plane
+      type(curve_point_type), allocatable :: points(:)
+      type(hopf_point_type), allocatable :: special(:)
+
+      call read_plane(namelist_path, settings, plane, error)
+      call stop_on(error)
+      call trace_curves(plane, points, error)
+      call stop_on(error)
+      call judge_points(points, error)
+      call stop_on(error)
+      call find_hopf_points(plane, points, special, error)
+      call stop_on(error)
+      call write_curves(output_path, settings, plane, points, special, &
+                        unstable_pairs(plane, settings%cells), error)
+      call stop_on(error)
+   end subroutine run_hopf
+end module hopf_command

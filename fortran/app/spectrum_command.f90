@@ -1,0 +1,58 @@
+!> Power spectrum of v over a trajectory after its transient, with its peaks labelled.
+module spectrum_command
+   use base_frequencies, only: bases_type, label_peaks
+   use dde_errors, only: error_type
+   use dde_kinds, only: wp
+   use even_slope, only: finer, smoothed_slope, undo_smoothing
+   use program_arguments, only: check_input, stop_on
+   use spectral_peaks, only: find_peaks, peak_type
+   use spectrum, only: power_spectrum
+   use spectrum_files, only: read_spectrum_settings, read_trajectory, spectrum_settings_type, &
+                             trajectory_type, write_spectrum
+   implicit none (type, external)
+   private
+   public :: run_spectrum
+
+contains
+
+   !> Power spectrum of v over a trajectory after its transient, with its peaks labelled.
+   subroutine run_spectrum(namelist_path, output_path)
+      !> Path of the namelist
+      character(len=*), intent(in) :: namelist_path
+      !> Path of the file to write
+      character(len=*), intent(in) :: output_path
+      character(len=:), allocatable :: trajectory_path
+      type(bases_type) :: bases
+      type(error_type), allocatable :: error
+      type(peak_type), allocatable :: peaks(:)
+      type(spectrum_settings_type) :: settings
+      type(trajectory_type) :: trajectory
+      real(wp), allocatable :: frequency(:), power(:), v(:)
+      real(wp) :: interval
+      integer :: first
+
+      call read_spectrum_settings(namelist_path, trajectory_path, settings, error)
+      call stop_on(error)
+      call check_input(trajectory_path, output_path)
+      call read_trajectory(trajectory_path, trajectory, error)
+      call stop_on(error)
+
+      interval = trajectory%sample_interval
+      first = findloc(trajectory%t >= trajectory%t_transient*(1.0_wp - epsilon(1.0_wp)), .true., dim=1)
+      v = trajectory%v(first:)
+      if (allocated(trajectory%u)) then
+         interval = interval/finer
+         v = 1.0_wp + smoothed_slope(trajectory%t(first:), trajectory%u(first:), v - 1.0_wp, interval)
+      end if
+      call power_spectrum(v, interval, settings%window, settings%segments, settings%overlap, &
+                          frequency, power, error)
+      if (allocated(error)) error%message = trajectory_path//": "//error%message
+      call stop_on(error)
+      if (allocated(trajectory%u)) call undo_smoothing(interval, frequency, power)
+      peaks = find_peaks(frequency, power, settings%peak_floor, settings%peak_prominence)
+      call label_peaks(peaks, frequency(2), bases)
+      call write_spectrum(output_path, trim(trajectory%scene), settings, frequency, power, &
+                          sum((v - sum(v)/size(v))**2)/size(v), peaks, bases, error)
+      call stop_on(error)
+   end subroutine run_spectrum
+end module spectrum_command

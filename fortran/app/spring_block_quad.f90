@@ -1,0 +1,9 @@
+!> The program in quadruple precision: `spring_block_quad reference NAMELIST OUTPUT`.
+program spring_block_quad
+   use program_arguments, only: command_type, run_command
+   use reference_command, only: run_reference
+   implicit none (type, external)
+
+   call run_command([command_type("reference", "Reference solutions with their uncertainty", &
+                                  run_reference)])
+end program spring_block_quad

@@ -1,0 +1,50 @@
+"""The shared object of a model: its module, compiled with what all models share."""
+
+import re
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+
+from generator.module import SUPPORT
+
+KINDS = Path(__file__).parents[1] / "fortran" / "dde" / "src" / "api" / "dde_kinds.f90"
+SHARED = [SUPPORT / "model_border.f90", SUPPORT / "nilpotent_numbers.f90"]
+COMPILER = "gfortran"
+FLAGS = (
+    "-O2 -std=f2018 -ffp-contract=off -fno-tree-slp-vectorize -frecursive -fstack-arrays"
+    " -fno-semantic-interposition"
+)
+"""Short work arrays live on the stack; the rest is explained in fortran/CMakeLists.txt."""
+
+
+class CompileError(Exception):
+    """The compiler failed."""
+
+
+def compile_module(
+    text: str, path: Path, *, compiler: str = COMPILER, flags: str = FLAGS, quad: bool = False
+) -> None:
+    """Compile the text of a module; the object is complete or absent, the module stands beside it.
+
+    The compiler sees file names alone, so that the object has the same bytes wherever it is made.
+    """
+    path = path.resolve()
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=path.parent) as folder:
+        kinds = KINDS.read_text(encoding="utf-8")
+        Path(folder, KINDS.name).write_text(
+            re.sub("real64", "real128", kinds) if quad else kinds, encoding="utf-8"
+        )
+        for source in SHARED:
+            shutil.copy(source, folder)
+        Path(folder, "model.f90").write_text(text, encoding="utf-8")
+        names = [KINDS.name, *(source.name for source in SHARED), "model.f90"]
+        command = [compiler, *flags.split(), "-fPIC", "-shared", "-Wl,-Bsymbolic", "-s"]
+        made = subprocess.run(
+            [*command, *names, "-o", "model.so"], cwd=folder, capture_output=True, text=True
+        )
+        if made.returncode:
+            raise CompileError(f"{path}: {compiler} failed:\n{made.stderr}")
+        Path(folder, "model.f90").replace(path.with_suffix(".f90"))
+        Path(folder, "model.so").replace(path)

@@ -1,0 +1,35 @@
+/* What C alone knows of the folders of models: the program's own place, and the layout of struct dirent. */
+#define _POSIX_C_SOURCE 200809L
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Path of the program; empty if the system does not know it. */
+void model_program(char *path, size_t length)
+{
+    ssize_t found = readlink("/proc/self/exe", path, length - 1);
+    path[found > 0 ? found : 0] = '\0';
+}
+
+static int is_model(const struct dirent *entry)
+{
+    size_t length = strlen(entry->d_name);
+    return length > 3 && strcmp(entry->d_name + length - 3, ".so") == 0;
+}
+
+/* Append the names of the models in a folder to `names`, in order, with a blank before each. */
+void model_list(const char *folder, char *names, size_t length)
+{
+    struct dirent **found;
+    int count = scandir(folder, &found, is_model, alphasort);
+    for (int i = 0; i < count; i++) {
+        size_t used = strlen(names);
+        snprintf(names + used, length - used, " %.*s", (int)strlen(found[i]->d_name) - 3,
+                 found[i]->d_name);
+        free(found[i]);
+    }
+    if (count >= 0)
+        free(found);
+}

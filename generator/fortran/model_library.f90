@@ -1,0 +1,246 @@
+!> Compiled models, opened by name: shared objects NAME.so in a folder. The folders are those of the
+!> environment variable `MODELS`, with colons between them, or else the folder `models` beside that
+!> of the program (`models_quad` of a program in quadruple precision).
+module model_library
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_f_procpointer, &
+                                          c_funptr, c_int, c_null_char, c_ptr, c_size_t
+   use dde_errors, only: error_type, raise
+   use dde_kinds, only: wp
+   use model_border, only: describe_line, expand, expand_past, expand_tangents, find_delayed, &
+                           find_forms, find_jacobian, find_past, find_rate, find_rhs, find_state, &
+                           list_terms, letters => line_length
+   use model_interface, only: interface_digest
+   use model_problem, only: code_type, model_type, word_length
+   implicit none (type, external)
+   private
+   public :: list_models, open_model
+
+   !> Letters of paths, and of lists of names.
+   integer, parameter :: path_length = 4096
+   !> dlopen: all symbols at once.
+   integer(c_int), parameter :: now = 2
+
+   interface
+      type(c_ptr) function dlopen(path, flags) bind(c)
+         import :: c_char, c_int, c_ptr
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: flags
+      end function dlopen
+
+      type(c_funptr) function dlsym(library, name) bind(c)
+         import :: c_char, c_funptr, c_ptr
+         implicit none (type, external)
+         type(c_ptr), value :: library
+         character(kind=c_char), intent(in) :: name(*)
+      end function dlsym
+
+      type(c_ptr) function dlerror() bind(c)
+         import :: c_ptr
+         implicit none (type, external)
+      end function dlerror
+
+      subroutine model_program(path, length) bind(c)
+         import :: c_char, c_size_t
+         implicit none (type, external)
+         character(kind=c_char), intent(out) :: path(*)
+         integer(c_size_t), value :: length
+      end subroutine model_program
+
+      subroutine model_list(folder, names, length) bind(c)
+         import :: c_char, c_size_t
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: folder(*)
+         character(kind=c_char), intent(inout) :: names(*)
+         integer(c_size_t), value :: length
+      end subroutine model_list
+   end interface
+
+contains
+
+   !> Open a compiled model by its name. It has no parameters yet.
+   subroutine open_model(name, model, error)
+      !> Name of the definition
+      character(len=*), intent(in) :: name
+      !> The model
+      type(model_type), intent(out) :: model
+      !> Error if there is no model of this name, or one that does not fit this program
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: path
+      type(c_ptr) :: library
+
+      path = path_of(name)
+      if (path == "") then
+         call raise(error, "no model '"//name//"' in "//model_folders()//"; expected one of: " &
+                    //in_a_list(list_models("")))
+         return
+      end if
+      library = dlopen(path//c_null_char, now)
+      if (.not. c_associated(library)) then
+         call raise(error, path//": cannot be opened: "//reason()//"; compile the model again")
+         return
+      end if
+      if (has(library, "description")) then
+         call c_f_procpointer(procedure_of(library, "description"), model%code%description)
+      end if
+      if (.not. fits(model%code%description)) then
+         call raise(error, path//": is no model for this program; compile it again")
+         return
+      end if
+      call find_procedures(library, model%code)
+      call model%read_sizes()
+   end subroutine open_model
+
+   !> Names of the models that there are with a beginning, without this.
+   function list_models(beginning) result(names)
+      !> How the names begin
+      character(len=*), intent(in) :: beginning
+      character(len=word_length), allocatable :: names(:)
+      character(kind=c_char, len=path_length) :: found
+      character(len=:), allocatable :: rest
+      integer :: at, i
+
+      found = c_null_char
+      rest = model_folders()//":"
+      do while (len(rest) > 0)
+         at = index(rest, ":")
+         call model_list(rest(:at - 1)//c_null_char, found, int(path_length, c_size_t))
+         rest = rest(at + 1:)
+      end do
+      at = index(found, c_null_char)
+      ! a blank is before each name
+      allocate (names(count([(found(i:i) == " ", i=1, at)])))
+      if (size(names) > 0) read (found(:at - 1), *) names
+      names = pack(names, index(names, beginning) == 1)
+      do i = 1, size(names)
+         names(i) = names(i) (len(beginning) + 1:)
+      end do
+   end function list_models
+
+   !> Path of the object of a model; empty if there is none. A name is no path.
+   function path_of(name) result(path)
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: path, rest
+      integer :: at
+      logical :: there
+
+      path = ""
+      if (verify(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") > 0) return
+      rest = model_folders()//":"
+      do while (len(rest) > 0)
+         at = index(rest, ":")
+         path = rest(:at - 1)//"/"//name//".so"
+         inquire (file=path, exist=there)
+         if (there) return
+         rest = rest(at + 1:)
+      end do
+      path = ""
+   end function path_of
+
+   !> The folders of models, with colons between them.
+   function model_folders() result(folders)
+      character(len=:), allocatable :: folders
+      character(len=path_length) :: value
+      character(kind=c_char, len=path_length) :: program
+      integer :: length
+
+      call get_environment_variable("MODELS", value, length)
+      if (length > 0) then
+         folders = trim(value)
+         return
+      end if
+      call model_program(program, int(path_length, c_size_t))
+      folders = program(:index(program, c_null_char) - 1)
+      folders = folders(:index(folders, "/", back=.true.) - 1)
+      folders = folders(:index(folders, "/", back=.true.))//"models" &
+                //merge("_quad", "     ", storage_size(1.0_wp) > 64)
+      folders = trim(folders)
+   end function model_folders
+
+   !> Names with commas between them.
+   pure function in_a_list(names) result(list)
+      character(len=*), intent(in) :: names(:)
+      character(len=:), allocatable :: list
+      integer :: i
+
+      list = ""
+      do i = 1, size(names)
+         list = list//trim(names(i))
+         if (i < size(names)) list = list//", "
+      end do
+   end function in_a_list
+
+   !> Whether a description begins with the digest and the kind of reals of this program.
+   logical function fits(description)
+      procedure(describe_line), pointer, intent(in) :: description
+      character(len=*), parameter :: &
+         expected = interface_digest//" "//achar(iachar("0") + storage_size(1.0_wp)/32)
+      character(kind=c_char) :: text(letters)
+      integer :: i
+
+      fits = .false.
+      if (.not. associated(description)) return
+      if (description(1, text) /= len(expected)) return
+      fits = all([(text(i) == expected(i:i), i=1, len(expected))])
+   end function fits
+
+   !> All procedures of a model.
+   subroutine find_procedures(library, code)
+      type(c_ptr), intent(in) :: library
+      type(code_type), intent(inout) :: code
+
+      call c_f_procpointer(procedure_of(library, "rhs"), code%rhs)
+      call c_f_procpointer(procedure_of(library, "jacobian"), code%jacobian)
+      call c_f_procpointer(procedure_of(library, "series"), code%series)
+      call c_f_procpointer(procedure_of(library, "tangent_series"), code%tangent_series)
+      call c_f_procpointer(procedure_of(library, "delayed"), code%delayed)
+      if (has(library, "relaxation_rate")) then
+         call c_f_procpointer(procedure_of(library, "relaxation_rate"), code%relaxation_rate)
+         call c_f_procpointer(procedure_of(library, "slow_series"), code%slow_series)
+         call c_f_procpointer(procedure_of(library, "slow_tangent_series"), &
+                              code%slow_tangent_series)
+      end if
+      if (has(library, "steady_state")) then
+         call c_f_procpointer(procedure_of(library, "steady_state"), code%steady_state)
+         call c_f_procpointer(procedure_of(library, "derivative"), code%derivative)
+         call c_f_procpointer(procedure_of(library, "characteristic_terms"), &
+                              code%characteristic_terms)
+      end if
+      if (has(library, "past")) then
+         call c_f_procpointer(procedure_of(library, "past"), code%past)
+         call c_f_procpointer(procedure_of(library, "past_series"), code%past_series)
+      end if
+   end subroutine find_procedures
+
+   logical function has(library, name)
+      type(c_ptr), intent(in) :: library
+      character(len=*), intent(in) :: name
+
+      has = c_associated(procedure_of(library, name))
+   end function has
+
+   !> The address of a procedure of a model; null if it has none.
+   type(c_funptr) function procedure_of(library, name) result(address)
+      type(c_ptr), intent(in) :: library
+      character(len=*), intent(in) :: name
+
+      address = dlsym(library, "model_"//name//c_null_char)
+   end function procedure_of
+
+   !> Why the last opening failed.
+   function reason() result(words)
+      character(len=:), allocatable :: words
+      character(kind=c_char), pointer :: text(:)
+      integer :: i, length
+
+      call c_f_pointer(dlerror(), text, [path_length])
+      length = 0
+      do while (text(length + 1) /= c_null_char)
+         length = length + 1
+      end do
+      allocate (character(len=length) :: words)
+      do i = 1, length
+         words(i:i) = text(i)
+      end do
+   end function reason
+end module model_library
