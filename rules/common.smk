@@ -8,12 +8,16 @@ from scripts.namelists import laws
 from scripts.namelists.chains import motion_chains, stiffness_of_modes
 from scripts.figures import registry
 from scripts.namelists.study_cases import measured_study
+from scripts.results import models
 from scripts.results.programs import BUILD, PAPER, RUNS
 from scripts.workflow.script_imports import modules_of
 
 
 wildcard_constraints:
     law="|".join(config["laws"]),
+    built=r"build/(release|users/[\w-]+)",
+    quad="|_quad",
+    model=r"\w+",
     scene="|".join(config["scenes"]),
     chain="|".join(config["chains"]),
     motion="|".join(motion_chains(config)),
@@ -30,8 +34,8 @@ wildcard_constraints:
     case=r"\w+",
 
 
-BUILT = f"build/users/{Path(plan.results).name}" if config["laws"] else "build/release"
-"""The folder of the programs: those with a user's laws are by themselves."""
+BUILT = f"build/users/{Path(plan.results).name}"
+"""The folder of models with a user's laws."""
 
 
 def digest_of_files(paths):
@@ -58,26 +62,32 @@ def files_in(*folders, endings):
     return sorted(str(path) for path in files if path.suffix in endings)
 
 
-@functools.cache
-def sources_of(program):
-    """Sources that a program is built from: its own and all modules."""
-    return [
-        *(
-            "fortran/CMakeLists.txt",
-            "fortran/CMakePresets.json",
-            "fortran/dde/CMakeLists.txt",
-            "generator/CMakeLists.txt",
-        ),
-        f"fortran/app/{program}.f90",
-        *files_in("src", "dde/src", endings={".f90", ".c", ".in", ".yaml"}),
-        *files_in("../generator", endings={".f90", ".py", ".jinja"}),
-    ]
+SOURCES = [
+    *("fortran/CMakeLists.txt", "fortran/CMakePresets.json"),
+    *("fortran/dde/CMakeLists.txt", "generator/CMakeLists.txt"),
+    *files_in("app", "src", "dde/src", "../generator/fortran", endings={".f90", ".c", ".in"}),
+]
+"""Sources of the program in double and in quadruple precision."""
+OF_MODELS = [
+    "fortran/dde/src/api/dde_kinds.f90",
+    *files_in("../generator", endings={".py", ".jinja"}),
+    *(f"generator/fortran/{name}.f90" for name in ("model_border", "nilpotent_numbers")),
+]
+"""What all models are made with."""
 
 
 @functools.cache
-def digest_of(program):
-    """A digest of a program's sources: what it computes is stale once they change, built or not."""
-    return digest_of_files(sources_of(program))
+def digest_of_program():
+    """A digest of the program's sources: what it computes is stale once they change, built or not."""
+    return digest_of_files(SOURCES)
+
+
+@functools.cache
+def digest_of_model(model):
+    """A digest of what a model is made of; a user's law is in the configuration."""
+    law = models.law_of(model)
+    parts = [path for path in models.parts_of(model, {}, "") if Path(path).exists()]
+    return digest_of_files([*OF_MODELS, *parts]), config["laws"].get(law)
 
 
 def fill_in(value):
@@ -98,13 +108,33 @@ def groups_of(run):
     return find_groups
 
 
-def laws_of(run):
-    """Definitions of the user's laws that a run's namelist names, by the wildcards."""
+def models_of(run):
+    """Models that a run opens, by the wildcards."""
 
-    def find_laws(wildcards):
-        return laws.users_definitions(config, run.groups(config, **wildcards))
+    def find_models(wildcards):
+        return models.models_in(run.groups(config, **wildcards), run.command)
 
-    return find_laws
+    return find_models
+
+
+def objects_of(run):
+    """Compiled models that a run opens, by the wildcards."""
+
+    def find_objects(wildcards):
+        return models.objects_of(models_of(run)(wildcards), config["laws"], BUILT, run.quad)
+
+    return find_objects
+
+
+def digests_of_models(run):
+    """Digests of the models that a run opens, by the wildcards."""
+
+    def find_digests(wildcards):
+        return {
+            model: digest_of_model(model) for model in sorted(models_of(run)(wildcards))
+        }
+
+    return find_digests
 
 
 def tables_read(figure):

@@ -18,32 +18,47 @@ rule law:
         "../scripts/namelists/write_law.py"
 
 
-rule build:
-    """A Fortran program, built from its sources and the user's laws."""
+rule program:
+    """The program, in double or in quadruple precision, built from its sources."""
 
     # by time too: a program built by CMake alone has no record of its digest
     input:
-        lambda wildcards: sources_of(wildcards.program),
-        users=expand(f"{BUILT}/laws/{{law}}.yaml", law=config["laws"]),
+        SOURCES,
     output:
-        f"{BUILT}/bin/{{program}}",
+        "build/release/bin/spring_block{quad}",
     log:
-        "<results>/logs/build/{program}.log",
+        "<results>/logs/build/spring_block{quad}.log",
     priority: BUILD
     localrule: True
     threads: 2
     params:
-        digest=lambda wildcards: digest_of(wildcards.program),
-        laws=";".join(
-            str(Path.cwd() / BUILT / f"laws/{law}.yaml") for law in config["laws"]
-        ),
+        digest=digest_of_program(),
     # two builds must not write one build folder at the same time
     shell:
         "(flock 9"
-        " && folder=$(dirname {output:q})/.."
-        " && cmake --preset release -S fortran -B $folder -DUSERS_LAWS={params.laws:q}"
-        " && cmake --build $folder --parallel {threads} --target {wildcards.program:q}_program)"
+        " && cmake --preset release -S fortran"
+        " && cmake --build build/release --parallel {threads} --target spring_block{wildcards.quad})"
         " > {log:q} 2>&1 9> build/lock || {{ cat {log:q} >&2; exit 1; }}"
+
+
+rule model:
+    """A model, compiled from its definition: the program opens it by name."""
+    input:
+        lambda wildcards: models.parts_of(
+            wildcards.model, config["laws"], wildcards.built
+        ),
+    output:
+        "{built}/models{quad}/{model}.so",
+    log:
+        "<results>/logs/{built}/models{quad}/{model}.log",
+    priority: BUILD
+    localrule: True
+    params:
+        digest=lambda wildcards: digest_of_model(wildcards.model),
+        quad=lambda wildcards: "--quad" if wildcards.quad else "",
+    shell:
+        "python -P -m generator {params.quad} --name {wildcards.model:q} {input:q} {output:q}"
+        " > {log:q} 2>&1 || {{ cat {log:q} >&2; exit 1; }}"
 
 
 for run in RUNS:
@@ -71,7 +86,8 @@ for run in RUNS:
             run.rule
         input:
             **{name: f"<results>/{path}" for name, path in run.needs.items()},
-            program=f"{BUILT}/bin/{run.program}",
+            program=f"build/release/bin/{run.program}",
+            models=objects_of(run),
             namelist=f"<results>/{run.namelist_path}",
         output:
             f"<results>/{run.output}",
@@ -83,10 +99,13 @@ for run in RUNS:
         localrule: not run.takes_minutes
         params:
             groups=groups_of(run),
-            sources=digest_of(run.program),
-            laws=laws_of(run),
+            sources=digest_of_program(),
+            models=digests_of_models(run),
+            command=run.command,
+            folders=":".join(models.folders_of(config["laws"], BUILT, run.quad)),
         shell:
-            "OMP_NUM_THREADS={threads} {input.program:q} {input.namelist:q} {output:q}"
+            "OMP_NUM_THREADS={threads} MODELS={params.folders:q}"
+            " {input.program:q} {params.command} {input.namelist:q} {output:q}"
             " 2> {log:q} || {{ grep -v ' %, ' {log:q} >&2; exit 1; }}"
 
 

@@ -13,6 +13,8 @@ PAPER = "slip_delayed_logarithm"
 """The law of equation (4)."""
 PREFIX = "quasistatic_"
 """What stands before the name of a law without inertia."""
+CHAIN = "chain_"
+"""What stands before the name of the law of a chain of blocks."""
 
 
 @cache
@@ -84,22 +86,6 @@ def spoken(law: str) -> str:
     return law.replace("_", " ")
 
 
-def users_definitions(config: dict, groups) -> dict[str, dict]:
-    """The user's laws that groups of a namelist name."""
-    users = config.get("laws", {})
-    named = {name.removeprefix(PREFIX) for name in _named_laws(groups)}
-    return {name: users[name] for name in sorted(named) if name in users}
-
-
-def _named_laws(value) -> set[str]:
-    if isinstance(value, dict):
-        own = {value["law"]} if isinstance(value.get("law"), str) else set()
-        return own.union(*map(_named_laws, value.values()))
-    if isinstance(value, list):
-        return set().union(*map(_named_laws, value))
-    return set()
-
-
 def check_law(name: str, law: dict) -> None:
     """Refuse a law from which no model can be made; raise ConfigError saying why."""
     # needs SymPy, which takes half a second to load
@@ -109,9 +95,10 @@ def check_law(name: str, law: dict) -> None:
     place = f"config laws {name}"
     if name in built_in():
         raise ConfigError(f"{place}: the project has a law of this name; expected another name")
-    if name.startswith(PREFIX):
+    if name.startswith((PREFIX, CHAIN)):
         raise ConfigError(
-            f"{place}: {PREFIX}NAME is the law NAME without inertia; expected another"
+            f"{place}: {PREFIX}NAME is the law NAME without inertia, {CHAIN}NAME that of a chain;"
+            " expected another"
         )
     try:
         write_module(read_model(overlaid(read(BLOCK), definition(name, law))))

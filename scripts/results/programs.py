@@ -1,6 +1,6 @@
-"""The runs of Fortran programs: which results each makes, from which namelist, and in which order.
+"""The runs of the program: which results each makes, from which namelist, and in which order.
 
-A new program is an entry here: its rules follow from it (rules/programs.smk).
+A new command is an entry here: its rules follow from it (rules/programs.smk).
 """
 
 from collections.abc import Callable
@@ -19,10 +19,10 @@ BUILD, PAPER, LONGEST, LONG = 10, 3, 2, 1
 
 @dataclass(frozen=True)
 class Run:
-    """One kind of run: a program, its namelist and its output (paths in the results)."""
+    """One kind of run: a command, its namelist and its output (paths in the results)."""
 
     rule: str
-    program: str
+    command: str
     output: str
     """Path of the output, with wildcards."""
     groups: Callable[..., dict]
@@ -37,6 +37,13 @@ class Run:
     priority: int = 0
     takes_minutes: bool = False
     """Whether the run is a job of its own on a cluster."""
+    quad: bool = False
+    """Whether it is computed in quadruple precision."""
+
+    @property
+    def program(self) -> str:
+        """Name of the program that has the command."""
+        return "spring_block_quad" if self.quad else "spring_block"
 
     @property
     def stem(self) -> str:
@@ -104,6 +111,7 @@ RUNS = [
     Run("synchrony_runs", "synchrony", "synchrony/{scene}.nc", chains.synchrony_groups, **LONG_RUN),
     Run(
         *("reference", "reference", "references/{study}/{case}.tsv", groups.reference_groups),
+        quad=True,
         **LONG_RUN,
     ),
     Run("measurement", "measure", "measurements/{study}/{case}.nc", groups.measurement_groups),
