@@ -21,7 +21,7 @@ from scripts.namelists.chains import chain_groups, histories_of
 from scripts.namelists.write_namelist import write_namelist
 
 SOLVERS = ("ours", "jitcdde")
-PROGRAM = BUILD / "bin" / "trajectory"
+PROGRAM = [BUILD / "bin" / "spring_block", "trajectory"]
 JITCDDE = [str(HERE / ".venv" / "bin" / "python"), "-Es", str(HERE / "jitcdde_chain_worker.py")]
 PLACES = {
     0.8: {"tau": 10.0, "epsilon": 0.5, "xi": 0.8, "kappa": 1.0},
@@ -85,12 +85,12 @@ def run_program(groups: dict[str, dict], folder: Path) -> tuple[float, float]:
     output.unlink(missing_ok=True)
     before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     memory = 0.0
-    with subprocess.Popen([PROGRAM, namelist, output], stderr=subprocess.DEVNULL) as process:
+    with subprocess.Popen([*PROGRAM, namelist, output], stderr=subprocess.DEVNULL) as process:
         while process.poll() is None:
             memory = max(memory, peak_memory_of(process))
             time.sleep(0.002)
     if process.returncode != 0:
-        raise SolverError(f"{PROGRAM.name} ended with status {process.returncode}")
+        raise SolverError(f"{PROGRAM[0].name} ended with status {process.returncode}")
     return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before, memory
 
 

@@ -65,13 +65,18 @@ def files_in(*folders, endings):
 SOURCES = [
     *("fortran/CMakeLists.txt", "fortran/CMakePresets.json"),
     *("fortran/dde/CMakeLists.txt", "generator/CMakeLists.txt"),
-    *files_in("app", "src", "dde/src", "../generator/fortran", endings={".f90", ".c", ".in"}),
+    *files_in(
+        "app", "src", "dde/src", "../generator/fortran", endings={".f90", ".c", ".in"}
+    ),
 ]
 """Sources of the program in double and in quadruple precision."""
 OF_MODELS = [
     "fortran/dde/src/api/dde_kinds.f90",
     *files_in("../generator", endings={".py", ".jinja"}),
-    *(f"generator/fortran/{name}.f90" for name in ("model_border", "nilpotent_numbers")),
+    *(
+        f"generator/fortran/{name}.f90"
+        for name in ("model_border", "nilpotent_numbers")
+    ),
 ]
 """What all models are made with."""
 
@@ -121,7 +126,9 @@ def objects_of(run):
     """Compiled models that a run opens, by the wildcards."""
 
     def find_objects(wildcards):
-        return models.objects_of(models_of(run)(wildcards), config["laws"], BUILT, run.quad)
+        return models.objects_of(
+            models_of(run)(wildcards), config["laws"], BUILT, run.quad
+        )
 
     return find_objects
 

@@ -35,12 +35,10 @@ from scripts.workflow.plan import Plan, read_plan
 ROOT = Path(__file__).parent.parent
 SMOKE = ("--configfile", "config/smoke.yaml")
 """Arguments for a run in smoke size; further config files may follow, targets must stand before."""
-PROGRAMS = [
+COMMANDS = [
     *("trajectory", "spectrum", "hopf", "linear_stability", "velocity_step", "exponents", "cycles"),
     *("attractors", "measure", "reference", "slip_events", "synchrony"),
 ]
-BUILT = "spectrum"
-"""The program that the smoke run builds."""
 GROUPS = {
     "trajectory": "scene",
     "spectrum": "spectrum",
@@ -50,7 +48,7 @@ GROUPS = {
     "velocity_step": "velocity_step",
     "slip_events": "scene",
 }
-"""Namelist group of each program that reads one alone, as tests name it."""
+"""Namelist group of each command that reads one alone, as tests name it."""
 MADE = set(".git .venv .snakemake build __pycache__ .pytest_cache .ruff_cache".split())
 """Folders that hold none of the project's own files, beside the one of the results."""
 
@@ -134,13 +132,18 @@ class Programs:
     binaries: Path
     folder: Path
 
+    def command(self, name: str) -> list[Path | str]:
+        """The program that has this command, and the command."""
+        program = "spring_block_quad" if name == "reference" else "spring_block"
+        return [self.binaries / program, name]
+
     @property
     def output(self) -> Path:
         return self.folder / "output.nc"
 
     def run(self, program: str, *arguments: str | Path) -> subprocess.CompletedProcess[str]:
         return subprocess.run(
-            [self.binaries / program, *arguments],
+            [*self.command(program), *arguments],
             cwd=self.folder,
             capture_output=True,
             text=True,
@@ -150,7 +153,7 @@ class Programs:
     def begin(self, program: str, **options) -> subprocess.Popen:
         """A run in the background that has begun to write; the options are those of Popen."""
         before = unfinished(self.output)
-        command = [self.binaries / program, "input.nml", self.output.name]
+        command = [*self.command(program), "input.nml", self.output.name]
         run = subprocess.Popen(command, cwd=self.folder, **options)
         wait_for(lambda: bool(unfinished(self.output) - before))
         return run
@@ -259,26 +262,34 @@ def shared(tmp_path_factory) -> Path:
 
 @pytest.fixture(scope="session")
 def binaries() -> Path:
-    """The folder of the project's own programs; they are built where they are not up to date."""
+    """The folder of the project's programs; they and all models are built where not up to date."""
     with locked(ROOT / "build" / "lock"):
-        build = ["--build", "build/release", "--parallel", "2"]
+        targets = ["spring_block", "spring_block_quad", "blocks", "blocks_quad"]
+        build = ["--build", "build/release", "--parallel", "2", "--target", *targets]
         for command in (["--preset", "release", "-S", "fortran"], build):
             run = subprocess.run(["cmake", *command], cwd=ROOT, capture_output=True, text=True)
             assert run.returncode == 0, run.stdout + run.stderr
     return ROOT / "build" / "release" / "bin"
 
 
+def copy_all(source: Path, target: Path) -> None:
+    """Copy a file or a folder."""
+    target.parent.mkdir(parents=True, exist_ok=True)
+    if source.is_dir():
+        shutil.copytree(source, target)
+    else:
+        shutil.copy(source, target)
+
+
 @pytest.fixture(scope="session")
 def smoke_run(binaries, shared) -> tuple[Project, str]:
-    """The whole workflow in smoke size, and its log; it builds one program of all."""
+    """The whole workflow in smoke size, and its log; it builds the program."""
     project, log = Project(shared / "smoke" / "project"), shared / "smoke" / "log"
     with locked(shared / "smoke.lock"):
         if not log.exists():
             copy_of_project(project.folder)
-            given = project.folder / "build" / "release" / "bin"
-            given.mkdir(parents=True)
-            for program in set(PROGRAMS) - {BUILT}:
-                shutil.copy(binaries / program, given)
+            for made in ("bin/spring_block_quad", "models", "models_quad"):
+                copy_all(binaries.parent / made, project.folder / "build" / "release" / made)
             run = project.snakemake(*SMOKE)
             assert run.returncode == 0, run.stdout
             log.write_text(run.stdout)

@@ -38,5 +38,5 @@ def needed_for(target: str, jobs: list[Job]) -> set[Job]:
 def data_of_jobs(jobs: set[Job]) -> set[str]:
     """Programs and data files that they make, each by folder and name."""
     made = {path for job in jobs for path in job.made}
-    data = re.compile(r"\.nc$|/bin/\w+$")
+    data = re.compile(r"\.nc$|\.so$|/bin/\w+$")
     return {"/".join(path.split("/")[-2:]) for path in made if data.search(path)}

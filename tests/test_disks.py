@@ -23,8 +23,8 @@ def test_program_on_such_a_disk(programs, good_groups, program, disk, reason):
     if program == "reference":
         # a long table: a small one has room
         disk = disk.replace("size=4k", "size=4k,nr_inodes=1")
-    binary = programs.binaries / program
-    run = on_disk(disk, "disk", programs.folder, binary, "input.nml", "disk/output")
+    command = programs.command(program)
+    run = on_disk(disk, "disk", programs.folder, *command, "input.nml", "disk/output")
     assert run.returncode == 1
     assert run.stderr == f"error: disk/output: cannot write: {reason}{REMEDY}"
     assert run.stdout == ""
@@ -34,10 +34,10 @@ def test_disk_that_fills_up_ends_a_trajectory(programs, good_inputs):
     """At once: all of it would take minutes."""
     values = {**good_inputs["trajectory"], "t_end": 1e8}
     programs.write({"scene": values})
-    binary = programs.binaries / "trajectory"
+    command = programs.command("trajectory")
     begun = time.monotonic()
     disk = FULL.replace("4k", "1m")
-    run = on_disk(disk, "disk", programs.folder, binary, "input.nml", "disk/output")
+    run = on_disk(disk, "disk", programs.folder, *command, "input.nml", "disk/output")
     assert time.monotonic() - begun < 20
     assert run.returncode == 1
     last = run.stderr.splitlines(keepends=True)[-1]

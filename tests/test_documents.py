@@ -95,6 +95,8 @@ def is_made(path: str) -> bool:
     wanted = re.sub(r"^results/mine(/|$)", r"results/", path).rstrip("/")
     if program := re.fullmatch(r"build/release/bin/(\w+)", wanted):
         return (ROOT / "fortran" / "app" / f"{program[1]}.f90").is_file()
+    if wanted == "build/release/models/NAME.so":
+        return True
     if wanted.endswith("/.venv"):
         return (ROOT / wanted).with_name("requirements.lock").is_file()
     folder = "/".join(wanted.split("/")[:2])

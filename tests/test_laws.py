@@ -11,6 +11,7 @@ from scripts.files.inputs import read
 from scripts.files.read_config import ConfigError
 from scripts.namelists import laws
 from scripts.namelists.program_groups import hopf_groups, scene_groups
+from scripts.results.models import models_in
 
 MINE = {
     "evolution": "-speed*v*(theta + (1 + epsilon)*log(v(t - tau)))",
@@ -30,14 +31,14 @@ def test_default_of_a_parameter_reaches_the_program(with_law):
     assert groups["scene"]["parameters"]["law"] == "mine"
     assert groups["scene"]["parameters"]["own"] == [1.0]
     assert "speed" not in groups["scene"]
-    assert list(laws.users_definitions(with_law, groups)) == ["mine"]
+    assert models_in(groups) == {"mine"}
 
 
 def test_law_without_inertia_has_one_parameter_more(with_law):
     with_law["hopf_curves"]["tau_of_epsilon"] |= {"law": "quasistatic_mine", "zeta": 0.1}
     groups = hopf_groups(checked(with_law), "tau_of_epsilon")
     assert groups["hopf_curves"]["own"] == [1.0, 0.1]
-    assert list(laws.users_definitions(with_law, groups)) == ["mine"]
+    assert models_in(groups) == {"quasistatic_mine"}
     words = laws.law_in_words(with_law, with_law["hopf_curves"]["tau_of_epsilon"])
     assert words == "quasistatic_mine (speed = 1, zeta = 0.1)"
 

@@ -8,7 +8,7 @@ from conftest import ROOT
 
 FORTRAN = ROOT / "fortran"
 GENERATOR = ROOT / "generator"
-REGISTRIES = ("model_registry", "chain_registry")
+MADE = ("model_interface",)
 """Modules that are made when the project is built."""
 MAY_USE = {
     "bindings": {"bindings", "api"},
@@ -18,7 +18,7 @@ MAY_USE = {
     "methods": {"methods", "bindings", "api"},
     "study": {"study", "methods", "model", "generator", "bindings", "api"},
     "io": {"io", "study", "methods", "model", "generator", "files", "api"},
-    "app": {"io", "study", "methods", "model", "api"},
+    "app": {"app", "io", "study", "methods", "model", "api"},
 }
 """For each layer: the layers that its modules may use; `api` is what a user of the solver sees,
 `files` is what of the bindings reads and writes."""
@@ -28,14 +28,20 @@ FILES = ("file_system", "process")
 LIBRARIES = {
     "bindings": {"iso_c_binding"},
     "dde": {"ieee_arithmetic", "iso_fortran_env"},
+    "generator": {"ieee_arithmetic", "iso_c_binding"},
     "model": {"ieee_arithmetic"},
     "methods": {"ieee_arithmetic", "iso_c_binding"},
     "study": {"ieee_arithmetic"},
     "io": {"ieee_arithmetic", "iso_fortran_env", "netcdf"},
 }
 """For each layer: modules of others that it may use."""
-MAY_SPEAK = {"program_arguments", "progress"}
-"""The modules that end programs and tell how far they have come."""
+PROGRAMS = [FORTRAN / "app" / f"{name}.f90" for name in ("spring_block", "spring_block_quad")]
+"""The sources that are no modules, in the folder of the commands."""
+MAY_SPEAK = {"namelist_input", "program_arguments", "progress", "spring_block"}
+"""The modules that end programs, show help and tell how far they have come; or
+which find that a model is gone after it was checked."""
+MAY_OPEN = {"model_library"}
+"""The module that opens compiled models."""
 
 
 def code_of(text: str) -> str:
@@ -64,7 +70,7 @@ SOURCES = {
     )
 }
 """Text of each file."""
-MODULES = {path: text for path, text in SOURCES.items() if layer_of(path) != "app"}
+MODULES = {path: text for path, text in SOURCES.items() if path not in PROGRAMS}
 """Text of each module."""
 
 
@@ -79,7 +85,7 @@ def uses_of(text: str) -> list[str]:
 def layers() -> dict[str, str]:
     """Layer of each module; those that others may use are layers of their own."""
     by_folder = {name_of(path): layer_of(path) for path in MODULES}
-    made = dict.fromkeys(REGISTRIES, "generator")
+    made = dict.fromkeys(MADE, "generator")
     return by_folder | made | dict.fromkeys(API, "api") | dict.fromkeys(FILES, "files")
 
 
@@ -137,6 +143,11 @@ def test_files_are_short_and_named_after_their_module():
 
 def test_only_some_modules_print_and_stop():
     assert {name_of(path) for path in MODULES if output_statements(MODULES[path])} == MAY_SPEAK
+
+
+def test_only_one_module_opens_models():
+    opened = {path for path, text in SOURCES.items() if "dlopen" in code_of(text)}
+    assert {name_of(path) for path in opened} == MAY_OPEN
 
 
 def test_versions_agree():

@@ -12,7 +12,9 @@ from pathlib import Path
 import netCDF4
 import pytest
 import xarray as xr
-from conftest import PROGRAMS, ROOT, Programs
+from conftest import COMMANDS, ROOT, Programs
+
+from generator.module import interface_digest
 
 REFUSED = {
     "trajectory": ("scene", "tau", -1.0, "scene 'torus': tau = -1.0; expected a finite number >= "),
@@ -30,7 +32,7 @@ REFUSED = {
 }
 """For each program: a group, a key, a value that is refused, and words of the refusal."""
 
-every_program = pytest.mark.parametrize("program", PROGRAMS)
+every_program = pytest.mark.parametrize("program", COMMANDS)
 each_kind = pytest.mark.parametrize("program", ["spectrum", "reference"])
 """One that reads NetCDF and writes it, and one that writes text."""
 
@@ -158,7 +160,7 @@ def test_memory_that_cannot_be_had_is_an_error(programs, good_groups):
     """The past of a stiff run in short steps outgrows a process of at most 150 MB."""
     good_groups["trajectory"]["scene"] |= {"gamma": 1e4, "method": "explicit"}
     programs.write(good_groups["trajectory"])
-    program = [programs.binaries / "trajectory", "input.nml", "output.nc"]
+    program = [*programs.command("trajectory"), "input.nml", "output.nc"]
     limited = ["prlimit", "--as=150000000", *program]
     run = subprocess.run(limited, cwd=programs.folder, capture_output=True, text=True, timeout=60)
     said = refusal(programs, run)
@@ -290,3 +292,60 @@ def test_spectrum_of_an_unfit_trajectory_is_refused(programs, good_groups, chang
     line = refusal(programs, programs.run_groups("spectrum", good_groups["spectrum"]))
     assert "unfit.nml" in line
     assert words in line
+
+
+def test_help_lists_commands_and_keys(programs):
+    """The keys are those of the types that the command reads."""
+    program, _ = programs.command("hopf")
+    listed = subprocess.run([program, "--help"], capture_output=True, text=True, check=True).stdout
+    assert set(COMMANDS) - {"reference"} <= set(listed.split())
+    keys = programs.run("hopf", "--help")
+    assert (keys.returncode, keys.stderr) == (0, "")
+    assert "hopf_curves%gamma= must be given" in keys.stdout
+    assert programs.left_behind() == []
+
+
+def test_unknown_command_is_refused(programs):
+    line = refusal(programs, programs.run("hop", "input.nml", "output.nc"))
+    assert line.startswith("error: the command 'hop'; expected one of: trajectory, spectrum, ")
+
+
+def other_interface(content: bytes) -> bytes:
+    """A model that was compiled for another interface."""
+    digest = interface_digest().encode()
+    assert content.count(digest) == 1
+    return content.replace(digest, digest[::-1])
+
+
+@pytest.mark.parametrize(
+    ("damage", "words"),
+    [
+        (None, "tau = -1.0; expected a finite number >= 0"),
+        (lambda content: None, "law = 'slip_delayed_logarithm'; expected one of"),
+        (lambda content: content[:1000], "/slip_delayed_logarithm.so: cannot be opened: "),
+        (lambda content: b"", "/slip_delayed_logarithm.so: cannot be opened: "),
+        (other_interface, "/slip_delayed_logarithm.so: is no model for this program; compile it "),
+    ],
+    ids=["there", "missing", "truncated", "empty", "older"],
+)
+def test_model_that_cannot_be_opened_is_refused(programs, good_groups, monkeypatch, damage, words):
+    """One in words, no crash; models of double precision are none for quadruple precision."""
+    name = "slip_delayed_logarithm.so"
+    content = (programs.binaries.parent / "models" / name).read_bytes()
+    models = programs.folder.with_name("models")
+    models.mkdir()
+    if (content := damage(content) if damage else content) is not None:
+        (models / name).write_bytes(content)
+    monkeypatch.setenv("MODELS", str(models))
+    good_groups["trajectory"]["scene"]["tau"] = -1.0
+    assert words in refusal(programs, programs.run_groups("trajectory", good_groups["trajectory"]))
+    if damage is None:
+        run = programs.run_groups("reference", good_groups["reference"])
+        assert "is no model for this program" in refusal(programs, run)
+
+
+@pytest.mark.parametrize("law", ["../models/slip_cut_off", "chain_slip_cut_off", "slip cut off"])
+def test_law_that_is_no_name_of_one_is_refused(programs, good_groups, law):
+    good_groups["trajectory"]["scene"]["law"] = law
+    line = refusal(programs, programs.run_groups("trajectory", good_groups["trajectory"]))
+    assert f"law = '{law}'; expected one of 'ageing_delayed_logarithm' " in line

@@ -167,7 +167,7 @@ def test_program_that_fails_leaves_no_output(scratch):
     the log."""
     told, reason = "trajectory: 5 %, 1 of 20, 2 s left", "error: it cannot go on"
     words = f"echo half >\"$2\"; echo '{told}' >&2; echo '{reason}' >&2; exit 3"
-    write_script(scratch.folder / "build" / "release" / "bin" / "trajectory", words)
+    write_script(scratch.folder / "build" / "release" / "bin" / "spring_block", words)
     (scratch.folder / "mine.yaml").write_text(MY_SCENE)
     run = scratch.reproduce("mine.yaml", "results/mine/trajectories/mine.nc")
     assert run.returncode != 0
@@ -183,12 +183,12 @@ def test_build_that_fails_leaves_no_program(project):
     """The compiler's words are on the screen and in the log."""
     with open(project.folder / "fortran" / "dde" / "src" / "api" / "dde_kinds.f90", "a") as source:
         source.write("this is no Fortran\n")
-    run = project.snakemake("build/release/bin/velocity_step")
+    run = project.snakemake("build/release/bin/spring_block")
     assert run.returncode != 0
     assert "this is no Fortran" in run.stdout
-    log = project.folder / "results" / "logs" / "build" / "velocity_step.log"
+    log = project.folder / "results" / "logs" / "build" / "spring_block.log"
     assert "this is no Fortran" in log.read_text()
-    assert not (project.folder / "build" / "release" / "bin" / "velocity_step").exists()
+    assert not (project.folder / "build" / "release" / "bin" / "spring_block").exists()
 
 
 def test_paper_can_be_run_with_other_settings_in_another_folder(smoke, tmp_path):

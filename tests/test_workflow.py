@@ -108,12 +108,15 @@ def planned(fresh) -> list[Job]:
     return jobs_in(run.stdout)
 
 
-TRAJECTORY = {"build", "trajectory_namelist", "trajectory"}
+TRAJECTORY = {"program", "model", "trajectory_namelist", "trajectory"}
 SPECTRUM = {*TRAJECTORY, "spectrum_namelist", "spectrum"}
-SCENES = {"build", "scene_attractors_namelist", "scene_attractors", "attractors_table"}
-REFERENCE = {"build", "reference_namelist", "reference"}
+SCENES = {"program", "model", "scene_attractors_namelist", "scene_attractors", "attractors_table"}
+REFERENCE = {"program", "model", "reference_namelist", "reference"}
 WORK_PRECISION = {"measurement_namelist", "measurement", "trusted_horizons"}
 WORK_PRECISION |= {"work_precision_runs_namelist", "work_precision_runs", "work_precision_table"}
+
+
+CHAOS = {"trajectories/chaos.nc", "spectra/chaos.nc"}
 
 
 @pytest.mark.parametrize(
@@ -124,11 +127,15 @@ WORK_PRECISION |= {"work_precision_runs_namelist", "work_precision_runs", "work_
         (
             "figure_7",
             SPECTRUM,
-            {"bin/trajectory", "trajectories/chaos.nc", "bin/spectrum", "spectra/chaos.nc"},
+            {"bin/spring_block", "models/slip_delayed_logarithm.so", *CHAOS},
         ),
         ("fault_limit", {"fault_limit_table"}, set()),
         ("work_precision", REFERENCE | WORK_PRECISION, None),
-        ("results/references/stability/strong.tsv", REFERENCE, {"bin/reference"}),
+        (
+            "results/references/stability/strong.tsv",
+            REFERENCE,
+            {"bin/spring_block_quad", "models_quad/slip_delayed_logarithm.so"},
+        ),
     ],
 )
 def test_target_needs_only_its_own_rules(planned, target, rules, data):

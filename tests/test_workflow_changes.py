@@ -4,7 +4,7 @@ import os
 import shutil
 
 import pytest
-from conftest import BUILT, ROOT, SMOKE, Project, rules_in
+from conftest import ROOT, SMOKE, Project, rules_in
 from dry_runs import data_of_jobs, jobs_in
 
 from scripts.figures.registry import FIGURES
@@ -45,7 +45,7 @@ def test_results_of_changed_scripts_are_stale(scratch):
     change(scratch, *scripts())
     said = scratch.snakemake("--summary", *SMOKE).stdout
     rows = [line.split("\t") for line in said.splitlines() if line.count("\t") == 5]
-    programs = {run.rule for run in RUNS} | {"build", "rule"}
+    programs = {run.rule for run in RUNS} | {"program", "model", "rule"}
     statuses = {row[2]: row[4] for row in rows if row[2] not in programs}
     assert len(statuses) > 30
     assert {rule: status for rule, status in statuses.items() if status != "params changed"} == {}
@@ -66,15 +66,15 @@ def test_changed_files_of_the_project_make_their_results_anew(scratch):
 def test_results_of_an_older_program_are_computed_again(scratch):
     """Also where the build of the new one was interrupted, which leaves no program."""
     result = "results/spectra/torus.nc"
-    change(scratch, f"fortran/app/{BUILT}.f90")
+    change(scratch, "fortran/app/spectrum_command.f90")
     lock = scratch.folder / "build" / "lock"
     lock.unlink()
     lock.mkdir()
     assert scratch.snakemake(result, *SMOKE).returncode != 0
-    assert not (scratch.folder / "build" / "release" / "bin" / BUILT).exists()
+    assert not (scratch.folder / "build" / "release" / "bin" / "spring_block").exists()
     lock.rmdir()
     run = scratch.snakemake("--dry-run", result, *SMOKE)
-    assert rules_in(run.stdout) == {"build", "spectrum"}
+    assert rules_in(run.stdout) == {"program", "spectrum"}
 
 
 def test_changed_scene_reruns_only_what_depends_on_it(scratch):

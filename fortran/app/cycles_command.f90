@@ -14,8 +14,8 @@ module cycles_command
 
 contains
 
-   !> Cycles along a line of parameters: stable and unstable branches, their special points, and curves
-   !> of these over epsilon and tau.
+   !> Cycles along a line of parameters: stable and unstable branches, their special points, and
+   !> curves of these over epsilon and tau.
    subroutine run_cycles(namelist_path, output_path)
       !> Path of the namelist
       character(len=*), intent(in) :: namelist_path

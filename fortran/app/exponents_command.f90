@@ -5,7 +5,6 @@ module exponents_command
    use dde_errors, only: error_type
    use exponents_files, only: exponents_settings_type, read_exponents, write_exponents
    use lyapunov_spectrum, only: growth_settings_type, growth_type, measure_growth
-   use namelist_input, only: elements
    use program_arguments, only: stop_on
    use progress, only: progress_type
    use scene_input, only: read_histories, scene_type
@@ -27,7 +26,6 @@ contains
       type(error_type), allocatable :: error
       type(exponents_settings_type) :: settings
       type(growth_type), allocatable :: measured(:)
-      type(integration_options) :: own
       type(integration_options), allocatable :: options(:)
       type(progress_type) :: report
       type(scene_type) :: scene
@@ -40,26 +38,18 @@ contains
       call read_histories(namelist_path, scene, histories, error)
       call stop_on(error)
       block_model = spring_block_type(scene%parameters, histories)
-      own = scene%options()
-      associate (tolerances => elements(settings%check_tolerances), &
-                 steps => elements(settings%check_steps))
-         allocate (options(1 + size(tolerances) + size(steps)), source=own)
-         options(2:1 + size(tolerances))%relative = tolerances
-         options(2:1 + size(tolerances))%absolute = tolerances
-         options(2 + size(tolerances):)%longest_step = steps
-      end associate
+      options = settings%options_of_runs(scene%options())
       allocate (measured(size(options)))
-      call comes_to_rest(block_model, scene%t_transient, settings%t_end, own, rest, error)
+      call comes_to_rest(block_model, scene%t_transient, settings%t_end, options(1), rest, error)
       call stop_on(error)
       report = progress_type("exponents of "//trim(scene%name), parts=size(options))
       do i = 1, size(options)
          call report%begin_part(i)
          call measure_growth(block_model, &
-                             growth_settings_type( &
-                             exponents=settings%count, t_begin=scene%t_transient, &
-                             t_end=settings%t_end, t_turning=settings%t_turning, &
-                             interval=settings%interval, blocks=settings%blocks, &
-                             across_flow=.not. rest), &
+                             growth_settings_type(settings%count, scene%t_transient, &
+                                                  settings%t_end, settings%t_turning, &
+                                                  settings%interval, settings%blocks, &
+                                                  across_flow=.not. rest), &
                              options(i), measured(i), error, progress=report)
          if (allocated(error)) exit
       end do

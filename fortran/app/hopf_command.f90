@@ -13,7 +13,8 @@ module hopf_command
 
 contains
 
-   !> Hopf curves in one plane of parameters, their special points, and the number of unstable pairs.
+   !> Hopf curves in one plane of parameters, their special points, and the number of unstable
+   !> pairs.
    subroutine run_hopf(namelist_path, output_path)
       !> Path of the namelist
       character(len=*), intent(in) :: namelist_path

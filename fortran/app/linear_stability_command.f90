@@ -41,7 +41,8 @@ contains
       without_delay%tau = 0.0_wp
       pairs = [roots_right_of(block_characteristic(settings%parameters), 0.0_wp), &
                roots_right_of(block_characteristic(without_delay), 0.0_wp)]/2
-      call write_linear_stability(output_path, settings, roots, pairs, with_tau, with_epsilon, error)
+      call write_linear_stability(output_path, settings, roots, pairs, with_tau, with_epsilon, &
+                                  error)
       call stop_on(error)
    end subroutine run_linear_stability
 end module linear_stability_command

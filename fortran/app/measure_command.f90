@@ -15,8 +15,8 @@ module measure_command
 
 contains
 
-   !> Measured runs: cases solved by several methods at several tolerances, with what each run gave and
-   !> what it cost. A run that fails is a row with its reason.
+   !> Measured runs: cases solved by several methods at several tolerances, with what each run
+   !> gave and what it cost. A run that fails is a row with its reason.
    subroutine run_measure(namelist_path, output_path)
       !> Path of the namelist
       character(len=*), intent(in) :: namelist_path

@@ -38,11 +38,13 @@ contains
       call stop_on(error)
 
       interval = trajectory%sample_interval
-      first = findloc(trajectory%t >= trajectory%t_transient*(1.0_wp - epsilon(1.0_wp)), .true., dim=1)
+      first = findloc(trajectory%t >= trajectory%t_transient*(1.0_wp - epsilon(1.0_wp)), .true., &
+                      dim=1)
       v = trajectory%v(first:)
       if (allocated(trajectory%u)) then
          interval = interval/finer
-         v = 1.0_wp + smoothed_slope(trajectory%t(first:), trajectory%u(first:), v - 1.0_wp, interval)
+         v = 1.0_wp + smoothed_slope(trajectory%t(first:), trajectory%u(first:), v - 1.0_wp, &
+                                     interval)
       end if
       call power_spectrum(v, interval, settings%window, settings%segments, settings%overlap, &
                           frequency, power, error)

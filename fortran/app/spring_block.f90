@@ -15,16 +15,26 @@ program spring_block_program
    implicit none (type, external)
 
    call run_command([ &
-                     command_type("trajectory", "Trajectory of a scene, or of a chain of blocks", run_trajectory), &
-                     command_type("spectrum", "Power spectrum of v over a trajectory, with its peaks labelled", run_spectrum), &
-                     command_type("slip_events", "Slip events of the blocks of a scene", run_slip_events), &
-                     command_type("exponents", "Lyapunov exponents of a scene", run_exponents), &
-                     command_type("attractors", "Attractors on a grid of parameters, with their classes", run_attractors), &
-                     command_type("hopf", "Hopf curves in a plane of parameters, and their special points", run_hopf), &
-                     command_type("linear_stability", "Roots and linear stability of steady sliding", run_linear_stability), &
-                     command_type("cycles", "Cycles along a line of parameters, and curves of their special points", run_cycles), &
-                     command_type("synchrony", "Growth of disturbances of chains that move as one block", run_synchrony), &
-                     command_type("velocity_step", "Response of friction to steps of the velocity", run_velocity_step), &
-                     command_type("measure", "Errors and costs of several methods on given cases", run_measure) &
-                    ])
+                    command_type("trajectory", run_trajectory, &
+                                 "Trajectory of a scene, or of a chain of blocks"), &
+                    command_type("spectrum", run_spectrum, &
+                                 "Power spectrum of v over a trajectory, with its peaks labelled"), &
+                    command_type("slip_events", run_slip_events, &
+                                 "Slip events of the blocks of a scene"), &
+                    command_type("exponents", run_exponents, &
+                                 "Lyapunov exponents of a scene"), &
+                    command_type("attractors", run_attractors, &
+                                 "Attractors on a grid of parameters, with their classes"), &
+                    command_type("hopf", run_hopf, &
+                                 "Hopf curves in a plane of parameters, and their special points"), &
+                    command_type("linear_stability", run_linear_stability, &
+                                 "Roots and linear stability of steady sliding"), &
+                    command_type("cycles", run_cycles, &
+                                 "Cycles along a line of parameters, and curves of their special points"), &
+                    command_type("synchrony", run_synchrony, &
+                                 "Growth of disturbances of chains that move as one block"), &
+                    command_type("velocity_step", run_velocity_step, &
+                                 "Response of friction to steps of the velocity"), &
+                    command_type("measure", run_measure, &
+                                 "Errors and costs of several methods on given cases")])
 end program spring_block_program

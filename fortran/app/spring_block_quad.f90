@@ -4,6 +4,6 @@ program spring_block_quad
    use reference_command, only: run_reference
    implicit none (type, external)
 
-   call run_command([command_type("reference", "Reference solutions with their uncertainty", &
-                                  run_reference)])
+   call run_command([command_type("reference", run_reference, &
+                                  "Reference solutions with their uncertainty")])
 end program spring_block_quad

@@ -37,7 +37,7 @@ module model_border
 
    abstract interface
       !> A line of the description: words between tabs. Its length; 0 beyond the last line.
-      integer(c_int) function describe_line(number, text) bind(c)
+      integer(c_int) function describe_line(number, text) result(length) bind(c)
          import :: c_char, c_int, line_length
          implicit none (type, external)
          integer(c_int), intent(in) :: number

@@ -9,33 +9,37 @@ module model_library
    use model_border, only: describe_line, expand, expand_past, expand_tangents, find_delayed, &
                            find_forms, find_jacobian, find_past, find_rate, find_rhs, find_state, &
                            list_terms, letters => line_length
+   use model_description, only: sizes_of, word_length
    use model_interface, only: interface_digest
-   use model_problem, only: code_type, model_type, word_length
+   use model_problem, only: code_type, model_type
    implicit none (type, external)
    private
    public :: list_models, open_model
 
    !> Letters of paths, and of lists of names.
    integer, parameter :: path_length = 4096
+   !> What names of models are made of.
+   character(len=*), parameter :: &
+      letters_of_names = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_"
    !> dlopen: all symbols at once.
    integer(c_int), parameter :: now = 2
 
    interface
-      type(c_ptr) function dlopen(path, flags) bind(c)
+      type(c_ptr) function dlopen(path, flags) result(library) bind(c)
          import :: c_char, c_int, c_ptr
          implicit none (type, external)
          character(kind=c_char), intent(in) :: path(*)
          integer(c_int), value :: flags
       end function dlopen
 
-      type(c_funptr) function dlsym(library, name) bind(c)
+      type(c_funptr) function dlsym(library, name) result(address) bind(c)
          import :: c_char, c_funptr, c_ptr
          implicit none (type, external)
          type(c_ptr), value :: library
          character(kind=c_char), intent(in) :: name(*)
       end function dlsym
 
-      type(c_ptr) function dlerror() bind(c)
+      type(c_ptr) function dlerror() result(text) bind(c)
          import :: c_ptr
          implicit none (type, external)
       end function dlerror
@@ -88,7 +92,7 @@ contains
          return
       end if
       call find_procedures(library, model%code)
-      call model%read_sizes()
+      model%sizes = sizes_of(model%code%description)
    end subroutine open_model
 
    !> Names of the models that there are with a beginning, without this.
@@ -125,7 +129,7 @@ contains
       logical :: there
 
       path = ""
-      if (verify(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") > 0) return
+      if (verify(name, letters_of_names) > 0) return
       rest = model_folders()//":"
       do while (len(rest) > 0)
          at = index(rest, ":")
@@ -171,17 +175,17 @@ contains
    end function in_a_list
 
    !> Whether a description begins with the digest and the kind of reals of this program.
-   logical function fits(description)
+   logical function fits(description) result(value)
       procedure(describe_line), pointer, intent(in) :: description
       character(len=*), parameter :: &
          expected = interface_digest//" "//achar(iachar("0") + storage_size(1.0_wp)/32)
       character(kind=c_char) :: text(letters)
       integer :: i
 
-      fits = .false.
+      value = .false.
       if (.not. associated(description)) return
       if (description(1, text) /= len(expected)) return
-      fits = all([(text(i) == expected(i:i), i=1, len(expected))])
+      value = all([(text(i) == expected(i:i), i=1, len(expected))])
    end function fits
 
    !> All procedures of a model.
@@ -212,11 +216,11 @@ contains
       end if
    end subroutine find_procedures
 
-   logical function has(library, name)
+   logical function has(library, name) result(value)
       type(c_ptr), intent(in) :: library
       character(len=*), intent(in) :: name
 
-      has = c_associated(procedure_of(library, name))
+      value = c_associated(procedure_of(library, name))
    end function has
 
    !> The address of a procedure of a model; null if it has none.

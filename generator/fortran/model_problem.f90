@@ -2,44 +2,17 @@
 !> of the solver, its derivatives of any order at the steady state, and its characteristic function.
 !> `open_model` (model_library) fills it with the procedures of a shared object.
 module model_problem
-   use, intrinsic :: iso_c_binding, only: c_char, c_int
+   use, intrinsic :: iso_c_binding, only: c_int
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde, only: problem_with_tangents
    use dde_kinds, only: wp
    use model_border, only: describe_line, expand, expand_past, expand_tangents, find_delayed, &
                            find_forms, find_jacobian, find_past, find_rate, find_rhs, find_state, &
-                           list_terms, letters => line_length, shape_type
+                           list_terms, shape_type
+   use model_description, only: description_of, description_type, sizes_type
    implicit none (type, external)
    private
-   public :: code_type, description_type, line_length, model_type, parameter_type, unbounded, &
-             word_length
-
-   !> Letters of names; of meanings and equations.
-   integer, parameter :: word_length = 64, line_length = 512
-   !> Bound of a parameter that has none.
-   real(wp), parameter :: unbounded = -huge(1.0_wp)
-
-   !> A parameter.
-   type :: parameter_type
-      !> Its name
-      character(len=word_length) :: name = ""
-      !> What it is
-      character(len=line_length) :: meaning = ""
-      !> Its unit, or "nondimensional"
-      character(len=word_length) :: unit = ""
-      !> Values are above this, and at least that
-      real(wp) :: above = unbounded, at_least = unbounded
-   end type parameter_type
-
-   !> What a definition says, for messages and files.
-   type :: description_type
-      !> Name, and where the equations are from
-      character(len=line_length) :: name = "", source = ""
-      !> Parameters
-      type(parameter_type), allocatable :: parameters(:)
-      !> Equations and definitions as they are written, one a line
-      character(len=line_length), allocatable :: equations(:)
-   end type description_type
+   public :: code_type, model_type
 
    !> Procedures of a compiled model. Those that it has not are not associated.
    type :: code_type
@@ -62,12 +35,8 @@ module model_problem
    type, extends(problem_with_tangents) :: model_type
       !> The compiled procedures
       type(code_type) :: code
-      !> Numbers of parameters, equations with their parts, states and delayed states of the
-      !> definition, and of terms of the characteristic function
-      integer :: count = 0, equations = 0, states = 0, delayed = 0, terms = 0
-      !> Equations of a chain with a second difference, and the states of which they take it, shape
-      !> (2, couplings)
-      integer, allocatable :: couplings(:, :)
+      !> Sizes of the definition
+      type(sizes_type) :: sizes
       !> Parameters, in the order of the definition
       real(wp), allocatable :: parameters(:)
       !> States up to the initial time, shape (n)
@@ -83,8 +52,6 @@ module model_problem
    contains
       !> What the definition says
       procedure :: describe
-      !> Read the sizes from the description
-      procedure :: read_sizes
       !> Give the model its parameters and its past
       procedure :: set
       !> Whether it has blocks with neighbours
@@ -113,82 +80,9 @@ contains
    function describe(self) result(description)
       class(model_type), intent(in) :: self
       type(description_type) :: description
-      character(len=line_length) :: words(4)
-      integer :: equation, number, parameter
-      real(wp) :: bound
 
-      allocate (description%parameters(self%count), description%equations(self%equations))
-      equation = 0
-      parameter = 0
-      number = 2
-      do while (has_line(self%code%description, number, words))
-         select case (words(1))
-         case ("name")
-            description%name = words(2)
-         case ("source")
-            description%source = words(2)
-         case ("equation")
-            equation = equation + 1
-            description%equations(equation) = words(2)
-         case ("parameter")
-            parameter = parameter + 1
-            description%parameters(parameter) = parameter_type(words(2), words(3), words(4))
-         case ("above", "at_least")
-            read (words(2), *) bound
-            associate (one => description%parameters(parameter))
-               if (words(1) == "above") one%above = bound
-               if (words(1) == "at_least") one%at_least = bound
-            end associate
-         end select
-         number = number + 1
-      end do
+      description = description_of(self%code%description, self%sizes)
    end function describe
-
-   !> Read the sizes, which are the first lines of the description after that of the interface.
-   subroutine read_sizes(self)
-      class(model_type), intent(inout) :: self
-      character(len=line_length) :: words(6)
-      integer :: number, pair(2)
-
-      allocate (self%couplings(2, 0))
-      number = 2
-      do while (has_line(self%code%description, number, words))
-         select case (words(1))
-         case ("sizes")
-            read (words(2:6), *) self%count, self%equations, self%states, self%delayed, self%terms
-         case ("coupling")
-            read (words(2:3), *) pair
-            self%couplings = reshape([self%couplings, pair], [2, size(self%couplings, 2) + 1])
-         case default
-            return
-         end select
-         number = number + 1
-      end do
-   end subroutine read_sizes
-
-   !> A line of a description, if there is one, in words.
-   logical function has_line(description, number, words)
-      procedure(describe_line), pointer, intent(in) :: description
-      integer, intent(in) :: number
-      character(len=*), intent(out) :: words(:)
-      character(kind=c_char) :: text(letters)
-      integer :: at, i, length, word
-
-      length = description(number, text)
-      has_line = length > 0
-      words = ""
-      word = 1
-      at = 0
-      do i = 1, length
-         if (text(i) == achar(9)) then
-            word = word + 1
-            at = 0
-         else if (word <= size(words) .and. at < len(words)) then
-            at = at + 1
-            words(word) (at:at) = text(i)
-         end if
-      end do
-   end function has_line
 
    !> Give a model its parameters and its past. A delay of 0 is none unless it is kept. A chain has
    !> its neighbours before.
@@ -200,8 +94,8 @@ contains
       real(wp), intent(in) :: past(:)
       !> Whether delays of 0 are delayed values, too; .false. unless given
       logical, intent(in), optional :: keep_delays
-      integer(c_int) :: component(self%delayed)
-      real(wp) :: lag(self%delayed)
+      integer(c_int) :: component(self%sizes%delayed)
+      real(wp) :: lag(self%sizes%delayed)
       logical, allocatable :: kept(:)
       integer :: block, k, states
 
@@ -234,8 +128,8 @@ contains
       integer, intent(in) :: states
       integer :: block, k
 
-      associate (shape => self%shape, row => self%couplings(1, :), &
-                 column => self%couplings(2, :))
+      associate (shape => self%shape, row => self%sizes%couplings(1, :), &
+                 column => self%sizes%couplings(2, :))
          shape%reach = 1
          do block = 1, shape%blocks
             associate (beside => [self%left(block), self%right(block)])
@@ -251,11 +145,11 @@ contains
    end subroutine set_band
 
    !> Whether it has blocks with neighbours, even one block.
-   pure logical function is_chain(self)
+   pure logical function is_chain(self) result(value)
       class(model_type), intent(in) :: self
 
-      is_chain = allocated(self%left)
-      if (is_chain) is_chain = size(self%left) > 0
+      value = allocated(self%left)
+      if (value) value = size(self%left) > 0
    end function is_chain
 
    !> The past holds up to the initial time.
@@ -373,7 +267,8 @@ contains
       end if
    end subroutine slow_series
 
-   !> Better Taylor coefficients of disturbances of the slow solution; not a number if there is none.
+   !> Better Taylor coefficients of disturbances of the slow solution; not a number if there are
+   !> none.
    pure subroutine slow_tangent_series(self, t, unit, degree, z, before, y, vectors, dz, dy)
       class(model_type), intent(in) :: self
       real(wp), intent(in) :: t, unit
@@ -430,7 +325,7 @@ contains
       !> Derivatives by the parameters, shape (terms, parameters)
       real(wp), allocatable, intent(out) :: coefficient_by(:, :), delay_by(:, :)
 
-      associate (terms => self%terms, parameters => size(self%parameters))
+      associate (terms => self%sizes%terms, parameters => size(self%parameters))
          allocate (coefficient(terms), delay(terms), power(terms), part(terms))
          allocate (coefficient_by(terms, parameters), delay_by(terms, parameters), source=0.0_wp)
          if (terms == 0) return

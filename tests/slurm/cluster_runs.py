@@ -43,8 +43,8 @@ def running_program(folder: Path, besides: str = "") -> Program | None:
         with contextlib.suppress(*GONE):
             words, job = process.cmdline(), process.environ().get("SLURM_JOB_ID")
             here = words and job and process.cwd() == str(folder)
-            if here and words[0].startswith("build/release/bin/") and words[1] != besides:
-                return Program(process, job, words[1])
+            if here and words[0].startswith("build/release/bin/") and words[2] != besides:
+                return Program(process, job, words[2])
     return None
 
 
@@ -58,9 +58,9 @@ def cluster() -> Iterator[Cluster]:
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory) -> Project:
-    """A copy of the project with the atlas's program; not to be changed."""
+    """A copy of the project with its program; not to be changed."""
     project = copy_of_project(tmp_path_factory.mktemp("built") / "project")
-    run = project.snakemake(*SHORT_PARTS, "--", "build/release/bin/attractors")
+    run = project.snakemake(*SHORT_PARTS, "--", "build/release/bin/spring_block")
     assert run.returncode == 0, run.stdout
     return project
 

@@ -4,7 +4,7 @@ module block_attributes
                                history_names, parameter_names, vector_of
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
-   use model_problem, only: description_type
+   use model_description, only: description_type
    use netcdf_output, only: output_file_type
    use scene_input, only: scene_type
    implicit none (type, external)

@@ -9,7 +9,7 @@ module exponents_files
    use exponent_averages, only: average_growth, dimension_of, exponent_type, running_averages, &
                                 sign_bound, without_sign
    use lyapunov_spectrum, only: growth_type
-   use namelist_input, only: namelist_file_type
+   use namelist_input, only: elements, namelist_file_type
    use netcdf_output, only: output_file_type
    use scene_input, only: check_scene, scene_type
    use value_checks, only: absent, check_count, missing, missing_count
@@ -35,12 +35,29 @@ module exponents_files
       real(wp) :: check_tolerances(8) = absent
       !> Longest steps with which all is measured once more
       real(wp) :: check_steps(8) = absent
+   contains
+      procedure :: options_of_runs
    end type exponents_settings_type
 
    !> Most times of running averages.
    integer, parameter :: most_times = 400
 
 contains
+
+   !> Options of all runs: those of the scene, others with its tolerances, and with shorter steps.
+   pure function options_of_runs(self, own) result(options)
+      class(exponents_settings_type), intent(in) :: self
+      !> Options of the scene
+      type(integration_options), intent(in) :: own
+      type(integration_options), allocatable :: options(:)
+
+      associate (tolerances => elements(self%check_tolerances), steps => elements(self%check_steps))
+         allocate (options(1 + size(tolerances) + size(steps)), source=own)
+         options(2:1 + size(tolerances))%relative = tolerances
+         options(2:1 + size(tolerances))%absolute = tolerances
+         options(2 + size(tolerances):)%longest_step = steps
+      end associate
+   end function options_of_runs
 
    !> Read and check a scene and the settings of its exponents.
    subroutine read_exponents(path, scene, exponents, error)

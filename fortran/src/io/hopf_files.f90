@@ -11,7 +11,7 @@ module hopf_files
    use hopf_planes, only: curve_plane_type
    use hopf_points, only: hopf_point_type
    use namelist_input, only: namelist_file_type, word_length
-   use model_problem, only: law_length => word_length
+   use model_description, only: law_length => word_length
    use netcdf_output, only: output_file_type
    use stability_map, only: middles
    use value_checks, only: absent, check_choice, missing, missing_count

@@ -5,7 +5,7 @@ module points_input
    use block_parameters, only: block_history_type, block_parameters_type, most_own
    use dde_errors, only: error_type
    use dde_kinds, only: wp
-   use model_problem, only: law_length => word_length
+   use model_description, only: law_length => word_length
    use namelist_input, only: word_length
    use value_checks, only: absent, check_choice, check_count, missing, missing_count
    implicit none (type, external)

@@ -1,5 +1,5 @@
-!> The command line of the program, which does one of its commands with a namelist and the path of the
-!> output, and how it ends.
+!> The command line of the program: a command, a namelist file and the path of the output. How the
+!> program ends.
 module program_arguments
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use dde_errors, only: error_type, raise
@@ -23,16 +23,16 @@ module program_arguments
    type :: command_type
       !> Its name
       character(len=20) :: name
-      !> What it makes
-      character(len=70) :: about
       !> What it does
       procedure(run_with_paths), pointer, nopass :: run
+      !> What it makes
+      character(len=70) :: about
    end type command_type
 
 contains
 
-   !> Run the command that the first argument names with the paths that the others are, or show help.
-   !> If the arguments are wrong, or the input cannot be read, or the output cannot be written, the
+   !> Run the command of the first argument with the paths that the others are, or show help. If
+   !> the arguments are wrong, or the input cannot be read, or the output cannot be written, the
    !> program ends.
    subroutine run_command(commands)
       !> All commands of the program

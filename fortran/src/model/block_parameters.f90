@@ -5,8 +5,9 @@ module block_parameters
    use chain, only: chain_ends, ends_length => word_length
    use dde_errors, only: error_type
    use dde_kinds, only: wp
+   use model_description, only: description_type, unbounded, word_length
    use model_library, only: list_models, open_model
-   use model_problem, only: description_type, model_type, unbounded, word_length
+   use model_problem, only: model_type
    use value_checks, only: absent, check_choice, check_count, check_number, missing
    implicit none (type, external)
    private
@@ -115,7 +116,7 @@ contains
       real(wp), allocatable :: vector(:)
       integer :: own
 
-      own = model%count - size(parameter_names)
+      own = model%sizes%parameters - size(parameter_names)
       ! of a chain the last one is kappa
       if (model%is_chain()) own = own - 1
       vector = [vector_of(parameters), parameters%own(:own)]

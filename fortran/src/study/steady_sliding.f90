@@ -10,7 +10,8 @@ module steady_sliding
    use exponent_averages, only: exponent_type
    use dde_kinds, only: wp
    use root_counts, only: roots_right_of
-   use spring_block, only: block_characteristic, components_of_block, index_of_ln_v, spring_block_type
+   use spring_block, only: block_characteristic, components_of_block, index_of_ln_v, &
+                           spring_block_type
    implicit none (type, external)
    private
    public :: comes_to_rest, settles, sliding_exponents

@@ -13,7 +13,7 @@ module test_hopf_condition
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use paper_equations, only: delta, hopf_epsilon, hopf_tau, hopf_xi, relative_residual
    use printed_delay, only: printed_tau
-   use model_problem, only: word_length
+   use model_description, only: word_length
    use pseudo_random, only: uniform
    use spring_block, only: block_characteristic, spring_block_type
    implicit none (type, external)

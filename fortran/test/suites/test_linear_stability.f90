@@ -91,7 +91,7 @@ contains
                                 "residual of root "//text(j)//" of block "//text(i))
          end do
          do j = 1, size(bounds)
-            call expect(error, count(real(roots) > bounds(j)) == roots_right_of(block_characteristic(p), bounds(j)), &
+            call expect(error, count(real(roots) > bounds(j)) == roots_right(p, bounds(j)), &
                         "number of roots of block "//text(i)//" above "//text(bounds(j)) &
                         //" by the argument")
          end do
@@ -143,10 +143,10 @@ contains
             p = block_parameters_type(xi=10.0_wp**j, gamma=gamma)
             lost = gamma**2*p%xi/(p%xi + gamma**2)
             p%epsilon = 0.9_wp*lost
-            call expect(error, roots_right_of(block_characteristic(p), 0.0_wp) == 0, "stable at gamma = "//text(gamma) &
+            call expect(error, roots_right(p, 0.0_wp) == 0, "stable at gamma = "//text(gamma) &
                         //", xi = "//text(p%xi))
             p%epsilon = 1.1_wp*lost
-            call expect(error, roots_right_of(block_characteristic(p), 0.0_wp) == 2, "unstable at gamma = "//text(gamma))
+            call expect(error, roots_right(p, 0.0_wp) == 2, "unstable at gamma = "//text(gamma))
          end do
       end do
    end subroutine test_extremes
@@ -240,7 +240,7 @@ contains
                call find_roots(equation%linear, bound, roots, failure)
                call expect_success(error, failure)
                if (allocated(error)) return
-               call expect(error, size(roots) == roots_right_of(block_characteristic(p), bound), "number of roots at " &
+               call expect(error, size(roots) == roots_right(p, bound), "number of roots at " &
                            //"tau "//text(p%tau)//", xi "//text(p%xi)//", gamma "//text(p%gamma))
                do m = 1, size(roots)
                   call expect_close(error, abs(roots(m) - quadruple_root(p, roots(m))) &
@@ -332,4 +332,12 @@ contains
                         closed_tau(points%omega, 0.5_wp, 0.01_wp, 0), 1.0e-9_wp, &
                         "delays in closed form")
    end subroutine test_narrow
+
+   !> Roots to the right of a line, by the principle of the argument.
+   integer function roots_right(p, bound) result(number)
+      type(block_parameters_type), intent(in) :: p
+      real(wp), intent(in) :: bound
+
+      number = roots_right_of(block_characteristic(p), bound)
+   end function roots_right
 end module test_linear_stability

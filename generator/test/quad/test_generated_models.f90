@@ -7,8 +7,9 @@ module test_generated_models
    use expectations, only: expect_close, expect_success
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use model_consistency, only: check_forms, check_model
+   use model_description, only: word_length
    use model_library, only: list_models, open_model
-   use model_problem, only: model_type, word_length
+   use model_problem, only: model_type
    use pseudo_random, only: uniform
    use published_problems, only: enzyme, infection, mackey_glass
    use solving, only: at_tolerance, solve
@@ -165,7 +166,7 @@ contains
       do law = 1, size(names)
          do i = 1, 8
             call open_there(error, trim(names(law)), model)
-            own = uniform(10 + i, model%count - 4, 0.1_wp, 1.0_wp)
+            own = uniform(10 + i, model%sizes%parameters - 4, 0.1_wp, 1.0_wp)
             ! from soft to stiff
             call model%set([2.0_wp*modulo(i, 2), uniform(20 + i, 2, 0.3_wp, 2.0_wp), &
                             10.0_wp**(i - 2), own], [0.0_wp, 0.0_wp, 0.0_wp])
@@ -194,7 +195,7 @@ contains
             n = lengths(1 + modulo(i, size(lengths)))
             call open_there(error, "chain_"//trim(names(law)), model)
             call open_there(error, trim(names(law)), one)
-            own = uniform(10 + i, model%count - 5, 0.1_wp, 1.0_wp)
+            own = uniform(10 + i, model%sizes%parameters - 5, 0.1_wp, 1.0_wp)
             ! from soft to stiff, with and without delay
             shared = [2.0_wp*modulo(i, 2), uniform(20 + i, 2, 0.3_wp, 2.0_wp), &
                       10.0_wp**modulo(i, 4), own]

@@ -84,7 +84,8 @@ contains
          call model%jacobian(now, y, z, by_y, by_z)
          return
       end if
-      allocate (band(1 + model%lower + model%upper, size(y)), rows(size(y)/model%shape%blocks, size(z)))
+      allocate (band(1 + model%lower + model%upper, size(y)), &
+                rows(size(y)/model%shape%blocks, size(z)))
       call model%jacobian(now, y, z, band, rows)
       by_y = 0.0_wp
       do j = 1, size(y)
