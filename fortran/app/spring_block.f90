@@ -24,13 +24,13 @@ program spring_block_program
                     command_type("exponents", run_exponents, &
                                  "Lyapunov exponents of a scene"), &
                     command_type("attractors", run_attractors, &
-                                 "Attractors on a grid of parameters, with their classes"), &
+                                 "Attractors on a grid, with their classes"), &
                     command_type("hopf", run_hopf, &
-                                 "Hopf curves in a plane of parameters, and their special points"), &
+                                 "Hopf curves in a plane, and their special points"), &
                     command_type("linear_stability", run_linear_stability, &
                                  "Roots and linear stability of steady sliding"), &
                     command_type("cycles", run_cycles, &
-                                 "Cycles along a line of parameters, and curves of their special points"), &
+                                 "Cycles along a line, and curves of their special points"), &
                     command_type("synchrony", run_synchrony, &
                                  "Growth of disturbances of chains that move as one block"), &
                     command_type("velocity_step", run_velocity_step, &
