@@ -1,6 +1,7 @@
-/* What C alone knows of the folders of models: the program's own place, and the layout of struct dirent. */
+/* What C alone knows of models: the program's own place, their files, and the layout of folders. */
 #define _POSIX_C_SOURCE 200809L
 #include <dirent.h>
+#include <elf.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,6 +12,21 @@ void model_program(char *path, size_t length)
 {
     ssize_t found = readlink("/proc/self/exe", path, length - 1);
     path[found > 0 ? found : 0] = '\0';
+}
+
+/* 1 where all of a shared object is there: its last part is the table of its sections. The system's
+   loader crashes on one that was cut off. */
+int model_is_whole(const char *path)
+{
+    Elf64_Ehdr head;
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return 0;
+    int whole = fread(&head, sizeof head, 1, file) == 1 && fseek(file, 0, SEEK_END) == 0 &&
+                memcmp(head.e_ident, ELFMAG, SELFMAG) == 0 &&
+                (Elf64_Off)ftell(file) >= head.e_shoff + head.e_shnum * head.e_shentsize;
+    fclose(file);
+    return whole;
 }
 
 static int is_model(const struct dirent *entry)

@@ -44,6 +44,12 @@ module model_library
          implicit none (type, external)
       end function dlerror
 
+      integer(c_int) function model_is_whole(path) result(whole) bind(c)
+         import :: c_char, c_int
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: path(*)
+      end function model_is_whole
+
       subroutine model_program(path, length) bind(c)
          import :: c_char, c_size_t
          implicit none (type, external)
@@ -77,6 +83,11 @@ contains
       if (path == "") then
          call raise(error, "no model '"//name//"' in "//model_folders()//"; expected one of: " &
                     //in_a_list(list_models("")))
+         return
+      end if
+      if (model_is_whole(path//c_null_char) == 0) then
+         call raise(error, path//": cannot be opened: it is no whole shared object; " &
+                    //"compile the model again")
          return
       end if
       library = dlopen(path//c_null_char, now)
