@@ -6,11 +6,11 @@ from pathlib import Path
 
 from scripts.namelists import laws
 from scripts.namelists.chains import motion_chains, stiffness_of_modes
-from scripts.figures import registry
+from scripts.plans import registry
 from scripts.namelists.study_cases import measured_study
 from scripts.results import models
 from scripts.results.programs import BUILD, PAPER, RUNS
-from scripts.workflow.script_imports import modules_of
+from scripts.workflow.script_imports import digest_of, modules_of
 
 
 wildcard_constraints:
@@ -43,7 +43,7 @@ def digest_of_files(paths):
 
     Snakemake judges inputs by their times, which an upgrade may keep.
     """
-    digests = [hashlib.sha256(Path(path).read_bytes()).digest() for path in paths]
+    digests = [digest_of(Path(path).absolute()) for path in paths]
     return hashlib.sha256(b"".join(digests)).hexdigest()
 
 
@@ -142,6 +142,15 @@ def digests_of_models(run):
         }
 
     return find_digests
+
+
+def drawings_of(figures):
+    """The modules that draw figures, and those that they import."""
+    return [
+        path
+        for figure in figures
+        for path in modules_of(f"figures/{registry.module_name(figure)}.py")
+    ]
 
 
 def tables_read(figure):

@@ -24,9 +24,7 @@ for figure in plan.figures:
             **fill_in(registry.params_of(figure, config)),
             module=registry.module_name(figure),
             code=code_of(
-                f"figures/{registry.module_name(figure)}.py",
-                *modules_of("figures/make_figure.py"),
-                *tables_read(figure),
+                "figures/make_figure.py", *drawings_of([figure]), *tables_read(figure)
             ),
         script:
             "../scripts/figures/make_figure.py"
@@ -59,6 +57,7 @@ rule captions:
         ),
         code=code_of(
             "figures/write_captions.py",
+            *drawings_of(plan.figures),
             *map(registry.template_of, plan.figures),
             *(path for figure in plan.figures for path in tables_read(figure)),
         ),

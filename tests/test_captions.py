@@ -12,12 +12,12 @@ from made_up_results import attractor_row, hopf_curve, route_rows
 from scripts.claims.claims_results import VERDICTS
 from scripts.claims.ledger import paper_claims
 from scripts.figures import figure_4, plane, stability, work_precision
-from scripts.figures.registry import FIGURES, caption_of, template_of
 from scripts.figures.wording import as_formulas, count, joined, short, shortened
 from scripts.figures.write_captions import caption_of as caption_from
 from scripts.figures.write_captions import render
 from scripts.files.tsv import write_table
 from scripts.page import captions
+from scripts.plans.registry import FIGURES, caption_of, template_of
 from scripts.tables.attractor_tables import same_attractor
 
 

@@ -14,9 +14,9 @@ from snakemake.utils import update_config
 
 from scripts.claims.ledger import check_user_claims
 from scripts.config.check_config import checked
-from scripts.figures.registry import FIGURES
 from scripts.files.read_config import parse, read
 from scripts.namelists.laws import built_in
+from scripts.plans.registry import FIGURES
 from scripts.results.programs import RUNS
 
 RESULTS = "results/README.md"

@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 from scripts.drawing.style import STYLE
-from scripts.figures import registry
-from scripts.figures.make_figure import call
+from scripts.figures.make_figure import call, drawing_of
+from scripts.plans import registry
 
 PLANES = {"figure_2": "tau_of_epsilon", "figure_3": "xi_of_epsilon"}
 
@@ -31,7 +31,7 @@ def drawn(smoke, smoke_config):
         inputs = registry.inputs_of(name, smoke_config)
         inputs = {key: placed(paths) for key, paths in inputs.items()}
         params = registry.params_of(name, smoke_config)
-        figure = call(registry.find(name).module.draw, inputs, params)
+        figure = call(drawing_of(registry.module_name(name)).draw, inputs, params)
         figure.canvas.draw()
         plt.close(figure)
         return figure

@@ -160,8 +160,8 @@ def test_versions_agree():
 
 
 PYTHON_LAYERS = [
-    *("files", "namelists", "config", "results", "tables", "claims", "drawing", "figures"),
-    *("page", "workflow"),
+    *("files", "namelists", "config", "results", "plans", "tables", "claims", "drawing"),
+    *("figures", "page", "workflow"),
 ]
 """Folders of scripts/, from the lowest to the highest."""
 SCRIPTS = {path: path.read_text() for path in sorted((ROOT / "scripts").glob("*/*.py"))}

@@ -16,9 +16,9 @@ from made_up_page import attractor, claim, run
 
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, NOT_TESTABLE, VERDICTS
 from scripts.claims.ledger import paper_claims
-from scripts.figures.registry import FIGURES
 from scripts.files.marked_words import to_html
 from scripts.page import captions, findings, page_content, page_provenance, page_views, write_page
+from scripts.plans.registry import FIGURES
 
 
 class Elements(HTMLParser):

@@ -6,7 +6,7 @@ import zipfile
 
 from conftest import SMOKE
 
-from scripts.figures.registry import FIGURES, title_of
+from scripts.plans.registry import FIGURES, title_of
 
 
 def test_report_holds_figures_captions_and_verdicts(smoke, tmp_path):

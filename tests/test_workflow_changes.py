@@ -7,7 +7,7 @@ import pytest
 from conftest import ROOT, SMOKE, Project, rules_in
 from dry_runs import data_of_jobs, jobs_in
 
-from scripts.figures.registry import FIGURES
+from scripts.plans.registry import FIGURES
 from scripts.results.programs import RUNS
 from scripts.workflow.script_imports import modules_of
 

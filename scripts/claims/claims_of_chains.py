@@ -7,7 +7,7 @@ from typing import Annotated
 from scripts.claims.claims_results import Finding, Results, decided, join, short
 from scripts.claims.declare import Names, claim, number, reads, says, tested_with
 from scripts.tables.chain_motions import moves_alike, rests, strongest_mode
-from scripts.tables.event_laws import RIVALS
+from scripts.tables.names_of_laws import RIVALS
 
 LEVEL = 0.01
 """A law is more likely than another one if chance alone has less than this probability."""

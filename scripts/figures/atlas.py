@@ -1,4 +1,4 @@
-"""Figure of the atlas: classes of motion and the largest exponent over epsilon and tau."""
+"""The drawing of plans/atlas.py, and the numbers of its caption."""
 
 import math
 from collections import Counter
@@ -20,7 +20,6 @@ from scripts.drawing.special_points import STYLES, in_words, words_of
 from scripts.drawing.style import INK
 from scripts.figures.wording import place_in_words, short, with_error
 from scripts.namelists.laws import PAPER, spoken
-from scripts.results.paths import curves_of_atlas, cycles_in_atlas, places_in_atlas, table_of_atlas
 from scripts.tables.motion_rows import (
     count_in_words,
     is_computed,
@@ -36,21 +35,6 @@ CURVES = {kind: {"color": colour, "lw": 0.9} for kind, (_, colour) in STYLES.ite
 """Of special points of cycles, by their kind."""
 EDGE = [withStroke(linewidth=1.7, foreground="white")]
 """Around curves of cycles, so that they are seen over dark cells."""
-SHOWS_CLASSES = True
-
-
-def inputs(config: dict) -> dict:
-    """Classes of motion, and the Hopf curves and curves of cycles in the same planes."""
-    return {
-        "table": table_of_atlas(config),
-        "curves": curves_of_atlas(config),
-        "cycles": cycles_in_atlas(config),
-    }
-
-
-def params(config: dict) -> dict:
-    """Scenes with known attractors."""
-    return {"scenes": places_in_atlas(config)}
 
 
 def draw(

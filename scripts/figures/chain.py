@@ -1,4 +1,4 @@
-"""Chains of blocks: ln v over time and block, how far blocks are apart, and which modes move."""
+"""The drawing of plans/chain.py, and the numbers of its caption."""
 
 import numpy as np
 import xarray as xr
@@ -18,18 +18,12 @@ from scripts.tables.chain_motions import (
     strongest_mode,
 )
 
-VARIABLES = ("v",)
 SHOWN = 150.0
 """Time at the end that the maps show."""
 FLAT = 1e-6
 """ln v that is as near to 0 has no colour."""
 LEAST_SPREAD = 1e-12
 """Standard deviations of ln v below this are rounding errors."""
-
-
-def inputs(config: dict) -> dict:
-    """Trajectories of the chains that the configuration lists."""
-    return {"chains": [f"<results>/chains/{chain}.nc" for chain in config["chains"]]}
 
 
 def draw(chains: list[xr.Dataset]) -> Figure:

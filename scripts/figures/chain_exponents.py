@@ -1,4 +1,4 @@
-"""Exponents of chaotic chains: their spectra over the blocks, and how many are positive."""
+"""The drawing of plans/chain_exponents.py, and the numbers of its caption."""
 
 import numpy as np
 from matplotlib import pyplot as plt
@@ -11,11 +11,6 @@ from scripts.namelists.study_cases import PARAMETERS
 from scripts.tables.chain_motions_table import exponents_of
 
 MARKS = ["o", "s", "^", "D", "v", "P"]
-
-
-def inputs(_config: dict) -> dict:
-    """Motions of chains of blocks of the scenes."""
-    return {"motions": "<results>/tables/chain-motions.tsv"}
 
 
 def families_of(motions: list[dict]) -> dict[tuple, list[dict]]:

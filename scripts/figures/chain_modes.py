@@ -1,4 +1,4 @@
-"""Where modes of a chain are unstable: Hopf curves of all modes over epsilon and tau."""
+"""The drawing of plans/chain_modes.py, and the numbers of its caption."""
 
 import numpy as np
 import xarray as xr
@@ -12,8 +12,6 @@ from matplotlib.patches import Patch
 
 from scripts.drawing import parameters
 from scripts.figures.wording import short
-from scripts.namelists.chains import stiffness_of_modes
-from scripts.results.paths import curves_of_modes
 from scripts.tables.chain_modes_table import mode_rows
 
 REGIONS = {
@@ -21,21 +19,6 @@ REGIONS = {
     "only spatial modes unstable": "#d55e00",
     "the uniform mode unstable": "#d9d9d9",
 }
-
-
-def inputs(config: dict) -> dict:
-    """Hopf curves of each mode in each plane, mode by mode."""
-    return {"curves": curves_of_modes(config)}
-
-
-def params(config: dict) -> dict:
-    """The planes, and the stiffness of each mode."""
-    study = config["chain_modes"]
-    return {
-        "planes": list(study["planes"].values()),
-        "stiffness": stiffness_of_modes(study),
-        "chain": {key: study[key] for key in ("blocks", "kappa", "ends")},
-    }
 
 
 def by_plane(curves: list, planes: list) -> list[list]:

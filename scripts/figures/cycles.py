@@ -1,7 +1,6 @@
-"""Figure of the cycles followed: their greatest v along a parameter, stable or not."""
+"""The drawing of plans/cycles.py, and the numbers of its caption."""
 
 from itertools import groupby
-from pathlib import Path
 from string import ascii_lowercase
 
 import numpy as np
@@ -16,7 +15,6 @@ from scripts.drawing.along_parameter import mark_scenes, maxima_of
 from scripts.drawing.special_points import STYLES, in_words, words_of
 from scripts.drawing.style import FAINT, INK
 from scripts.figures.wording import count, counted_at, place_in_words, short
-from scripts.results.paths import cycles_of_lines, places_in_atlas, sweeps_on_lines
 from scripts.tables.cycle_branches import branch_of
 
 HEIGHT = 1.7
@@ -38,19 +36,6 @@ on top: both show where they agree."""
 SMALL = 0.015
 """Share of the panel's width below which a branch is smaller than the marks of its points."""
 SLIDING = {"color": FAINT, "lw": 0.8, "label": "steady sliding", "zorder": 0}
-
-
-def inputs(config: dict) -> dict:
-    """Cycles of each line, and the sweeps of routes on the same lines."""
-    sweeps = [path for on_line in sweeps_on_lines(config).values() for path in on_line]
-    return {"cycles": cycles_of_lines(config), "sweeps": sweeps}
-
-
-def params(config: dict) -> dict:
-    """Directions of the sweeps on each line, and scenes with known attractors."""
-    sweeps = sweeps_on_lines(config).values()
-    directions = [[Path(path).stem for path in on_line] for on_line in sweeps]
-    return {"directions": directions, "scenes": places_in_atlas(config)}
 
 
 def draw(

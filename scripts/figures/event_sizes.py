@@ -1,4 +1,4 @@
-"""Slip events of chains: their sizes, the cut-off over the number of blocks, and aftershocks."""
+"""The drawing of plans/event_sizes.py, and the numbers of its caption."""
 
 import math
 
@@ -10,22 +10,11 @@ from matplotlib.figure import Figure
 from scripts.drawing.style import FAINT, INK
 from scripts.figures.wording import place_in_words, short, with_error
 from scripts.namelists.study_cases import PARAMETERS
-from scripts.results.paths import events_of_chains
 from scripts.tables.event_laws import LARGEST, WINDOW, times_after_main_shocks
 
 MARKS = ["o", "s", "^", "D", "v", "P"]
 BINS = np.geomspace(0.3, WINDOW, 10)
 """Times after a main shock between which events are counted."""
-
-
-def inputs(config: dict) -> dict:
-    """Events of each chain, and the laws fitted to them."""
-    return {"events": events_of_chains(config), "laws": "<results>/tables/event-sizes.tsv"}
-
-
-def params(config: dict) -> dict:
-    """Names of the chains, in order."""
-    return {"names": list(config["event_sizes"]["chains"])}
 
 
 def laws_of(laws: list[dict], names: list[str]) -> list[dict]:

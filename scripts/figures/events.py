@@ -1,4 +1,4 @@
-"""Figure of slip events: their recurrence times in turn, the distribution of these, and slips."""
+"""The drawing of plans/events.py, and the numbers of its caption."""
 
 import numpy as np
 import xarray as xr
@@ -8,22 +8,11 @@ from matplotlib.figure import Figure
 
 from scripts.drawing import parameters
 from scripts.figures.wording import short
-from scripts.results.paths import paths_of_scenes, scenes_of
 
 EVENTS_SHOWN = 120
 """Events at the start whose recurrence times are shown in turn; the other panels show all."""
 BINS = 30
 TIME = "time (units of $L/v_0$)"
-
-
-def inputs(config: dict) -> dict:
-    """Slip events of the rows."""
-    return {"slip_events": paths_of_scenes("slip_events", scenes_of(config, "events"))}
-
-
-def params(config: dict) -> dict:
-    """Labels of the rows."""
-    return {"labels": list(config["figures"]["events"]["rows"])}
 
 
 def draw(slip_events: list[xr.Dataset], labels: list[str]) -> Figure:

@@ -1,4 +1,4 @@
-"""Figure of exponents: running averages; values by tolerance and by resolution of the history."""
+"""The drawing of plans/exponents.py, and the numbers of its caption."""
 
 import numpy as np
 import xarray as xr
@@ -10,15 +10,9 @@ from matplotlib.ticker import MaxNLocator
 
 from scripts.drawing.style import FAINT
 from scripts.figures.wording import with_error
-from scripts.results.paths import exponents_of_scenes
 
 LEAST_SCALE = 1e-3
 """Exponents closer to zero than this are drawn on a linear scale."""
-
-
-def inputs(config: dict) -> dict:
-    """Exponents of all scenes that ask for them."""
-    return {"runs": exponents_of_scenes(config), "table": "<results>/tables/exponents.tsv"}
 
 
 def draw(runs: list[xr.Dataset], table: list[dict]) -> Figure:

@@ -1,4 +1,4 @@
-"""Figure of the fault limit: where Hopf bifurcations begin over gamma, with and without delay."""
+"""The drawing of plans/fault_limit.py, and the numbers of its caption."""
 
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
@@ -10,11 +10,6 @@ from scripts.tables.fault_limit_table import FAULTS, PAPER
 
 MOST = 1e6
 """End of the axis; beyond it nothing changes."""
-
-
-def inputs(_config: dict) -> dict:
-    """The least epsilon of all Hopf curves over gamma."""
-    return {"table": "<results>/tables/fault-limit.tsv"}
 
 
 def draw(table: list[dict]) -> Figure:

@@ -1,4 +1,4 @@
-"""Figure 1: block and spring between loader plate and rough surface (a drawing, no data)."""
+"""The drawing of plans/figure_1.py, and the numbers of its caption."""
 
 import numpy as np
 from matplotlib import pyplot as plt

@@ -1,4 +1,4 @@
-"""Figure 4: velocity and phase portrait, rows a (fixed point) and b (oscillations)."""
+"""The drawing of plans/figure_4.py, and the numbers of its caption."""
 
 import math
 
@@ -9,25 +9,9 @@ from matplotlib.figure import Figure
 from scripts.drawing import parameters
 from scripts.drawing.trajectories import draw_portrait, draw_velocity, title_columns
 from scripts.figures.wording import short
-from scripts.results.paths import paths_of_scenes, scenes_of
 from scripts.tables.motion_rows import class_in_words, own_rows
 
 COLUMNS = ("from the start", "at the end", "phase portrait")
-VARIABLES = ("u", "v")
-
-
-def inputs(config: dict) -> dict:
-    """Trajectories of the rows, and classes of motion."""
-    return {
-        "table": "<results>/tables/attractors.tsv",
-        "trajectories": paths_of_scenes("trajectories", scenes_of(config, *config["figures"])),
-    }
-
-
-def params(config: dict) -> dict:
-    """Rows with the paper's words, and the times shown."""
-    (settings,) = config["figures"].values()
-    return {"settings": settings}
 
 
 def draw(trajectories: list[xr.Dataset], table: list[dict], settings: dict) -> Figure:

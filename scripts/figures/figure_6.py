@@ -1,4 +1,4 @@
-"""Figure 6: power spectra, rows a (oscillations) and b (the paper's torus)."""
+"""The drawing of plans/figure_6.py, and the numbers of its caption."""
 
 import xarray as xr
 from matplotlib import pyplot as plt
@@ -9,24 +9,12 @@ from matplotlib.ticker import MaxNLocator
 from scripts.drawing.spectra import label_peaks, lines_in_words
 from scripts.drawing.trajectories import title_columns
 from scripts.figures.wording import short
-from scripts.results.paths import paths_of_scenes, scenes_of
 
 WIDTH_OF_A_CHARACTER = 0.0162
 """Of a label, as a share of the wider axis."""
 LEAST_SHOWN = 1e-10
 """Power below this share of the highest peak is not shown."""
 COLUMNS = ("logarithmic scale", "the same on a linear scale")
-
-
-def inputs(config: dict) -> dict:
-    """Spectra of the rows."""
-    return {"spectra": paths_of_scenes("spectra", scenes_of(config, *config["figures"]))}
-
-
-def params(config: dict) -> dict:
-    """Rows with the paper's words, and the frequencies shown."""
-    (settings,) = config["figures"].values()
-    return {"settings": settings}
 
 
 def draw(spectra: list[xr.Dataset], settings: dict) -> Figure:

@@ -1,4 +1,4 @@
-"""Figure 8: response of friction to an up-step and a down-step of the imposed velocity."""
+"""The drawing of plans/figure_8.py, and the numbers of its caption."""
 
 import numpy as np
 import xarray as xr
@@ -10,11 +10,6 @@ from scripts.drawing.style import FAINT, INK
 from scripts.figures.wording import short
 
 ARROW = {"arrowstyle": "<->", "shrinkA": 0, "shrinkB": 0}
-
-
-def inputs(_config: dict) -> dict:
-    """Friction over slip."""
-    return {"response": "<results>/friction/velocity_step.nc"}
 
 
 def draw(response: xr.Dataset) -> Figure:

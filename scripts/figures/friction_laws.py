@@ -1,4 +1,4 @@
-"""Figure of other laws of friction: classes of motion over epsilon and tau, and fastest slip."""
+"""The drawing of plans/friction_laws.py, and the numbers of its caption."""
 
 from collections import Counter
 from string import ascii_lowercase
@@ -20,19 +20,8 @@ from scripts.tables.friction_laws_table import (
 )
 from scripts.tables.motion_rows import COLOURS, kind_of, planes_of
 
-SHOWS_CLASSES = True
 MARKS = ["o", "s", "^", "D", "v", "P"]
 DELAY = r"delay $\tau$ ($L/v_0$)"
-
-
-def inputs(_config: dict) -> dict:
-    """Motions of each law in each plane, and in scenes of the paper."""
-    return {"table": "<results>/tables/friction-laws.tsv"}
-
-
-def params(config: dict) -> dict:
-    """The values for (2) by which nondimensional times are those of a fault and a laboratory."""
-    return {"dimensions": config["dimensions"]}
 
 
 def draw(table: list[dict], dimensions: dict) -> Figure:

@@ -4,6 +4,7 @@ import inspect
 from collections.abc import Callable, Mapping
 from importlib import import_module
 from pathlib import Path
+from types import ModuleType
 
 import xarray as xr
 
@@ -27,8 +28,12 @@ def call(function: Callable, inputs: Mapping, params: Mapping):
     )
 
 
+def drawing_of(module: str) -> ModuleType:
+    """The module of this name, which draws."""
+    return import_module(f"scripts.figures.{module}")
+
+
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         inputs, params = dict(snakemake.input.items()), dict(snakemake.params.items())
-        module = import_module(f"scripts.figures.{params['module']}")
-        save(call(module.draw, inputs, params), snakemake.output)
+        save(call(drawing_of(params["module"]).draw, inputs, params), snakemake.output)

@@ -1,4 +1,4 @@
-"""Hopf curves in a plane of epsilon and another parameter."""
+"""The drawing of plans/plane.py, and the numbers of its caption."""
 
 import numpy as np
 import xarray as xr
@@ -13,7 +13,6 @@ from scripts.drawing.parameters import SYMBOLS, axis_of, in_words
 from scripts.drawing.special_points import words_of
 from scripts.drawing.style import INK
 from scripts.figures.wording import counted_at, place_in_words, short
-from scripts.results.paths import places_in_plane
 
 DARKEST = 0.3
 """How much darker than white the most unstable pairs are."""
@@ -22,18 +21,6 @@ MARKERS = {
     "double_hopf": ("s", "double Hopf point"),
     "hopf_without_delay": ("^", "Hopf point without delay"),
 }
-
-
-def inputs(config: dict) -> dict:
-    """Hopf curves of the plane that the configuration lists."""
-    (plane,) = config["hopf_curves"]
-    return {"curves": f"<results>/hopf/{plane}.nc"}
-
-
-def params(config: dict) -> dict:
-    """Scenes that lie in the plane."""
-    (plane,) = config["hopf_curves"]
-    return {"scenes": places_in_plane(config, plane)}
 
 
 def draw(curves: xr.Dataset, scenes: dict[str, dict[str, float]]) -> Figure:

@@ -1,4 +1,4 @@
-"""Figure of the routes: maxima of v, classes, and the largest exponent along a parameter."""
+"""The drawing of plans/routes.py, and the numbers of its caption."""
 
 from string import ascii_lowercase
 
@@ -14,7 +14,6 @@ from scripts.drawing.along_parameter import mark_scenes, maxima_of
 from scripts.drawing.class_map import draw_strips, legend_of
 from scripts.drawing.style import FAINT
 from scripts.figures.wording import joined, place_in_words, short
-from scripts.results.paths import places_in_atlas, runs_of_routes, tables_of_routes
 from scripts.tables.attractor_tables import same_attractor
 from scripts.tables.motion_rows import UNDECIDED, count_in_words, has_problem, parameter_of
 
@@ -29,17 +28,6 @@ ROOM = 0.25
 """Free part of the axis of maxima above the largest of them, where the names of scenes stand."""
 LOGARITHMIC = 100
 """The axis of maxima is logarithmic where their ratio is larger."""
-SHOWS_CLASSES = True
-
-
-def inputs(config: dict) -> dict:
-    """Classes along each route, and its runs."""
-    return {"tables": tables_of_routes(config), "runs": runs_of_routes(config)}
-
-
-def params(config: dict) -> dict:
-    """Scenes with known attractors."""
-    return {"scenes": places_in_atlas(config)}
 
 
 def draw(tables: list[list[dict]], runs: list[xr.Dataset], scenes: dict[str, dict]) -> Figure:

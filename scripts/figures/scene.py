@@ -1,4 +1,4 @@
-"""Figure of one scene: in time, phase portrait, section, exponents, and spectrum."""
+"""The drawing of plans/scene.py, and the numbers of its caption."""
 
 import warnings
 
@@ -34,18 +34,6 @@ LEAST_SPREAD = 0.05
 LETTER = 0.0135
 """How wide a letter is, as a share of the widest axis."""
 DOTS = {"ls": "", "marker": "o", "color": "C1", "ms": 2.5, "mew": 0}
-VARIABLES = ("u", "v")
-
-
-def inputs(config: dict) -> dict:
-    """Trajectory, spectrum, attractors and roots of the scene that the configuration lists."""
-    (scene,) = config["scenes"]
-    return {
-        "trajectory": f"<results>/trajectories/{scene}.nc",
-        "spectrum": f"<results>/spectra/{scene}.nc",
-        "attractors": f"<results>/attractors/scenes/{scene}.nc",
-        "roots": f"<results>/linear_stability/{scene}.nc",
-    }
 
 
 def draw(

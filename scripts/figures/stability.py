@@ -1,4 +1,4 @@
-"""Figure of stability: the grid of frequency and delay by two methods, and all other cases."""
+"""The drawing of plans/stability.py, and the numbers of its caption."""
 
 import numpy as np
 from matplotlib import pyplot as plt
@@ -16,11 +16,6 @@ LEVELS = np.arange(-14, 1, 2)
 """Powers of ten between the colours of errors."""
 FACTOR = 100
 """Errors up to this multiple of the expected error count as expected, in the ledger too."""
-
-
-def inputs(_config: dict) -> dict:
-    """Measured runs of all families of cases."""
-    return {"table": "<results>/tables/stability.tsv"}
 
 
 def draw(table: list[dict]) -> Figure:

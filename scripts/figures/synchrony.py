@@ -1,4 +1,4 @@
-"""Whether blocks that move alike stay alike: growth of disturbances over the stiffness of modes."""
+"""The drawing of plans/synchrony.py, and the numbers of its caption."""
 
 import math
 
@@ -15,13 +15,6 @@ KAPPAS = (0.1, 1.0, 10.0)
 MOST_ACCURATE = 1e-6
 """An error below this is not named."""
 MARKS = ["o", "s", "^", "D", "v", "P"]
-
-
-def inputs(config: dict) -> dict:
-    """Growth along the motion of each scene."""
-    return {
-        "growth": [f"<results>/synchrony/{scene}.nc" for scene in config["synchrony"]["scenes"]]
-    }
 
 
 def draw(growth: list[xr.Dataset]) -> Figure:

@@ -1,4 +1,4 @@
-"""Figure of the true torus beside the paper's: in time, spectrum and section."""
+"""The drawing of plans/true_torus.py, and the numbers of its caption."""
 
 import math
 
@@ -13,7 +13,6 @@ from scripts.drawing.spectra import label_peaks, lines_in_words
 from scripts.drawing.trajectories import draw_velocity
 from scripts.figures.figure_6 import peaks_in_words
 from scripts.figures.wording import count, short, with_error
-from scripts.results.paths import paths_of_scenes, scenes_of
 from scripts.tables.exponents_table import sign
 from scripts.tables.motion_rows import class_in_words, own_rows
 
@@ -24,23 +23,6 @@ POINT = 1e-3
 """Maxima that differ by less are one point."""
 STYLES = {"point": {"color": "C0", "ms": 5}, "curve": {"color": "C1", "ms": 2}}
 """Of points of the section."""
-VARIABLES = ("v",)
-
-
-def inputs(config: dict) -> dict:
-    """Trajectories, attractors and spectra of the rows, and classes of motion."""
-    scenes = scenes_of(config, "true_torus")
-    return {
-        "table": "<results>/tables/attractors.tsv",
-        "trajectories": paths_of_scenes("trajectories", scenes),
-        "attractors": paths_of_scenes("attractors/scenes", scenes),
-        "spectra": paths_of_scenes("spectra", scenes),
-    }
-
-
-def params(config: dict) -> dict:
-    """Rows, and the times and frequencies shown."""
-    return {"settings": config["figures"]["true_torus"]}
 
 
 def draw(

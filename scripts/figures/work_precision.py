@@ -1,8 +1,6 @@
-"""Figure of work against precision: one panel a scene, one line a solver."""
+"""The drawing of plans/work_precision.py, and the numbers of its caption."""
 
-import re
 from collections import Counter
-from pathlib import Path
 
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
@@ -18,20 +16,8 @@ NAMES = {"jitcdde": "JiTCDDE", "desolve": "deSolve", "desolve_interpol_2": "deSo
 """Of other solvers, as their authors write them."""
 AUTO_AGAIN = "ours"
 """Name of method auto in the table of other solvers."""
-OTHERS = "benchmarks/measured.tsv"
 LEVEL = 1e-6
 """Of the error at which run times are compared."""
-
-
-def inputs(_config: dict) -> dict:
-    """Errors and run times of all methods, and of other solvers, which were measured before."""
-    return {"table": "<results>/tables/work-precision.tsv", "others": OTHERS}
-
-
-def params(_config: dict) -> dict:
-    """The date on which other solvers were measured, from the first lines of their table."""
-    measured = Path(__file__).parents[2] / OTHERS
-    return {"date": re.search(r"^# date: (\S+)$", measured.read_text(), re.MULTILINE)[1]}
 
 
 def styles_of(solvers: list[str], others: list[str]) -> dict[str, dict]:

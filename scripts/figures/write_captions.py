@@ -6,10 +6,10 @@ from pathlib import Path
 from jinja2 import Environment, StrictUndefined
 
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, NOT_TESTABLE, REPRODUCED
-from scripts.figures import registry
-from scripts.figures.make_figure import call
+from scripts.figures.make_figure import call, drawing_of
 from scripts.figures.wording import FILTERS
 from scripts.files.outputs import logged, written
+from scripts.plans import registry
 
 IN_WORDS = {
     REPRODUCED: "**holds**",
@@ -26,7 +26,7 @@ ENVIRONMENT.filters |= FILTERS
 def caption_of(figure: str, inputs: dict, params: dict, claims: list[dict]) -> str:
     """The caption of a figure; in the template `paper` says whether it is one of the paper's."""
     text = (registry.PROJECT / registry.template_of(figure)).read_text(encoding="utf-8")
-    numbers_of = getattr(registry.find(figure).module, "numbers", lambda: {})
+    numbers_of = getattr(drawing_of(registry.module_name(figure)), "numbers", lambda: {})
     numbers = call(numbers_of, inputs, params)
     return render(text, paper=figure in registry.FIGURES, claims=claims, **numbers)
 

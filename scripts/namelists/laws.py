@@ -42,14 +42,16 @@ def definitions(config: dict) -> dict[str, dict]:
     return laws | {f"{PREFIX}{name}": without_inertia(law) for name, law in laws.items()}
 
 
+@cache
+def _damping() -> dict[str, dict]:
+    """The parameters that a law without inertia has beside its own."""
+    own = read(MODEL / "quasistatic.yaml")["parameters"]
+    return {key: entry for key, entry in own.items() if key != "gamma"}
+
+
 def without_inertia(law: dict) -> dict:
     """A law with radiation damping in place of mass: what the generator makes of it."""
-    own = {
-        key: entry
-        for key, entry in read(MODEL / "quasistatic.yaml")["parameters"].items()
-        if key != "gamma"
-    }
-    return {**law, "parameters": {**(law.get("parameters") or {}), **own}}
+    return {**law, "parameters": {**(law.get("parameters") or {}), **_damping()}}
 
 
 def own_parameters(config: dict, law: str) -> dict[str, dict]:

@@ -2,7 +2,6 @@
 
 import numpy as np
 import xarray as xr
-from scipy.fft import dct, dst, rfft
 
 ALIKE = 1e-6
 """Blocks that are nearer to each other than this in ln v move alike; nearer to 0, they rest."""
@@ -20,6 +19,8 @@ def first_mode(chain: xr.Dataset) -> int:
 
 def powers_of(chain: xr.Dataset) -> np.ndarray:
     """Mean squares over time of the modes of ln v, with modes of norm 1."""
+    from scipy.fft import dct, dst, rfft  # not when claims are planned
+
     values = late(chain).values
     if chain.attrs["ends"] == "free":
         modes = dct(values, type=2, norm="ortho")

@@ -14,11 +14,10 @@ from scipy import stats
 from scipy.optimize import minimize
 from scipy.special import boxcox
 
+from scripts.tables.names_of_laws import CUT_OFF, RIVALS
+
 FEWEST = 100
 """Events that a fit needs."""
-CUT_OFF = "truncated_power_law"
-RIVALS = ("exponential", "lognormal", CUT_OFF)
-"""Laws that a power law is compared with: the last is one with an exponential cut-off."""
 SAMPLES = 999
 """Random samples of the power law from which the goodness of fit is found."""
 SEED = 1

@@ -11,7 +11,8 @@ from scripts.files.outputs import logged
 from scripts.files.tsv import read_table, write_table
 from scripts.namelists.laws import law_of
 from scripts.namelists.study_cases import PARAMETERS
-from scripts.tables.event_laws import RIVALS, fit_aftershocks, fit_sizes
+from scripts.tables.event_laws import fit_aftershocks, fit_sizes
+from scripts.tables.names_of_laws import RIVALS
 
 OF_SIZES = ("exponent", "error", "least", "events", "goodness", "cutoff_exponent", "cutoff")
 OF_AFTERSHOCKS = (

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from scripts.claims.ledger import check_user_claims, names_in, paper_claims
 from scripts.config.check_config import checked
-from scripts.figures import registry
 from scripts.files.read_config import ConfigError, merge, read
+from scripts.plans import registry
 from scripts.results import paths
 from scripts.results.programs import KINDS
 

@@ -1,13 +1,40 @@
 """A script and the modules of the project that it imports: what it makes depends on them."""
 
+import ast
+import hashlib
 from functools import cache
-from modulefinder import ModuleFinder
 from pathlib import Path
 
 SCRIPTS = Path(__file__).parents[1]
-STYLED = "scripts.drawing.style"
+PROJECT = SCRIPTS.parent
+STYLED = SCRIPTS / "drawing" / "style.py"
 STYLE = SCRIPTS / "drawing" / "paper.mplstyle"
 """The module that draws in a style, and its file."""
+
+
+@cache
+def content_of(path: Path) -> bytes:
+    """What is in a file, read once in a process."""
+    return path.read_bytes()
+
+
+@cache
+def digest_of(path: Path) -> bytes:
+    """The digest of a file."""
+    return hashlib.sha256(content_of(path)).digest()
+
+
+@cache
+def imports_of(path: Path) -> frozenset[Path]:
+    """The modules of the project that a module imports, anywhere in its text."""
+    names = set()
+    for node in ast.walk(ast.parse(content_of(path))):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            names |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
+    files = (PROJECT.joinpath(*name.split(".")).with_suffix(".py") for name in names)
+    return frozenset(file for file in files if file.exists())
 
 
 @cache
@@ -16,8 +43,9 @@ def modules_of(script: str) -> list[Path]:
 
     The script is named by its path in the folder of scripts.
     """
-    finder = ModuleFinder(path=[str(SCRIPTS.parent)])
-    finder.run_script(str(SCRIPTS / script))
-    files = [Path(module.__file__) for module in finder.modules.values() if module.__file__]
-    style = [STYLE] if STYLED in finder.modules else []
-    return sorted({SCRIPTS / script, *files, *style})
+    found, waiting = set(), {SCRIPTS / script}
+    while waiting:
+        path = waiting.pop()
+        found.add(path)
+        waiting |= imports_of(path) - found
+    return sorted(found | ({STYLE} if STYLED in found else set()))

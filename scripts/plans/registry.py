@@ -1,18 +1,22 @@
 """All figures, in the order of the page: those of the paper, and those that a user's file adds.
 
-A figure is a module NAME.py with a template NAME.rst of its caption beside it. The first line of
-the module's docstring is the title of the figure. It has
+What planning needs of a figure is a module NAME.py here, which loads nothing that draws. The first
+line of its docstring is the title of the figure. It may have
 
-- inputs(config): results that it reads, by name: a path or a list of paths, in which `<results>`
-  stands for the folder of the results;
+- inputs(config): results that the figure reads, by name: a path or a list of paths, in which
+  `<results>` stands for the folder of the results;
 - params(config): what else it needs of the configuration, by name;
-- draw(...): the figure;
-- numbers(...): numbers of the caption, by their names in the template;
 - VARIABLES: variables that it draws of the trajectories among its inputs;
 - SHOWS_CLASSES: True if its colours are those of classes of motion, which a dark page keeps.
 
+The figure is drawn by the module of the same name in scripts/figures, with the template NAME.rst of
+its caption beside it. It has
+
+- draw(...): the figure;
+- numbers(...), if the caption has numbers: these by their names in the template.
+
 Arguments of draw and numbers are named as inputs and params. An input is passed as its contents: an
-xarray.Dataset, the rows of a table, or a list of these. Only draw must be there.
+xarray.Dataset, the rows of a table, or a list of these.
 
 A figure may show one entry of a section of the configuration, as figure_5 shows the second entry of
 `figures` by the module of figure_4. Figures of a user's file are named KIND/ENTRY, for example
@@ -24,7 +28,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from types import ModuleType
 
-from scripts.figures import (
+from scripts.plans import (
     atlas,
     chain,
     chain_exponents,
@@ -170,7 +174,7 @@ def title_of(figure: str) -> str:
 
 
 def module_name(figure: str) -> str:
-    """Name of a figure's module in this folder."""
+    """Name of a figure's modules, of planning and of drawing."""
     return find(figure).module.__name__.rpartition(".")[2]
 
 

@@ -1,0 +1,1 @@
+"""What each figure reads, shows and is called: all that planning a run needs of it."""

@@ -1,0 +1,13 @@
+"""Slip events of chains: their sizes, the cut-off over the number of blocks, and aftershocks."""
+
+from scripts.results.paths import events_of_chains
+
+
+def inputs(config: dict) -> dict:
+    """Events of each chain, and the laws fitted to them."""
+    return {"events": events_of_chains(config), "laws": "<results>/tables/event-sizes.tsv"}
+
+
+def params(config: dict) -> dict:
+    """Names of the chains, in order."""
+    return {"names": list(config["event_sizes"]["chains"])}

@@ -1,0 +1,13 @@
+"""Figure of other laws of friction: classes of motion over epsilon and tau, and fastest slip."""
+
+SHOWS_CLASSES = True
+
+
+def inputs(_config: dict) -> dict:
+    """Motions of each law in each plane, and in scenes of the paper."""
+    return {"table": "<results>/tables/friction-laws.tsv"}
+
+
+def params(config: dict) -> dict:
+    """The values for (2) by which nondimensional times are those of a fault and a laboratory."""
+    return {"dimensions": config["dimensions"]}
