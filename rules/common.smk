@@ -4,10 +4,12 @@ import hashlib
 from os.path import normpath
 from pathlib import Path
 
+from scripts.files.tsv import read_table
 from scripts.namelists import laws
 from scripts.namelists.chains import motion_chains, stiffness_of_modes
 from scripts.plans import registry
 from scripts.namelists.study_cases import measured_study
+from scripts.namelists.write_namelist import end_at_horizons, text_of
 from scripts.results import models
 from scripts.results.programs import BUILD, PAPER, RUNS
 from scripts.workflow.script_imports import digest_of, modules_of
@@ -104,13 +106,16 @@ def fill_in(value):
     return value.replace("<results>", plan.results) if isinstance(value, str) else value
 
 
-def groups_of(run):
-    """Groups of a run's namelist, by the wildcards."""
+def namelist_of(run):
+    """The text of a run's namelist, by the wildcards."""
 
-    def find_groups(wildcards):
-        return fill_in(run.groups(config, **wildcards))
+    def write_text(wildcards, input):
+        groups = fill_in(run.groups(config, **wildcards))
+        if run.horizons:
+            groups = end_at_horizons(groups, read_table(input.horizons))
+        return text_of(groups)
 
-    return find_groups
+    return write_text
 
 
 def models_of(run):

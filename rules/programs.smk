@@ -62,24 +62,6 @@ rule model:
 
 
 for run in RUNS:
-    if not run.namelist:
-
-        rule:
-            name:
-                f"{run.rule}_namelist"
-            input:
-                horizons=f"<results>/{run.horizons}" if run.horizons else [],
-            output:
-                f"<results>/{run.namelist_path}",
-            log:
-                f"<results>/logs/namelists/{run.stem}.log",
-            priority: run.priority
-            localrule: True
-            params:
-                groups=groups_of(run),
-                code=code_of("namelists/write_namelist.py"),
-            script:
-                "../scripts/namelists/write_namelist.py"
 
     rule:
         name:
@@ -88,9 +70,9 @@ for run in RUNS:
             **{name: f"<results>/{path}" for name, path in run.needs.items()},
             program=f"build/release/bin/{run.program}",
             models=objects_of(run),
-            namelist=f"<results>/{run.namelist_path}",
         output:
             f"<results>/{run.output}",
+            namelist=f"<results>/namelists/{run.stem}.nml",
         log:
             f"<results>/logs/{run.stem}.log",
         benchmark:
@@ -98,15 +80,13 @@ for run in RUNS:
         priority: run.priority
         localrule: not run.takes_minutes
         params:
-            groups=groups_of(run),
+            namelist=namelist_of(run),
             sources=digest_of_program(),
             models=digests_of_models(run),
             command=run.command,
             folders=":".join(models.folders_of(config["laws"], BUILT, run.quad)),
-        shell:
-            "OMP_NUM_THREADS={threads} MODELS={params.folders:q}"
-            " {input.program:q} {params.command} {input.namelist:q} {output:q}"
-            " 2> {log:q} || {{ grep -v ' %, ' {log:q} >&2; exit 1; }}"
+        script:
+            "../scripts/workflow/run_program.sh"
 
 
 ruleorder: scene_attractors > attractors_runs

@@ -1,26 +1,33 @@
-"""Write the namelist of a Fortran program."""
+"""Namelists of the Fortran program."""
 
+import io
 from pathlib import Path
 
 import f90nml
 
-from scripts.files.outputs import logged, written
-from scripts.files.tsv import read_table
+from scripts.files.outputs import written
 
 BLOCKS = "blocks"
 """The group with a list for each quantity of the blocks of a chain."""
 
 
-def write_namelist(path: Path, groups: dict[str, dict]) -> None:
-    """Write groups of values; the file is complete or absent.
+def text_of(groups: dict[str, dict]) -> str:
+    """The text of a namelist file with these groups of values.
 
-    A program reads them from one namelist group, &settings: there a key is `group%key`. Lists of
+    The program reads them from one namelist group, &settings: there a key is `group%key`. Lists of
     a chain's blocks are a namelist group of their own.
     """
     lists = {BLOCKS: groups[BLOCKS]} if BLOCKS in groups else {}
     settings = {key: value for key, value in groups.items() if key not in lists}
+    text = io.StringIO()
+    f90nml.Namelist({"settings": settings, **lists}).write(text)
+    return text.getvalue()
+
+
+def write_namelist(path: Path, groups: dict[str, dict]) -> None:
+    """Write groups of values; the file is complete or absent."""
     with written(path) as unfinished:
-        f90nml.Namelist({"settings": settings, **lists}).write(unfinished, force=True)
+        unfinished.write_text(text_of(groups), encoding="utf-8")
 
 
 def end_at_horizons(groups: dict[str, dict], rows: list[dict]) -> dict[str, dict]:
@@ -28,11 +35,3 @@ def end_at_horizons(groups: dict[str, dict], rows: list[dict]) -> dict[str, dict
     horizons = {row["scene"]: row["horizon"] for row in rows}
     cases = [{**case, "t_end": horizons[case["name"]]} for case in groups["cases"]]
     return {**groups, "cases": cases}
-
-
-if __name__ == "__main__":
-    with logged(snakemake.log[0]):
-        groups = snakemake.params.groups
-        if snakemake.input.get("horizons"):
-            groups = end_at_horizons(groups, read_table(snakemake.input.horizons))
-        write_namelist(Path(snakemake.output[0]), groups)

@@ -28,12 +28,10 @@ class Run:
     groups: Callable[..., dict]
     """Groups of the namelist by the configuration and the values of the wildcards."""
     _: KW_ONLY
-    namelist: str = ""
-    """Path of the namelist if it is another run's."""
     needs: dict[str, str] = field(default_factory=dict)
     """Other results that the program reads."""
-    horizons: str = ""
-    """The table that ends the run's cases early."""
+    horizons: bool = False
+    """Whether the table `horizons` of what it needs ends its cases early."""
     priority: int = 0
     takes_minutes: bool = False
     """Whether the run is a job of its own on a cluster."""
@@ -50,19 +48,11 @@ class Run:
         """Path of the output without its ending; log, benchmark and namelist have the same."""
         return str(PurePath(self.output).with_suffix(""))
 
-    @property
-    def namelist_path(self) -> str:
-        """Path of the namelist."""
-        return self.namelist or f"namelists/{self.stem}.nml"
-
 
 LONG_RUN = {"priority": LONG, "takes_minutes": True}
 RUNS = [
     Run("trajectory", "trajectory", "trajectories/{scene}.nc", groups.scene_groups, priority=PAPER),
-    Run(
-        *("slip_events", "slip_events", "slip_events/{scene}.nc", groups.scene_groups),
-        namelist="namelists/trajectories/{scene}.nml",
-    ),
+    Run("slip_events", "slip_events", "slip_events/{scene}.nc", groups.scene_groups),
     Run(
         *("spectrum", "spectrum", "spectra/{scene}.nc", groups.spectrum_groups),
         needs={"trajectory": "trajectories/{scene}.nc"},
@@ -118,7 +108,8 @@ RUNS = [
     Run(  # the methods take turns, so that what else the machine does hits all alike
         *("work_precision_runs", "measure", "measurements/work_precision/{case}.nc"),
         groups.work_precision_groups,
-        horizons="tables/trusted-horizons.tsv",
+        needs={"horizons": "tables/trusted-horizons.tsv"},
+        horizons=True,
         **LONG_RUN,
     ),
 ]
