@@ -1,9 +1,9 @@
 # Wildcards, digests of code by which results of older code are stale, and functions of the rules.
 import functools
-import hashlib
 from os.path import normpath
 from pathlib import Path
 
+from scripts.files.digests import digest_of_files
 from scripts.files.tsv import read_table
 from scripts.namelists import laws
 from scripts.namelists.chains import motion_chains, stiffness_of_modes
@@ -12,7 +12,7 @@ from scripts.namelists.study_cases import measured_study
 from scripts.namelists.write_namelist import end_at_horizons, text_of
 from scripts.results import models
 from scripts.results.programs import BUILD, PAPER, RUNS
-from scripts.workflow.script_imports import digest_of, modules_of
+from scripts.workflow.script_imports import modules_of
 
 
 wildcard_constraints:
@@ -38,15 +38,6 @@ wildcard_constraints:
 
 BUILT = f"build/users/{Path(plan.results).name}"
 """The folder of models with a user's laws."""
-
-
-def digest_of_files(paths):
-    """A digest of contents: a parameter by which results of older contents are stale.
-
-    Snakemake judges inputs by their times, which an upgrade may keep.
-    """
-    digests = [digest_of(Path(path).absolute()) for path in paths]
-    return hashlib.sha256(b"".join(digests)).hexdigest()
 
 
 def code_of(script, *others):

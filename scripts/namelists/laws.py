@@ -1,14 +1,21 @@
 """Laws of friction: those of the project, and a user's in the configuration under `laws`."""
 
+import contextlib
+import hashlib
+import json
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
+from scripts.files.digests import digest_of_files
 from scripts.files.read_config import ConfigError, read
 
 MODEL = Path(__file__).parents[2] / "fortran" / "src" / "model"
 BLOCK = MODEL / "spring_block.yaml"
 """The equations of the block, to which a law adds its own."""
+GENERATOR = MODEL.parents[2] / "generator"
+CHECKED = MODEL.parents[2] / "build" / "checked_laws"
+"""A file for each law that was checked before, named by its digest."""
 PAPER = "slip_delayed_logarithm"
 """The law of equation (4)."""
 PREFIX = "quasistatic_"
@@ -90,10 +97,6 @@ def spoken(law: str) -> str:
 
 def check_law(name: str, law: dict) -> None:
     """Refuse a law from which no model can be made; raise ConfigError saying why."""
-    # needs SymPy, which takes half a second to load
-    from generator.definition import ModelError, overlaid, read_model
-    from generator.module import write_module
-
     place = f"config laws {name}"
     if name in built_in():
         raise ConfigError(f"{place}: the project has a law of this name; expected another name")
@@ -102,8 +105,26 @@ def check_law(name: str, law: dict) -> None:
             f"{place}: {PREFIX}NAME is the law NAME without inertia, {CHAIN}NAME that of a chain;"
             " expected another"
         )
+    checked = CHECKED / _digest_of(name, law)
+    if checked.exists():
+        return
+    # needs SymPy, which takes half a second to load
+    from generator.definition import ModelError, overlaid, read_model
+    from generator.module import write_module
+
     try:
         write_module(read_model(overlaid(read(BLOCK), definition(name, law))))
     except (ModelError, TypeError) as problem:
         reason = str(problem).removeprefix(f"model {name}: ")
         raise ConfigError(f"{place}: {reason}") from None
+    # where nothing can be written, the law is checked again
+    with contextlib.suppress(OSError):
+        CHECKED.mkdir(parents=True, exist_ok=True)
+        checked.touch()
+
+
+def _digest_of(name: str, law: dict) -> str:
+    """A digest of a law and of all by which it is checked."""
+    sources = [BLOCK, *sorted(GENERATOR.glob("*.py")), *sorted(GENERATOR.glob("*.jinja"))]
+    said = json.dumps([definition(name, law), digest_of_files(sources)])
+    return hashlib.sha256(said.encode()).hexdigest()

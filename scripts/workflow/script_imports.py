@@ -1,27 +1,16 @@
 """A script and the modules of the project that it imports: what it makes depends on them."""
 
 import ast
-import hashlib
 from functools import cache
 from pathlib import Path
+
+from scripts.files.digests import content_of
 
 SCRIPTS = Path(__file__).parents[1]
 PROJECT = SCRIPTS.parent
 STYLED = SCRIPTS / "drawing" / "style.py"
 STYLE = SCRIPTS / "drawing" / "paper.mplstyle"
 """The module that draws in a style, and its file."""
-
-
-@cache
-def content_of(path: Path) -> bytes:
-    """What is in a file, read once in a process."""
-    return path.read_bytes()
-
-
-@cache
-def digest_of(path: Path) -> bytes:
-    """The digest of a file."""
-    return hashlib.sha256(content_of(path)).digest()
 
 
 @cache
