@@ -16,6 +16,7 @@ sys.path.insert(0, str(workflow.basedir))
 
 from scripts.files.read_config import ConfigError
 from scripts.results import manifest
+from scripts.workflow.check_run import problem_of
 from scripts.workflow.plan import read_plan
 
 try:
@@ -47,6 +48,10 @@ include: "rules/tables.smk"
 include: "rules/figures.smk"
 include: "rules/page.smk"
 include: "rules/documents.smk"
+
+
+if problem := problem_of(workflow, plan.results, plan.targets()):
+    sys.exit(f"error: {problem}")
 
 
 onstart:

@@ -137,7 +137,7 @@ def processes_of(run: subprocess.Popen[bytes]) -> list[tuple[int, str, str]]:
 
 
 def program_of(run: subprocess.Popen[bytes]) -> int:
-    (process,) = [number for number, program, _ in processes_of(run) if program == "reference"]
+    (process,) = [number for number, program, _ in processes_of(run) if program == "spring_block_qu"]
     return process
 
 
@@ -171,6 +171,19 @@ def test_workflow_resumes_where_snakemake_itself_was_killed(smoke, scratch, work
     os.kill(program, signal.SIGCONT)
     wait_for(lambda: not Path(f"/proc/{program}").exists())
     assert scratch.outputs() == smoke.outputs()
+
+
+def test_second_run_of_the_same_file_says_so(scratch):
+    """Another file is run beside it, and a dry run is none."""
+    (scratch.folder / ".snakemake" / "run of the paper").touch()
+    with open(scratch.folder / ".snakemake" / "run of the paper", "a") as run:
+        fcntl.flock(run, fcntl.LOCK_EX)
+        refused = scratch.reproduce("figure_1", *SMOKE)
+        assert refused.returncode == 1
+        (line,) = refused.stdout.splitlines()
+        assert line.startswith("reproduce: another run of the paper is at work here; ")
+        assert scratch.reproduce("--dry-run", "figure_1", *SMOKE).returncode == 0
+    assert scratch.reproduce("figure_1", *SMOKE).returncode == 0
 
 
 def test_locks_of_a_live_run_stay(scratch):

@@ -153,3 +153,22 @@ def test_figures_and_files_can_be_made_alone(fresh, planned):
     run = fresh.snakemake("--dry-run", "figure_9")
     assert run.returncode != 0
     assert "figure_9" in run.stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("--cores", "0", "figure_1"), "error: --cores 0; expected a whole number >= 1"),
+        (("--cores", "-2", "figure_1"), "error: --cores -2; expected a whole number >= 1"),
+        (("figure_55",), "error: no target is named figure_55; the nearest one is figure_5 "),
+        (
+            ("--dry-run", "results/figure/figure_5.png"),
+            "error: no target is named results/figure/figure_5.png; the nearest one is"
+            " results/figures/figure_5.png ",
+        ),
+    ],
+)
+def test_run_that_cannot_work_is_refused_at_once(fresh, arguments, words):
+    run = fresh.snakemake(*arguments)
+    assert run.returncode != 0
+    assert run.stdout.splitlines()[-1].startswith(words)
