@@ -26,6 +26,26 @@ rule play_data:
         "../scripts/page/play_data.py"
 
 
+rule first_page:
+    """A page with the paper's figures alone, made while the rest is computed."""
+    input:
+        expand("<results>/figures/{figure}.svg", figure=registry.PAPERS),
+    output:
+        "<results>/figures.html",
+    log:
+        "<results>/logs/first-page.log",
+    priority: PAPER
+    localrule: True
+    params:
+        figures=[
+            {"name": name, "title": registry.title_of(name)}
+            for name in registry.PAPERS
+        ],
+        code=code_of("page/write_first_page.py", "page/figures.html.jinja"),
+    script:
+        "../scripts/page/write_first_page.py"
+
+
 rule page:
     """The page with figures, claims and verdicts: index.html in the folder of results."""
     input:

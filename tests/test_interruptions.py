@@ -137,7 +137,9 @@ def processes_of(run: subprocess.Popen[bytes]) -> list[tuple[int, str, str]]:
 
 
 def program_of(run: subprocess.Popen[bytes]) -> int:
-    (process,) = [number for number, program, _ in processes_of(run) if program == "spring_block_qu"]
+    (process,) = [
+        number for number, program, _ in processes_of(run) if program == "spring_block_qu"
+    ]
     return process
 
 

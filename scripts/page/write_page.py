@@ -100,8 +100,13 @@ def write_files(texts: dict[str, str], assets: list[str]) -> None:
         with written(target) as path:
             shutil.copyfile(PROJECT / source, path)
     for target, text in texts.items():
-        with written(target) as path:
-            path.write_text(text)
+        write_text(target, text)
+
+
+def write_text(target: str, text: str) -> None:
+    """Write a page; it appears only when complete."""
+    with written(target) as path:
+        path.write_text(text)
 
 
 if __name__ == "__main__":

@@ -94,6 +94,8 @@ OF_THE_PAPER = {
 }
 """By name, in the order of the page."""
 FIGURES = list(OF_THE_PAPER)
+PAPERS = [name for name, figure in OF_THE_PAPER.items() if figure.category == "Figures"]
+"""Figures 1 to 8."""
 TITLES = {
     "figure_2": "Figure 2: Hopf curves tau(epsilon) at fixed xi and gamma.",
     "figure_3": "Figure 3: Hopf curves xi(epsilon) at fixed tau and gamma.",

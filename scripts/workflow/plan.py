@@ -58,7 +58,8 @@ class Plan:
         """All results but what figures and tables need on the way."""
         kinds = ("pdf", "png", "svg")
         drawn = [f"<results>/figures/{name}.{kind}" for name in self.figures for kind in kinds]
-        return [*drawn, *self._data_of_figures(), *self.tables(), "<results>/index.html"]
+        pages = ["<results>/index.html"] + ["<results>/figures.html"] * (not self.is_users)
+        return [*drawn, *self._data_of_figures(), *self.tables(), *pages]
 
     def summary(self) -> str:
         """How many claims have each verdict, and the page to open, if they are there."""
