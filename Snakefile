@@ -15,7 +15,7 @@ os.environ["PATH"] = os.pathsep.join(
 sys.path.insert(0, str(workflow.basedir))
 
 from scripts.files.read_config import ConfigError
-from scripts.results import manifest
+from scripts.results import manifest, run_times
 from scripts.workflow.check_run import problem_of
 from scripts.workflow.plan import read_plan
 
@@ -60,6 +60,7 @@ onstart:
 
 onsuccess:
     manifest.record_run(plan.results)
+    run_times.record_times(plan.results)
     print(plan.summary(), file=sys.stderr)
 
 
