@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 import xarray as xr
 from conftest import ROOT, Project, rules_in, write_script
+from dry_runs import jobs_in
 
 from scripts.files.read_config import ConfigError, merge, parse, read
 from scripts.workflow.plan import CONFIG, added, name_of, read_plan
@@ -256,3 +257,32 @@ def test_claims_of_a_user_may_name_scenes_of_the_paper(tmp_path):
     assert list(plan.config["scenes"]) == ["chaos"]
     assert plan.figures == []
     assert "<results>/tables/claims.tsv" in plan.targets()
+
+
+TWO_LAWS = """
+laws:
+  mine: { evolution: "-v*(theta + (1 + epsilon)*log(v(t - tau))) - 1e-3*theta" }
+  yours: { evolution: "-v*(theta + (1 + epsilon)*log(v(t - tau))) - 2e-3*theta" }
+scenes:
+  one: { law: mine, tau: 1, epsilon: 0.5, xi: 0.8, gamma: 0.8, t_end: 20 }
+  other: { law: yours, tau: 1, epsilon: 0.5, xi: 0.8, gamma: 0.8, t_end: 20 }
+"""
+
+
+def test_changed_law_is_compiled_and_its_results_made_anew_and_no_others(scratch):
+    """A law is compiled alone; nothing is linked again."""
+    path = scratch.folder / "laws.yaml"
+    path.write_text(TWO_LAWS)
+    targets = [f"results/laws/trajectories/{name}.nc" for name in ("one", "other")]
+    first = scratch.snakemake(*targets, "--config", "user_file=laws.yaml")
+    assert first.returncode == 0, first.stdout
+    assert rules_in(first.stdout) == {"law", "model", "trajectory"}
+    made = {path.name for path in scratch.folder.glob("build/users/laws/models/*.so")}
+    assert made == {"mine.so", "yours.so"}
+    path.write_text(TWO_LAWS.replace("1e-3", "3e-3"))
+    again = scratch.snakemake(*targets, "--config", "user_file=laws.yaml")
+    assert again.returncode == 0, again.stdout
+    (made_anew,) = [job.made for job in jobs_in(again.stdout) if job.rule == "trajectory"]
+    assert targets[0] in made_anew
+    nothing = scratch.snakemake("--dry-run", *targets, "--config", "user_file=laws.yaml")
+    assert "Nothing to be done" in nothing.stdout
