@@ -284,7 +284,7 @@ def compile_model(name: str, *, quad: bool) -> None:
     with locked(ROOT / "build" / "lock"):
         made = (ROOT / path).stat().st_mtime if (ROOT / path).exists() else 0.0
         if made < max(source.stat().st_mtime for source in sources):
-            compile_module(write_module(read_files(parts, name)), ROOT / path, quad=quad)
+            compile_module(write_module(read_files(parts, name)), ROOT / path)
 
 
 @pytest.fixture(scope="session")
