@@ -168,8 +168,9 @@ contains
       type(frame_type), intent(inout) :: frame
       !> There are none
       type(error_type), allocatable, intent(out) :: error
-      !> The test function there and linear equations about its orbit, if they are known
+      !> The test function there, if it is known
       real(wp), intent(in), optional :: known
+      !> Linear equations about its orbit, if they are known
       type(orbit_passes_type), intent(in), optional :: linear
       type(orbit_change_type) :: plane(2)
       real(wp) :: g, g_here, slope(2)
