@@ -32,8 +32,8 @@ def heed_interrupts() -> Iterator[None]:
 
 @pytest.fixture
 def half_long(programs, good_inputs) -> Programs:
-    """Programs beside the namelist of a trajectory of about a second."""
-    values = {**good_inputs["trajectory"], "t_end": 4e5}
+    """Programs beside the namelist of a trajectory of about half a second."""
+    values = {**good_inputs["trajectory"], "t_end": 2e5}
     programs.write({"scene": values})
     return programs
 
@@ -68,7 +68,7 @@ def groups_of(program: str, t_end: float, good_groups: dict) -> dict[str, dict]:
     """Namelist groups of a run of about a second, in which `t_end` makes a difference."""
     groups = copy.deepcopy(good_groups[program])
     if program == "trajectory":
-        groups["scene"]["t_end"] = 2000 * t_end
+        groups["scene"]["t_end"] = 1000 * t_end
     else:
         groups["cases"]["t_end"] = [t_end, 5.0]
     return groups

@@ -65,16 +65,16 @@ def test_changed_files_of_the_project_make_their_results_anew(scratch):
 
 def test_results_of_an_older_program_are_computed_again(scratch):
     """Also where the build of the new one was interrupted, which leaves no program."""
-    result = "results/spectra/torus.nc"
-    change(scratch, "fortran/app/spectrum_command.f90")
+    result = "results/references/stability/strong.tsv"
+    change(scratch, "fortran/app/reference_command.f90")
     lock = scratch.folder / "build" / "lock"
     lock.unlink()
     lock.mkdir()
     assert scratch.snakemake(result, *SMOKE).returncode != 0
-    assert not (scratch.folder / "build" / "release" / "bin" / "spring_block").exists()
+    assert not (scratch.folder / "build" / "release" / "bin" / "spring_block_quad").exists()
     lock.rmdir()
     run = scratch.snakemake("--dry-run", result, *SMOKE)
-    assert rules_in(run.stdout) == {"program", "spectrum"}
+    assert rules_in(run.stdout) == {"program", "reference"}
 
 
 def test_changed_scene_reruns_only_what_depends_on_it(scratch):
