@@ -1,10 +1,11 @@
 """Write the Fortran module of a model, or compile it, or write the module of the interface.
 
     python -m generator DEFINITION ... MODULE.f90
-    python -m generator DEFINITION ... OBJECT.so
+    python -m generator DEFINITION ... FOLDER/OBJECT.so
     python -m generator INTERFACE.f90
 
-Several definitions are one model: later files add to earlier ones.
+Several definitions are one model: later files add to earlier ones. An object is in quadruple
+precision if the name of its folder ends with "_quad".
 """
 
 import argparse
@@ -26,7 +27,6 @@ def main() -> None:
     parser.add_argument("--name", help="name of the model, in place of that of the definition")
     parser.add_argument("--compiler", default=COMPILER, help="Fortran compiler of an object")
     parser.add_argument("--flags", default=FLAGS, help="its flags")
-    parser.add_argument("--quad", action="store_true", help="an object in quadruple precision")
     parser.add_argument("sources", nargs="*", type=Path, help="files of one definition")
     parser.add_argument("made", type=Path, help="file to write")
     arguments = parser.parse_args()
@@ -36,8 +36,7 @@ def main() -> None:
         else:
             text = write_interface()
         if arguments.made.suffix == ".so":
-            how = {key: getattr(arguments, key) for key in ("compiler", "flags", "quad")}
-            compile_module(text, arguments.made, **how)
+            compile_module(text, arguments.made, arguments.compiler, arguments.flags)
             return
         unfinished = arguments.made.with_suffix(".unfinished")
         unfinished.write_text(text, encoding="utf-8")

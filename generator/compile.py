@@ -1,6 +1,5 @@
 """The shared object of a model: its module, compiled with what all models share."""
 
-import re
 import shutil
 import subprocess
 import tempfile
@@ -22,10 +21,10 @@ class CompileError(Exception):
     """The compiler failed."""
 
 
-def compile_module(
-    text: str, path: Path, *, compiler: str = COMPILER, flags: str = FLAGS, quad: bool = False
-) -> None:
+def compile_module(text: str, path: Path, compiler: str = COMPILER, flags: str = FLAGS) -> None:
     """Compile the text of a module; the object is complete or absent, the module stands beside it.
+
+    It is in quadruple precision if the name of its folder ends with "_quad".
 
     The compiler sees file names alone, so that the object has the same bytes wherever it is made.
     """
@@ -33,9 +32,9 @@ def compile_module(
     path.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=path.parent) as folder:
         kinds = KINDS.read_text(encoding="utf-8")
-        Path(folder, KINDS.name).write_text(
-            re.sub("real64", "real128", kinds) if quad else kinds, encoding="utf-8"
-        )
+        if path.parent.name.endswith("_quad"):
+            kinds = kinds.replace("real64", "real128")
+        Path(folder, KINDS.name).write_text(kinds, encoding="utf-8")
         for source in SHARED:
             shutil.copy(source, folder)
         Path(folder, "model.f90").write_text(text, encoding="utf-8")

@@ -37,7 +37,7 @@ rule program:
     shell:
         "(flock 9"
         " && cmake --preset release -S fortran"
-        " && cmake --build build/release --parallel {threads} --target spring_block{wildcards.quad})"
+        " && cmake --build build/release --parallel {threads} --target spring_block{wildcards.quad:q})"
         " > {log:q} 2>&1 9> build/lock || {{ cat {log:q} >&2; exit 1; }}"
 
 
@@ -55,9 +55,8 @@ rule model:
     localrule: True
     params:
         digest=lambda wildcards: digest_of_model(wildcards.model),
-        quad=lambda wildcards: "--quad" if wildcards.quad else "",
     shell:
-        "python -P -m generator {params.quad} --name {wildcards.model:q} {input:q} {output:q}"
+        "python -P -m generator --name {wildcards.model:q} {input:q} {output:q}"
         " > {log:q} 2>&1 || {{ cat {log:q} >&2; exit 1; }}"
 
 

@@ -27,9 +27,14 @@ from namelist_groups import (
     in_groups,
 )
 
+from generator.compile import compile_module
+from generator.definition import read_files
+from generator.module import write_module
 from scripts.files.read_config import read
+from scripts.namelists.laws import PAPER, built_in
 from scripts.namelists.write_namelist import write_namelist
 from scripts.results import manifest
+from scripts.results.models import law_of, models_in, objects_of, parts_of
 from scripts.workflow.plan import Plan, read_plan
 
 ROOT = Path(__file__).parent.parent
@@ -49,6 +54,8 @@ GROUPS = {
     "slip_events": "scene",
 }
 """Namelist group of each command that reads one alone, as tests name it."""
+DEAR = {"visited", "made", "installed", "run_of", "planned"}
+"""Fixtures of a module that one of the processes of `./test` makes for all tests that use them."""
 MADE = set(".git .venv .snakemake build __pycache__ .pytest_cache .ruff_cache".split())
 """Folders that hold none of the project's own files, beside the one of the results."""
 
@@ -113,6 +120,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if {"smoke_run", "project", "fresh"} & set(item.fixturenames):
             item.add_marker("workflow")
+        for name in DEAR & set(item.fixturenames):
+            item.add_marker(pytest.mark.xdist_group(name))
     items.sort(key=lambda item: item.get_closest_marker("workflow") is not None)
     smoke = [item for item in items if "smoke_run" in item.fixturenames]
     items.sort(key=lambda item: item not in smoke[:1])
@@ -159,6 +168,10 @@ class Programs:
         return run
 
     def write(self, groups: dict[str, dict]) -> Path:
+        """Write a namelist; the models that it names are compiled."""
+        command = "synchrony" if "synchrony" in groups else ""
+        for model in models_in(groups, command):
+            compile_model(model, quad="reference" in groups)
         write_namelist(self.folder / "input.nml", in_groups(groups))
         return self.folder / "input.nml"
 
@@ -260,15 +273,32 @@ def shared(tmp_path_factory) -> Path:
     return folder.parent if "PYTEST_XDIST_WORKER" in os.environ else folder
 
 
+@functools.cache
+def compile_model(name: str, *, quad: bool) -> None:
+    """Compile a model of the project where it is not up to date; other names are the program's."""
+    if law_of(name) not in built_in():
+        return
+    (path,) = objects_of({name}, {}, "", quad)
+    parts = [ROOT / part for part in parts_of(name, {}, "")]
+    sources = [*parts, *ROOT.glob("generator/*.py"), *ROOT.glob("generator/fortran/*.*")]
+    with locked(ROOT / "build" / "lock"):
+        made = (ROOT / path).stat().st_mtime if (ROOT / path).exists() else 0.0
+        if made < max(source.stat().st_mtime for source in sources):
+            compile_module(write_module(read_files(parts, name)), ROOT / path)
+
+
 @pytest.fixture(scope="session")
 def binaries() -> Path:
-    """The folder of the project's programs; they and all models are built where not up to date."""
+    """The folder of the project's programs; they are built where they are not up to date, with the
+    models of the paper's law. Others are compiled for the namelists that name them."""
     with locked(ROOT / "build" / "lock"):
-        targets = ["spring_block", "spring_block_quad", "blocks", "blocks_quad"]
+        targets = ["spring_block", "spring_block_quad"]
         build = ["--build", "build/release", "--parallel", "2", "--target", *targets]
         for command in (["--preset", "release", "-S", "fortran"], build):
             run = subprocess.run(["cmake", *command], cwd=ROOT, capture_output=True, text=True)
             assert run.returncode == 0, run.stdout + run.stderr
+    for quad in (False, True):
+        compile_model(PAPER, quad=quad)
     return ROOT / "build" / "release" / "bin"
 
 
@@ -288,8 +318,9 @@ def smoke_run(binaries, shared) -> tuple[Project, str]:
     with locked(shared / "smoke.lock"):
         if not log.exists():
             copy_of_project(project.folder)
-            for made in ("bin/spring_block_quad", "models", "models_quad"):
-                copy_all(binaries.parent / made, project.folder / "build" / "release" / made)
+            with locked(ROOT / "build" / "lock"):
+                for made in ("bin/spring_block_quad", "models", "models_quad"):
+                    copy_all(binaries.parent / made, project.folder / "build" / "release" / made)
             run = project.snakemake(*SMOKE)
             assert run.returncode == 0, run.stdout
             log.write_text(run.stdout)

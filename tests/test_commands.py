@@ -1,5 +1,6 @@
 """./reproduce and ./test, with stand-ins for the set-up and the tools that they call."""
 
+import fcntl
 import os
 import re
 import subprocess
@@ -62,11 +63,39 @@ def test_reproduce_shows_a_dry_run(recording):
     assert (status, calls) == (0, ["snakemake --snakefile Snakefile --cores 2 --dry-run"])
 
 
+def test_second_run_of_the_same_file_says_so(recording):
+    """Another file is run beside it, and a dry run is none."""
+    (recording / ".snakemake").mkdir()
+    with open(recording / ".snakemake" / "run of the paper", "a") as run:
+        fcntl.flock(run, fcntl.LOCK_EX)
+        refused = subprocess.run([recording / "reproduce"], capture_output=True, text=True)
+        assert (refused.returncode, refused.stdout) == (1, "")
+        (line,) = refused.stderr.splitlines()
+        assert line.startswith("reproduce: another run of the paper is at work here; ")
+        for words in (["--dry-run"], ["--list-target-rules"], ["mine.yaml"]):
+            status, calls = calls_of(recording / "reproduce", *words)
+            assert (status, len(calls)) == (0, 1)
+    assert len(calls_of(recording / "reproduce")[1]) == 1
+
+
+def test_locks_of_a_live_run_stay(recording):
+    """A run of ./reproduce holds a lock of the operating system."""
+    lock = recording / ".snakemake" / "locks" / "0.input.lock"
+    lock.parent.mkdir(parents=True)
+    lock.touch()
+    with open(recording / ".snakemake" / "runs", "a") as runs:
+        fcntl.flock(runs, fcntl.LOCK_SH)
+        assert calls_of(recording / "reproduce")[0] == 0
+        assert lock.exists()
+    assert calls_of(recording / "reproduce")[0] == 0
+    assert not lock.exists()
+
+
 @pytest.mark.parametrize(
     ("arguments", "tools", "last"),
     [
-        ([], TOOLS, "pytest --numprocesses 2"),
-        (["quick"], TOOLS, "pytest --numprocesses 2 -m not workflow and not browser and not long"),
+        ([], TOOLS, "pytest --numprocesses 2 .*"),
+        (["quick"], TOOLS, "pytest .* -m not workflow and not browser and not long"),
         (["lint"], ["ruff", "snakefmt", "fortitude", "snakemake"], "snakemake --lint"),
         (["fortran", "-R", "a"], ["cmake", "ctest"], "ctest .* -R a"),
         (["python", "-k", "a or b"], ["pytest"], "pytest -k a or b"),

@@ -2,7 +2,6 @@
 
 import contextlib
 import copy
-import fcntl
 import os
 import signal
 import subprocess
@@ -113,9 +112,10 @@ def test_last_of_two_runs_wins(programs, good_groups, program, first_to_end):
 @pytest.fixture
 def workflow(scratch) -> Iterator[subprocess.Popen[bytes]]:
     """A run of the workflow that has begun to make the long result, its program stopped."""
+    scratch.use_packages_at_hand()
     (scratch.folder / LONG).unlink()
     run = subprocess.Popen(
-        [SNAKEMAKE, "--cores", "2", LONG, *SMOKE],
+        ["./reproduce", LONG, *SMOKE],
         cwd=scratch.folder,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
@@ -162,9 +162,9 @@ def test_workflow_resumes_where_snakemake_itself_was_killed(smoke, scratch, work
     Its program lives on and does no harm.
     """
     program = program_of(workflow)
-    refused = scratch.snakemake(LONG, *SMOKE)
-    assert refused.returncode != 0
-    assert "cannot be locked" in refused.stdout
+    refused = scratch.reproduce(LONG, *SMOKE)
+    assert refused.returncode == 1
+    assert refused.stdout.startswith("reproduce: another run of the paper is at work here; ")
     os.kill(workflow.pid, signal.SIGKILL)
     workflow.wait()
     again = scratch.reproduce(LONG, *SMOKE)
@@ -175,59 +175,26 @@ def test_workflow_resumes_where_snakemake_itself_was_killed(smoke, scratch, work
     assert scratch.outputs() == smoke.outputs()
 
 
-def test_second_run_of_the_same_file_says_so(scratch):
-    """Another file is run beside it, and a dry run is none."""
-    (scratch.folder / ".snakemake" / "run of the paper").touch()
-    with open(scratch.folder / ".snakemake" / "run of the paper", "a") as run:
-        fcntl.flock(run, fcntl.LOCK_EX)
-        refused = scratch.reproduce("figure_1", *SMOKE)
-        assert refused.returncode == 1
-        (line,) = refused.stdout.splitlines()
-        assert line.startswith("reproduce: another run of the paper is at work here; ")
-        assert scratch.reproduce("--dry-run", "figure_1", *SMOKE).returncode == 0
-    assert scratch.reproduce("figure_1", *SMOKE).returncode == 0
-
-
-def test_locks_of_a_live_run_stay(scratch):
-    """A run of ./reproduce holds a lock of the operating system."""
-    lock = scratch.folder / ".snakemake" / "locks" / "0.input.lock"
-    lock.parent.mkdir(exist_ok=True)
-    lock.touch()
-    with open(scratch.folder / ".snakemake" / "runs", "a") as runs:
-        fcntl.flock(runs, fcntl.LOCK_SH)
-        scratch.reproduce("--dry-run", LONG, *SMOKE)
-        assert lock.exists()
-    scratch.reproduce("--dry-run", LONG, *SMOKE)
-    assert not lock.exists()
-
-
-WAIT = """
-import sys
-import time
-
-if any("write_namelist.py" in word for word in sys.orig_argv):
-    time.sleep(600)
-"""
-"""What Python does before a script: that of the namelist waits to be killed."""
+WAIT = "[[ $0 != *run_program.sh ]] || sleep 600"
+"""What Bash does before a script: that of a run of the program waits to be killed."""
+STALE = "results/spectra/torus.nc"
 
 
 @contextlib.contextmanager
-def about_to_write(project: Project, *arguments: str) -> Iterator[subprocess.Popen[str]]:
-    """A run of the workflow whose namelist job waits."""
-    folder = project.folder.parent / "waiting"
-    folder.mkdir()
-    (folder / "sitecustomize.py").write_text(WAIT)
+def about_to_run(project: Project, *arguments: str) -> Iterator[subprocess.Popen[bytes]]:
+    """A run of the workflow whose job of the trajectory waits."""
+    waiting = project.folder.with_name("waiting.sh")
+    waiting.write_text(WAIT)
     with subprocess.Popen(
         [SNAKEMAKE, "--cores", "2", "results/trajectories/torus.nc", *SMOKE, *arguments],
         cwd=project.folder,
-        env={**os.environ, "PYTHONPATH": str(folder)},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
+        env={**os.environ, "BASH_ENV": str(waiting)},
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
         start_new_session=True,
     ) as run:
         try:
-            wait_for(lambda: bool(namelist_job(run)))
+            wait_for(lambda: bool(jobs_of(run)))
             yield run
             assert run.wait(timeout=60) != 0
         finally:
@@ -236,37 +203,31 @@ def about_to_write(project: Project, *arguments: str) -> Iterator[subprocess.Pop
     assert not (project.folder / NAMELIST).exists()
 
 
-def namelist_job(run: subprocess.Popen[str]) -> list[int]:
-    return [number for number, _, words in processes_of(run) if "write_namelist.py" in words]
+def jobs_of(run: subprocess.Popen[bytes]) -> list[int]:
+    return [number for number, _, words in processes_of(run) if "run_program.sh" in words]
 
 
 def test_nothing_stale_passes_as_current(smoke, scratch):
-    """Values are changed and changed back; the job that writes the latter down does not finish."""
+    """Values are changed and changed back; the job with the latter does not finish."""
     (scratch.folder / "mine.yaml").write_text("scenes: { torus: { tau: 10.5 } }")
-    other = scratch.snakemake("figure_5", *SMOKE, "mine.yaml")
+    other = scratch.snakemake(STALE, *SMOKE, "mine.yaml")
     assert other.returncode == 0, other.stdout
-    shown = ("figures/figure_5.png", "attractors/scenes/torus.nc", "trajectories/torus.nc")
     before, changed = smoke.outputs(), scratch.outputs()
-    assert all(changed[name] != before[name] for name in shown)
-    with about_to_write(scratch) as run:
-        for process in namelist_job(run):
+    for name in ("trajectories/torus.nc", "spectra/torus.nc"):
+        assert changed[name] != before[name]
+    with about_to_run(scratch) as run:
+        for process in jobs_of(run):
             os.kill(process, signal.SIGKILL)
-    again = scratch.snakemake("figure_5", *SMOKE)
+    again = scratch.snakemake(STALE, *SMOKE)
     assert again.returncode == 0, again.stdout
     assert scratch.outputs() == before
 
 
 def test_run_with_other_values_loses_no_result(smoke, scratch):
-    """It is killed, Snakemake included; the next run without them has all results as before.
-
-    The namelist that was about to change is written when its program runs next.
-    """
+    """It is killed, Snakemake included; the next run without them has all results as before."""
     (scratch.folder / "mine.yaml").write_text("scenes: { torus: { tau: 10.5 } }")
-    with about_to_write(scratch, "mine.yaml") as run:
+    with about_to_run(scratch, "mine.yaml") as run:
         os.killpg(run.pid, signal.SIGKILL)
-    assert scratch.snakemake("--unlock", *SMOKE).returncode == 0
-    again = scratch.snakemake("figure_5", *SMOKE)
+    again = scratch.reproduce(STALE, *SMOKE)
     assert again.returncode == 0, again.stdout
-    before = smoke.outputs()
-    del before[NAMELIST.removeprefix("results/")]
-    assert scratch.outputs() == before
+    assert scratch.outputs() == smoke.outputs()

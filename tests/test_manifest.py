@@ -109,7 +109,7 @@ def test_run_makes_damaged_and_removed_results_again(smoke, scratch):
     part, other = (results / "attractors" / "atlas" / "xi_08" / f"000{i}.nc" for i in (2, 1))
     for path in (part, results / "tables" / "atlas.tsv", results / "page" / "style.css"):
         path.unlink()
-    (scratch.folder / "build" / "release" / "bin" / "measure").unlink()
+    (scratch.folder / "build" / "release" / "bin" / "spring_block_quad").unlink()
     written = other.stat().st_mtime_ns
     run = scratch.reproduce("--configfile", "config/smoke.yaml")
     assert run.returncode == 0, run.stdout

@@ -167,7 +167,7 @@ def test_program_that_fails_leaves_no_output(scratch):
     """Even if it wrote half of it; its reason is on the screen without its progress, which is in
     the log."""
     told, reason = "trajectory: 5 %, 1 of 20, 2 s left", "error: it cannot go on"
-    words = f"echo half >\"$2\"; echo '{told}' >&2; echo '{reason}' >&2; exit 3"
+    words = f"echo half >\"$3\"; echo '{told}' >&2; echo '{reason}' >&2; exit 3"
     write_script(scratch.folder / "build" / "release" / "bin" / "spring_block", words)
     (scratch.folder / "mine.yaml").write_text(MY_SCENE)
     run = scratch.reproduce("mine.yaml", "results/mine/trajectories/mine.nc")

@@ -37,8 +37,8 @@ module model_problem
       type(code_type) :: code
       !> Sizes of the definition
       type(sizes_type) :: sizes
-      !> Parameters, in the order of the definition
-      real(wp), allocatable :: parameters(:)
+      !> Numbers of the parameters, in the order of the definition
+      real(wp), allocatable :: numbers(:)
       !> States up to the initial time, shape (n)
       real(wp), allocatable :: past(:)
       !> Where each delayed state of the definition is among the delayed values of the problem; 0
@@ -102,7 +102,7 @@ contains
       self%n = size(past)
       self%analytic = .true.
       self%analytic_tangents = .true.
-      self%parameters = parameters
+      self%numbers = parameters
       self%past = past
       call self%code%delayed(parameters, lag, component)
       kept = lag > 0.0_wp
@@ -169,7 +169,7 @@ contains
       real(wp) :: value
 
       if (associated(self%code%past)) then
-         call self%code%past(self%parameters, t, component, value)
+         call self%code%past(self%numbers, t, component, value)
       else
          value = self%past(component)
       end if
@@ -185,7 +185,7 @@ contains
       real(wp) :: whole(0:ubound(y, 1))
 
       if (associated(self%code%past_series)) then
-         call self%code%past_series(self%parameters, t, component, unit, ubound(y, 1), whole)
+         call self%code%past_series(self%numbers, t, component, unit, ubound(y, 1), whole)
          y = whole
       else
          y = 0.0_wp
@@ -199,8 +199,8 @@ contains
       real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
 
-      call self%code%rhs(self%shape, self%parameters, self%place, self%left, self%right, t, y, z, &
-                         dydt)
+      call self%code%rhs(self%shape, self%numbers, self%place, self%left, self%right, &
+                         t, y, z, dydt)
    end subroutine rhs
 
    !> Their derivatives by states and delayed values.
@@ -209,7 +209,7 @@ contains
       real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), contiguous, intent(out) :: by_y(:, :), by_z(:, :)
 
-      call self%code%jacobian(self%shape, self%parameters, self%place, self%left, self%right, &
+      call self%code%jacobian(self%shape, self%numbers, self%place, self%left, self%right, &
                               t, y, z, size(by_y, 1), size(by_z, 1), by_y, by_z)
    end subroutine jacobian
 
@@ -221,7 +221,7 @@ contains
       real(wp), intent(in) :: z(0:degree, size(self%lag))
       real(wp), intent(inout) :: y(0:degree, self%n)
 
-      call self%code%series(self%shape, self%parameters, self%place, self%left, self%right, &
+      call self%code%series(self%shape, self%numbers, self%place, self%left, self%right, &
                             t, unit, degree, z, y)
    end subroutine series
 
@@ -235,7 +235,7 @@ contains
       real(wp), intent(in) :: dz(0:degree, size(self%lag), vectors)
       real(wp), intent(inout) :: dy(0:degree, self%n, vectors)
 
-      call self%code%tangent_series(self%shape, self%parameters, self%place, self%left, &
+      call self%code%tangent_series(self%shape, self%numbers, self%place, self%left, &
                                     self%right, t, unit, degree, z, y, y, vectors, dz, dy)
    end subroutine tangent_series
 
@@ -247,7 +247,7 @@ contains
 
       rate = 0.0_wp
       if (associated(self%code%relaxation_rate)) then
-         call self%code%relaxation_rate(self%shape, self%parameters, t, y, rate)
+         call self%code%relaxation_rate(self%shape, self%numbers, t, y, rate)
       end if
    end function relaxation_rate
 
@@ -260,7 +260,7 @@ contains
       real(wp), intent(inout) :: y(0:degree, self%n)
 
       if (associated(self%code%slow_series)) then
-         call self%code%slow_series(self%shape, self%parameters, self%place, self%left, &
+         call self%code%slow_series(self%shape, self%numbers, self%place, self%left, &
                                     self%right, t, unit, degree, z, y)
       else
          y = ieee_value(1.0_wp, ieee_quiet_nan)
@@ -280,7 +280,7 @@ contains
       real(wp), intent(inout) :: dy(0:degree, self%n, vectors)
 
       if (associated(self%code%slow_tangent_series)) then
-         call self%code%slow_tangent_series(self%shape, self%parameters, self%place, self%left, &
+         call self%code%slow_tangent_series(self%shape, self%numbers, self%place, self%left, &
                                             self%right, t, unit, degree, z, before, y, vectors, &
                                             dz, dy)
       else
@@ -294,7 +294,7 @@ contains
       real(wp) :: state(self%n)
 
       state = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (associated(self%code%steady_state)) call self%code%steady_state(self%parameters, state)
+      if (associated(self%code%steady_state)) call self%code%steady_state(self%numbers, state)
    end function steady_state
 
    !> The derivative of the order of the number of arguments, linear in each of them; not a number
@@ -308,7 +308,7 @@ contains
 
       form = ieee_value(1.0_wp, ieee_quiet_nan)
       if (associated(self%code%derivative)) then
-         call self%code%derivative(self%shape, self%parameters, size(arguments, 2) - 1, &
+         call self%code%derivative(self%shape, self%numbers, size(arguments, 2) - 1, &
                                    size(arguments, 3), arguments, form)
       end if
    end function derivative
@@ -325,11 +325,11 @@ contains
       !> Derivatives by the parameters, shape (terms, parameters)
       real(wp), allocatable, intent(out) :: coefficient_by(:, :), delay_by(:, :)
 
-      associate (terms => self%sizes%terms, parameters => size(self%parameters))
+      associate (terms => self%sizes%terms, parameters => size(self%numbers))
          allocate (coefficient(terms), delay(terms), power(terms), part(terms))
          allocate (coefficient_by(terms, parameters), delay_by(terms, parameters), source=0.0_wp)
          if (terms == 0) return
-         call self%code%characteristic_terms(self%parameters, terms, coefficient, power, delay, &
+         call self%code%characteristic_terms(self%numbers, terms, coefficient, power, delay, &
                                              part, coefficient_by, delay_by)
       end associate
    end subroutine characteristic_terms

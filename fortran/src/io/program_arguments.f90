@@ -11,8 +11,8 @@ module program_arguments
    private
    public :: check_input, command_name, command_type, run_command, stop_on
 
-   !> What a command does with a namelist and the path of a file to write.
    abstract interface
+      !> Reads the namelist, computes, writes.
       subroutine run_with_paths(namelist_path, output_path)
          implicit none (type, external)
          character(len=*), intent(in) :: namelist_path, output_path

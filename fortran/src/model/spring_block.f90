@@ -6,7 +6,6 @@ module spring_block
    use block_state, only: components_of_block, index_of_ln_v, index_of_theta, index_of_u
    use chain, only: blocks_in_order, find_neighbours
    use characteristic_function, only: characteristic_of, characteristic_type
-   use dde, only: problem_with_tangents
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use model_library, only: open_model
@@ -16,23 +15,10 @@ module spring_block
    public :: block_characteristic, components_of_block, find_model, index_of_ln_v, &
              index_of_theta, index_of_u, spring_block_type, transverse_block
 
-   !> The block with its parameters.
-   type, extends(problem_with_tangents) :: spring_block_type
+   !> The model of a law, or of a chain, with the parameters of the block by name.
+   type, extends(model_type) :: spring_block_type
       !> Parameters of the block and name of its law
       type(block_parameters_type) :: parameters
-      !> The equations of the law
-      type(model_type) :: model
-   contains
-      procedure :: initial
-      procedure :: history
-      procedure :: rhs
-      procedure :: jacobian
-      procedure :: series
-      procedure :: past_series
-      procedure :: relaxation_rate
-      procedure :: slow_series
-      procedure :: tangent_series
-      procedure :: slow_tangent_series
    end type spring_block_type
 
    interface spring_block_type
@@ -63,8 +49,7 @@ contains
       type(spring_block_type) :: block
 
       block%parameters = parameters
-      call find_model(parameters, block%model, histories, keep_delays)
-      call take_shape(block)
+      call find_model(parameters, block%model_type, histories, keep_delays)
    end function new_blocks
 
    !> A block of which disturbances are those of a mode of a chain: blocks that move alike, and a
@@ -82,9 +67,8 @@ contains
 
       block%parameters = parameters
       block%parameters%kappa = 1.0_wp
-      call find_chain(block%parameters, block%model, [history], keep_delays)
-      block%model%shape%mode = stiffening
-      call take_shape(block)
+      call find_chain(block%parameters, block%model_type, [history], keep_delays)
+      block%shape%mode = stiffening
    end function transverse_block
 
    !> The model of a law, or of a chain, with its parameters; from steady sliding unless histories
@@ -150,22 +134,6 @@ contains
       end do
    end function states_of
 
-   !> What the solver asks of a problem before it runs is that of the model.
-   pure subroutine take_shape(block)
-      type(spring_block_type), intent(inout) :: block
-
-      associate (model => block%model)
-         block%n = model%n
-         block%lag = model%lag
-         block%component = model%component
-         block%lower = model%lower
-         block%upper = model%upper
-         if (allocated(model%rows)) block%rows = model%rows
-         block%analytic = model%analytic
-         block%analytic_tangents = model%analytic_tangents
-      end associate
-   end subroutine take_shape
-
    !> The characteristic function of steady sliding.
    type(characteristic_type) function block_characteristic(parameters) result(function_of_block)
       !> Parameters, with the name of a law that there is
@@ -175,109 +143,4 @@ contains
       call find_model(parameters, model)
       function_of_block = characteristic_of(model)
    end function block_characteristic
-
-   !> State at the initial time.
-   pure subroutine initial(self, y)
-      class(spring_block_type), intent(in) :: self
-      real(wp), intent(out) :: y(self%n)
-
-      call self%model%initial(y)
-   end subroutine initial
-
-   !> The law's equations.
-   pure subroutine rhs(self, t, y, z, dydt)
-      class(spring_block_type), intent(in) :: self
-      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
-      real(wp), intent(out) :: dydt(self%n)
-
-      call self%model%rhs(t, y, z, dydt)
-   end subroutine rhs
-
-   !> Their derivatives by theta, u, w and by the delayed values.
-   pure subroutine jacobian(self, t, y, z, by_y, by_z)
-      class(spring_block_type), intent(in) :: self
-      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
-      real(wp), contiguous, intent(out) :: by_y(:, :), by_z(:, :)
-
-      call self%model%jacobian(t, y, z, by_y, by_z)
-   end subroutine jacobian
-
-   !> Taylor series of the solution.
-   pure subroutine series(self, t, unit, degree, z, y)
-      class(spring_block_type), intent(in) :: self
-      real(wp), intent(in) :: t, unit
-      integer, intent(in) :: degree
-      real(wp), intent(in) :: z(0:degree, size(self%lag))
-      real(wp), intent(inout) :: y(0:degree, self%n)
-
-      call self%model%series(t, unit, degree, z, y)
-   end subroutine series
-
-   !> Taylor series of the history.
-   pure subroutine past_series(self, t, component, unit, y)
-      class(spring_block_type), intent(in) :: self
-      real(wp), intent(in) :: t
-      integer, intent(in) :: component
-      real(wp), intent(in) :: unit
-      real(wp), intent(out) :: y(0:)
-
-      call self%model%past_series(t, component, unit, y)
-   end subroutine past_series
-
-   !> A better Taylor series of the slow solution.
-   pure subroutine slow_series(self, t, unit, degree, z, y)
-      class(spring_block_type), intent(in) :: self
-      real(wp), intent(in) :: t, unit
-      integer, intent(in) :: degree
-      real(wp), intent(in) :: z(0:degree, size(self%lag))
-      real(wp), intent(inout) :: y(0:degree, self%n)
-
-      call self%model%slow_series(t, unit, degree, z, y)
-   end subroutine slow_series
-
-   !> Taylor series of disturbances of the solution.
-   pure subroutine tangent_series(self, t, unit, degree, z, y, vectors, dz, dy)
-      class(spring_block_type), intent(in) :: self
-      real(wp), intent(in) :: t, unit
-      integer, intent(in) :: degree
-      real(wp), intent(in) :: z(0:degree, size(self%lag)), y(0:degree, self%n)
-      integer, intent(in) :: vectors
-      real(wp), intent(in) :: dz(0:degree, size(self%lag), vectors)
-      real(wp), intent(inout) :: dy(0:degree, self%n, vectors)
-
-      call self%model%tangent_series(t, unit, degree, z, y, vectors, dz, dy)
-   end subroutine tangent_series
-
-   !> A better Taylor series of disturbances of the slow solution.
-   pure subroutine slow_tangent_series(self, t, unit, degree, z, before, y, vectors, dz, dy)
-      class(spring_block_type), intent(in) :: self
-      real(wp), intent(in) :: t, unit
-      integer, intent(in) :: degree
-      real(wp), intent(in) :: z(0:degree, size(self%lag))
-      real(wp), intent(in) :: before(0:degree, self%n), y(0:degree, self%n)
-      integer, intent(in) :: vectors
-      real(wp), intent(in) :: dz(0:degree, size(self%lag), vectors)
-      real(wp), intent(inout) :: dy(0:degree, self%n, vectors)
-
-      call self%model%slow_tangent_series(t, unit, degree, z, before, y, vectors, dz, dy)
-   end subroutine slow_tangent_series
-
-   !> A component up to the initial time.
-   pure function history(self, t, component) result(value)
-      class(spring_block_type), intent(in) :: self
-      real(wp), intent(in) :: t
-      integer, intent(in) :: component
-      real(wp) :: value
-
-      value = self%model%history(t, component)
-   end function history
-
-   !> Rate at which w approaches its balance.
-   pure function relaxation_rate(self, t, y) result(rate)
-      class(spring_block_type), intent(in) :: self
-      real(wp), intent(in) :: t, y(self%n)
-      real(wp) :: rate
-
-      rate = self%model%relaxation_rate(t, y)
-   end function relaxation_rate
 end module spring_block

@@ -150,7 +150,8 @@ contains
          reference = orbit
          call correct_orbit(family, reference, no_direction, [real(wp) ::], orbit, newton, error)
          if (allocated(error)) return
-         call find_multipliers(family, orbit, refinement%multipliers, multipliers, error)
+         call find_multipliers(family, orbit, refinement%multipliers, multipliers, error, &
+                               linear=newton%linear)
          if (allocated(error)) return
          if (round > 1) then
             if (multipliers%trivial_error <= refinement%accuracy) return

@@ -35,6 +35,8 @@ module cycle_families
    type, extends(problem_family_type) :: known_family
       !> The equation
       integer :: equation = 0
+      !> Counts the problems that are made, where it is associated
+      integer, pointer :: made => null()
    contains
       procedure :: at => member
    end type known_family
@@ -58,6 +60,7 @@ contains
       class(dde_problem_type), allocatable, intent(out) :: problem
       type(known_problem) :: made
 
+      if (associated(self%made)) self%made = self%made + 1
       made%equation = self%equation
       made%p = parameters
       select case (self%equation)

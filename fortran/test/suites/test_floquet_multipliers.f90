@@ -40,13 +40,15 @@ contains
 
    !> Where the delay is k periods, x(t - k) = x(t)/mu^k: the multipliers solve mu = exp(a/mu^k),
    !> and exp(-2) is that of the circle. Both signs of a: a growing and an oscillating disturbance.
+   !> The equations that corrected the orbit give the same; no problem is made again for them.
    subroutine test_exact(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
       type(known_family) :: family
-      type(multipliers_type) :: found
+      type(multipliers_type) :: again, found
       type(newton_type) :: newton
       type(periodic_orbit_type) :: orbit
+      integer, target :: made
       real(wp), parameter :: rates(2) = [0.5_wp, -1.8_wp]
       real(wp) :: times(20*6 + 1)
       complex(wp) :: mu
@@ -66,6 +68,15 @@ contains
             call find_multipliers(fix_parameters(family), orbit, 6, found, failure)
             call expect_success(error, failure)
             if (allocated(error)) return
+            family%made => made
+            made = 0
+            call find_multipliers(fix_parameters(family), orbit, 6, again, failure, &
+                                  linear=newton%linear)
+            call expect_success(error, failure)
+            call expect(error, made == 0, text(made)//" problems are made again")
+            if (allocated(error)) return
+            call expect_close(error, abs(again%values - found%values), &
+                              spread(0.0_wp, 1, size(found%values)), 1.0e-8_wp, "known equations")
             call expect_close(error, orbit%period, 1.0_wp, 1.0e-12_wp, "period")
             call expect_close(error, found%trivial_error, 0.0_wp, 1.0e-9_wp, "trivial multiplier")
             others = 0

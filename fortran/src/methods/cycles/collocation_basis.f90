@@ -65,13 +65,18 @@ contains
       class(collocation_basis_type), intent(in) :: self
       real(wp), intent(in) :: place
       real(wp) :: values(self%degree + 1)
-      integer :: i, k
+      real(wp) :: above, below
+      integer :: i
 
+      below = 1.0_wp
       do i = 1, size(values)
-         values(i) = self%leading(i)
-         do k = 1, size(values)
-            if (k /= i) values(i) = values(i)*(place - self%node(k))
-         end do
+         values(i) = self%leading(i)*below
+         below = below*(place - self%node(i))
+      end do
+      above = 1.0_wp
+      do i = size(values), 1, -1
+         values(i) = values(i)*above
+         above = above*(place - self%node(i))
       end do
    end function values_at
 
@@ -80,18 +85,22 @@ contains
       class(collocation_basis_type), intent(in) :: self
       real(wp), intent(in) :: place
       real(wp) :: slopes(self%degree + 1)
-      real(wp) :: value
-      integer :: i, k
+      ! products of the factors of nodes below and above a node, and their derivatives
+      real(wp) :: above, above_slope, below(self%degree + 1)
+      integer :: i
 
-      do i = 1, size(slopes)
-         value = self%leading(i)
-         slopes(i) = 0.0_wp
-         do k = 1, size(slopes)
-            if (k == i) cycle
-            ! the product rule, factor by factor
-            slopes(i) = slopes(i)*(place - self%node(k)) + value
-            value = value*(place - self%node(k))
-         end do
+      below(1) = 1.0_wp
+      slopes(1) = 0.0_wp
+      do i = 1, self%degree
+         slopes(i + 1) = slopes(i)*(place - self%node(i)) + below(i)
+         below(i + 1) = below(i)*(place - self%node(i))
+      end do
+      above = 1.0_wp
+      above_slope = 0.0_wp
+      do i = size(slopes), 1, -1
+         slopes(i) = self%leading(i)*(slopes(i)*above + below(i)*above_slope)
+         above_slope = above_slope*(place - self%node(i)) + above
+         above = above*(place - self%node(i))
       end do
    end function slopes_at
 

@@ -30,8 +30,6 @@ module floquet_multipliers
    type, extends(linear_map_type) :: period_map_type
       !> Linear equations about the orbit
       type(orbit_passes_type) :: linear
-      !> Nodes that follow from the last vector
-      real(wp), allocatable :: nodes(:)
    contains
       procedure :: apply => past_after_period
    end type period_map_type
@@ -39,7 +37,7 @@ module floquet_multipliers
 contains
 
    !> Multipliers of greatest modulus.
-   subroutine find_multipliers(family, orbit, wanted, found, error, disturbances)
+   subroutine find_multipliers(family, orbit, wanted, found, error, disturbances, linear)
       !> Problems and free parameters
       type(free_family_type), intent(in) :: family
       !> The orbit
@@ -52,11 +50,13 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Disturbances over the period at the nodes of the orbit, shape (n, nodes, multipliers)
       complex(wp), allocatable, intent(out), optional :: disturbances(:, :, :)
+      !> Linear equations about the orbit, if they are known
+      type(orbit_passes_type), intent(in), optional :: linear
       complex(wp), allocatable :: pasts(:, :), values(:)
       type(period_map_type) :: map
       integer :: i, kept, trivial
 
-      call find_eigenvalues(family, orbit, wanted + 1, map, values, pasts, error)
+      call find_eigenvalues(family, orbit, wanted + 1, map, values, pasts, error, linear)
       if (allocated(error)) return
       trivial = minloc(abs(values - 1.0_wp), dim=1)
       found%trivial_error = abs(values(trivial) - 1.0_wp)
@@ -93,7 +93,7 @@ contains
    end subroutine find_largest_multiplier
 
    !> Eigenvalues of greatest modulus of the map of the past, and their eigenvectors.
-   subroutine find_eigenvalues(family, orbit, wanted, map, values, pasts, error)
+   subroutine find_eigenvalues(family, orbit, wanted, map, values, pasts, error, linear)
       type(free_family_type), intent(in) :: family
       type(periodic_orbit_type), intent(in) :: orbit
       integer, intent(in) :: wanted
@@ -103,10 +103,17 @@ contains
       !> Eigenvectors, shape (numbers of a past, size(values))
       complex(wp), allocatable, intent(out) :: pasts(:, :)
       type(error_type), allocatable, intent(out) :: error
+      type(orbit_passes_type), intent(in), optional :: linear
+      real(wp) :: no_sums(size(orbit%nodes, 1), size(orbit%nodes, 2), 0)
 
-      call linearise_orbit(family, orbit, .true., map%linear, error)
-      if (allocated(error)) return
-      allocate (map%nodes(size(orbit%nodes)))
+      if (present(linear)) then
+         map%linear = linear
+         call map%linear%reach_back()
+      else
+         call linearise_orbit(family, orbit, .true., map%linear, error)
+         if (allocated(error)) return
+      end if
+      call map%linear%prepare(no_sums)
       call leading_eigenvalues(map, map%linear%past_size(), wanted, tolerance, values, pasts, error)
    end subroutine find_eigenvalues
 
@@ -116,9 +123,9 @@ contains
       real(wp), intent(in) :: past(:)
       type(periodic_orbit_type), intent(in) :: orbit
       real(wp) :: disturbance(size(orbit%nodes, 1), size(orbit%nodes, 2)), later(size(past))
+      real(wp) :: no_sums(0)
 
-      call map%apply(past, later)
-      disturbance = reshape(map%nodes, shape(disturbance))
+      call map%linear%pass(past, [real(wp) ::], later, no_sums, disturbance)
    end function over_period
 
    !> The past a period later.
@@ -126,8 +133,9 @@ contains
       class(period_map_type), intent(inout) :: self
       real(wp), intent(in) :: vector(:)
       real(wp), intent(out) :: image(:)
+      real(wp) :: no_sums(0)
 
-      call self%linear%pass(vector, [0.0_wp, 0.0_wp], self%nodes, image)
+      call self%linear%pass(vector, [real(wp) ::], image, no_sums)
    end subroutine past_after_period
 
    !> Number of multipliers outside of the unit circle.

@@ -27,8 +27,9 @@ module linear_map
       end subroutine image_of_vector
    end interface
 
-   !> A vector shorter than this share of what it was is noise.
-   real(wp), parameter :: noise = 1.0e-15_wp
+   !> A vector shorter than this share of what it was is noise. One shorter than this other share is
+   !> made orthogonal again.
+   real(wp), parameter :: noise = 1.0e-15_wp, little = 0.1_wp
    !> Arnoldi's method checks its eigenvalues after `first_check` steps, then every `steps_between`.
    integer, parameter :: first_check = 24, steps_between = 12
    !> Vectors of the basis whose inner products are summed together: one sum alone waits for each of
@@ -160,38 +161,48 @@ contains
       end do
    end function upper_hessenberg
 
-   !> Make an image orthogonal to the basis, twice against rounding, and append it.
+   !> Make an image orthogonal to the basis, twice where that leaves little of it, and append it.
    pure subroutine extend_basis(basis, k, image, h)
       !> Orthonormal vectors, shape (n, at least k + 1)
-      real(wp), intent(inout) :: basis(:, :)
+      real(wp), contiguous, intent(inout) :: basis(:, :)
       integer, intent(in) :: k
       !> The image, replaced by what is left of it
-      real(wp), intent(inout) :: image(:)
+      real(wp), contiguous, intent(inout) :: image(:)
       !> Coefficients of the image; number k + 1 is 0 where nothing is left
       real(wp), intent(inout) :: h(:)
       real(wp) :: parts(together), whole
-      integer :: i, j, last, turn
+      integer :: i, j, l, last, turn
 
       whole = norm2(image)
       h(:k) = 0.0_wp
       do turn = 1, 2
-         do j = 1, k, together
-            last = min(j + together - 1, k)
+         do j = 0, k - 1, together
+            last = min(together, k - j)
             parts = 0.0_wp
-            if (last == j + together - 1) then
+            if (last == together) then
                do i = 1, size(image)
-                  parts = parts + basis(i, j:last)*image(i)
+                  do l = 1, together
+                     parts(l) = parts(l) + basis(i, j + l)*image(i)
+                  end do
+               end do
+               do i = 1, size(image)
+                  do l = 1, together
+                     image(i) = image(i) - parts(l)*basis(i, j + l)
+                  end do
                end do
             else
-               parts(:last - j + 1) = matmul(image, basis(:, j:last))
+               do l = 1, last
+                  parts(l) = dot_product(basis(:, j + l), image)
+               end do
+               do l = 1, last
+                  image = image - parts(l)*basis(:, j + l)
+               end do
             end if
-            h(j:last) = h(j:last) + parts(:last - j + 1)
-            do i = j, last
-               image = image - parts(i - j + 1)*basis(:, i)
-            end do
+            h(j + 1:j + last) = h(j + 1:j + last) + parts(:last)
          end do
+         h(k + 1) = norm2(image)
+         if (h(k + 1) > little*whole) exit
       end do
-      h(k + 1) = norm2(image)
       if (h(k + 1) <= noise*whole) h(k + 1) = 0.0_wp
       basis(:, k + 1) = image
       if (h(k + 1) > 0.0_wp) basis(:, k + 1) = image/h(k + 1)

@@ -39,6 +39,9 @@ module orbit_branch
    real(wp), parameter :: least_cosine = 0.8_wp
    !> Least share of its amplitude that an orbit has after its correction
    real(wp), parameter :: remaining_share = 0.1_wp
+   !> Error after an adaption over that before, from which on another one on as many intervals is
+   !> not worth its cost, unless the branch would end
+   real(wp), parameter :: gain = 0.5_wp
    !> Orbits between two adaptions of an accurate mesh
    integer, parameter :: adapt_every = 5
 
@@ -63,7 +66,7 @@ contains
       type(orbit_change_type) :: along(1)
       type(periodic_orbit_type) :: orbit
       real(wp) :: step
-      integer :: i
+      integer :: i, iterations
       logical :: passed, passes
 
       associate (family => settings%family)
@@ -86,7 +89,7 @@ contains
                    branch%multipliers(settings%most_points))
          branch%orbits(1) = orbit
          branch%tangents(1) = along(1)
-         call make_accurate(settings, branch%orbits(1), branch%tangents(1), &
+         call make_accurate(settings, branch%orbits(1), branch%tangents(1), newton, &
                             branch%multipliers(1), .true., error)
          if (allocated(error)) return
          step = settings%first_step
@@ -97,9 +100,9 @@ contains
             call take_step(settings, branch, i, step, newton, passes, failure)
             branch%iterations = branch%iterations + newton%iterations
             if (.not. allocated(failure)) then
-               call make_accurate(settings, branch%orbits(i + 1), &
-                                  branch%tangents(i + 1), branch%multipliers(i + 1), &
-                                  mod(i, adapt_every) == 0, failure)
+               iterations = newton%iterations
+               call make_accurate(settings, branch%orbits(i + 1), branch%tangents(i + 1), newton, &
+                                  branch%multipliers(i + 1), mod(i, adapt_every) == 0, failure)
             end if
             if (allocated(failure)) then
                step = shorter*step
@@ -117,7 +120,7 @@ contains
                branch%ending = "intervals"
                exit
             end if
-            if (newton%iterations <= easy) then
+            if (iterations <= easy) then
                step = longer_step(step, settings%longest_step, branch%orbits(i))
             end if
          end do
@@ -151,7 +154,7 @@ contains
          if (allocated(error)) return
       end if
       along = directions(1)
-      call turn_to_tangent(family, orbit, along, error)
+      call turn_to_tangent(family, orbit, along, error, newton%linear)
    end subroutine first_orbit
 
    !> The next orbit of a branch.
@@ -177,7 +180,7 @@ contains
          call correct_orbit(family, before, along, [step], orbit, newton, error)
          if (allocated(error)) return
          move = along(1)
-         call turn_to_tangent(family, orbit, along(1), error)
+         call turn_to_tangent(family, orbit, along(1), error, newton%linear)
          if (allocated(error)) return
          passes = orbit%opposite_parts(before) > 0
          if (passes) then
@@ -194,38 +197,48 @@ contains
 
    !> Find the multipliers, on an adapted mesh where that is due or where the trivial multiplier is
    !> not accurate, and on more intervals where that is not enough.
-   subroutine make_accurate(settings, orbit, along, multipliers, due, error)
+   subroutine make_accurate(settings, orbit, along, newton, multipliers, due, error)
       type(follow_settings_type), intent(in) :: settings
       type(periodic_orbit_type), intent(inout) :: orbit
       type(orbit_change_type), intent(inout) :: along
+      !> What corrected the orbit
+      type(newton_type), intent(inout) :: newton
       type(multipliers_type), intent(out) :: multipliers
       !> Whether the mesh is to be adapted anyway
       logical, intent(in) :: due
       type(error_type), allocatable, intent(out) :: error
       type(error_type), allocatable :: failure
       type(multipliers_type) :: better
-      type(newton_type) :: newton
       type(orbit_change_type) :: direction(1)
       type(periodic_orbit_type) :: adapted, reference
+      real(wp) :: before
       integer :: intervals, round
 
       associate (family => settings%family, refinement => settings%refinement)
-         call find_multipliers(family, orbit, refinement%multipliers, multipliers, error)
+         call find_multipliers(family, orbit, refinement%multipliers, multipliers, error, &
+                               linear=newton%linear)
          if (allocated(error)) return
          intervals = orbit%intervals()
+         newton = newton_type()
+         before = huge(before)
          do round = 1, most_rounds
             if (multipliers%trivial_error <= refinement%accuracy) then
                if (round > 1 .or. .not. due) return
             end if
+            if (round > 2 .and. intervals == orbit%intervals() &
+                .and. multipliers%trivial_error > gain*before &
+                .and. multipliers%trivial_error <= sqrt(refinement%accuracy)) return
+            before = multipliers%trivial_error
             reference = orbit%on_mesh(adapted_mesh(orbit, intervals))
             direction(1) = along%on_mesh(orbit, reference%mesh)
             adapted = reference
             call correct_orbit(family, reference, direction, [0.0_wp], adapted, newton, &
                                failure)
             if (allocated(failure)) return
-            call turn_to_tangent(family, adapted, direction(1), failure)
+            call turn_to_tangent(family, adapted, direction(1), failure, newton%linear)
             if (allocated(failure)) return
-            call find_multipliers(family, adapted, refinement%multipliers, better, failure)
+            call find_multipliers(family, adapted, refinement%multipliers, better, failure, &
+                                  linear=newton%linear)
             if (allocated(failure)) return
             orbit = adapted
             along = direction(1)
@@ -261,11 +274,11 @@ contains
             call correct_orbit(family, reference, fixed, [0.0_wp], orbit, newton, error)
             if (allocated(error)) return
             orbit%parameters(p) = edge
-            call turn_to_tangent(family, orbit, along(1), error)
+            call turn_to_tangent(family, orbit, along(1), error, newton%linear)
             if (allocated(error)) return
             if (i == 2) exit
             ! a finer mesh changes the parameter a little
-            call make_accurate(settings, orbit, along(1), multipliers, .false., error)
+            call make_accurate(settings, orbit, along(1), newton, multipliers, .false., error)
             if (allocated(error)) return
          end do
          branch%orbits(last) = orbit

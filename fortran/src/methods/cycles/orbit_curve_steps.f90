@@ -9,6 +9,7 @@ module orbit_curve_steps
                            parameter_direction
    use orbit_equations, only: correct_orbit, find_tangents, newton_type
    use orbit_mesh, only: adapted_mesh
+   use orbit_passes, only: orbit_passes_type
    use periodic_orbit, only: periodic_orbit_type
    use problem_family, only: free_family_type
    use special_points, only: fold, judge_point, special_point_type
@@ -25,7 +26,7 @@ module orbit_curve_steps
    end type frame_type
 
    !> Distance of the evaluations for the derivative of the test function
-   real(wp), parameter :: beside = 1.0e-4_wp
+   real(wp), parameter :: beside = 1.0e-6_wp
    !> Evaluations of the test function at one point, and the distance between two at which it is
    !> zero
    integer, parameter :: most_evaluations = 8
@@ -53,8 +54,9 @@ contains
       logical, intent(out) :: passes
       !> The step is too long
       type(error_type), allocatable, intent(out) :: error
+      type(newton_type) :: newton
       type(periodic_orbit_type) :: before
-      real(wp) :: ahead, g, most_beside
+      real(wp) :: ahead, g, g_found, most_beside
       integer :: intervals, more, round
 
       passes = .false.
@@ -66,8 +68,8 @@ contains
          do round = 1, most_rounds
             before = point%orbit%on_mesh(adapted_mesh(point%orbit, intervals))
             frame = frame_on(frame, point%orbit, before)
-            call find_beside(settings, before, frame, ahead, most_beside, point, more, &
-                             error)
+            call find_beside(settings, before, frame, ahead, most_beside, point, newton, g_found, &
+                             more, error)
             if (allocated(error)) return
             if (round == 1) then
                evaluations = more
@@ -78,19 +80,20 @@ contains
                end if
             end if
             if (point%kind == fold) then
-               call judge_point(settings, point, g, error)
+               call judge_point(settings, point, newton%linear, g, error)
                if (allocated(error)) return
             end if
             if (is_accurate(point, refinement)) exit
             if (round > 1) intervals = refinement%next_intervals(intervals)
             ahead = 0.0_wp
          end do
-         call turn_along(settings, point, frame, error)
+         call turn_along(settings, point, frame, error, g_found, newton%linear)
       end associate
    end subroutine take_step
 
    !> The root of the test function on the line beside the end of a step, by the secant method.
-   subroutine find_beside(settings, before, frame, ahead, most, point, evaluations, error)
+   subroutine find_beside(settings, before, frame, ahead, most, point, newton, g, evaluations, &
+                          error)
       type(follow_settings_type), intent(in) :: settings
       type(periodic_orbit_type), intent(in) :: before
       !> Directions there, and the slope of the test function, which is improved
@@ -99,10 +102,14 @@ contains
       !> Most that the root may lie beside it
       real(wp), intent(in) :: most
       type(special_point_type), intent(inout) :: point
+      !> What corrected its orbit
+      type(newton_type), intent(out) :: newton
+      !> The test function there
+      real(wp), intent(out) :: g
       integer, intent(out) :: evaluations
       type(error_type), allocatable, intent(out) :: error
       type(orbit_change_type) :: change
-      real(wp) :: at, g, g_before, move
+      real(wp) :: at, g_before, move
 
       point%orbit = before
       change = frame%directions(1)%times(ahead)
@@ -110,7 +117,7 @@ contains
       move = 0.0_wp
       do evaluations = 1, most_evaluations
          call change%add_to(point%orbit, settings%family)
-         call test_beside(settings, before, frame%directions, [ahead, at], point, g, error)
+         call test_beside(settings, before, frame%directions, [ahead, at], point, newton, g, error)
          if (allocated(error)) return
          ! at a shorter distance the difference is one of rounding errors
          if (abs(move) > resolved) frame%slope = (g - g_before)/move
@@ -152,7 +159,7 @@ contains
    end function is_accurate
 
    !> Turn the directions at a point: along the first the test function does not change.
-   subroutine turn_along(settings, point, frame, error)
+   subroutine turn_along(settings, point, frame, error, known, linear)
       !> Problems and number of multipliers
       type(follow_settings_type), intent(in) :: settings
       !> The point
@@ -161,19 +168,26 @@ contains
       type(frame_type), intent(inout) :: frame
       !> There are none
       type(error_type), allocatable, intent(out) :: error
+      !> The test function there, if it is known
+      real(wp), intent(in), optional :: known
+      !> Linear equations about its orbit, if they are known
+      type(orbit_passes_type), intent(in), optional :: linear
       type(orbit_change_type) :: plane(2)
-      real(wp) :: g(2), slope(2)
-      integer :: i, j
+      real(wp) :: g, g_here, slope(2)
+      integer :: i
 
-      call turn_frame(settings%family, point%orbit, frame%directions, error)
+      call turn_frame(settings%family, point%orbit, frame%directions, error, linear)
       if (allocated(error)) return
+      if (present(known)) then
+         g_here = known
+      else
+         call test_near(settings, point, frame, [0.0_wp, 0.0_wp], g_here, error)
+         if (allocated(error)) return
+      end if
       do i = 1, 2
-         do j = 1, 2
-            call test_near(settings, point, frame, (3 - 2*j)*beside*[2 - i, i - 1], &
-                           g(j), error)
-            if (allocated(error)) return
-         end do
-         slope(i) = (g(1) - g(2))/(2.0_wp*beside)
+         call test_near(settings, point, frame, beside*[2 - i, i - 1], g, error)
+         if (allocated(error)) return
+         slope(i) = (g - g_here)/beside
       end do
       associate (across => slope/norm2(slope))
          plane(1) = combination(frame%directions, sign(1.0_wp, slope(2))*[across(2), -across(1)])
@@ -201,14 +215,15 @@ contains
 
    !> Turn two directions into orthonormal ones of the tangent plane; the first keeps its direction
    !> in it.
-   subroutine turn_frame(family, orbit, directions, error)
+   subroutine turn_frame(family, orbit, directions, error, linear)
       type(free_family_type), intent(in) :: family
       type(periodic_orbit_type), intent(in) :: orbit
       type(orbit_change_type), intent(inout) :: directions(2)
       type(error_type), allocatable, intent(out) :: error
+      type(orbit_passes_type), intent(in), optional :: linear
       type(orbit_change_type) :: plane(2)
 
-      call find_tangents(family, orbit, directions, plane, error)
+      call find_tangents(family, orbit, directions, plane, error, linear)
       if (allocated(error)) return
       associate (first => plane(1), second => plane(2))
          first = first%times(1.0_wp/sqrt(inner_product(orbit, first, first)))
@@ -226,37 +241,39 @@ contains
       real(wp), intent(in) :: place(2)
       real(wp), intent(out) :: g
       type(error_type), allocatable, intent(out) :: error
+      type(newton_type) :: newton
       type(orbit_change_type) :: move
       type(special_point_type) :: near
 
       near = point
       move = combination(frame%directions, place)
       call move%add_to(near%orbit, settings%family)
-      call test_beside(settings, point%orbit, frame%directions, place, near, g, error)
+      call test_beside(settings, point%orbit, frame%directions, place, near, newton, g, error)
    end subroutine test_near
 
    !> The orbit at a place of the plane about an orbit, and the test function of a point there.
-   subroutine test_beside(settings, before, directions, place, point, g, error)
+   subroutine test_beside(settings, before, directions, place, point, newton, g, error)
       type(follow_settings_type), intent(in) :: settings
       type(periodic_orbit_type), intent(in) :: before
       type(orbit_change_type), intent(in) :: directions(2)
       real(wp), intent(in) :: place(2)
       !> The point, of known kind; its orbit is first an approximation
       type(special_point_type), intent(inout) :: point
+      !> What corrected its orbit
+      type(newton_type), intent(out) :: newton
       real(wp), intent(out) :: g
       type(error_type), allocatable, intent(out) :: error
-      type(newton_type) :: newton
       type(orbit_change_type) :: plane(2)
 
       g = 0.0_wp
       call correct_orbit(settings%family, before, directions, place, point%orbit, newton, error)
       if (allocated(error)) return
       if (point%kind /= fold) then
-         call judge_point(settings, point, g, error)
+         call judge_point(settings, point, newton%linear, g, error)
          return
       end if
       ! at a fold there is a tangent along which no parameter changes
-      call find_tangents(settings%family, point%orbit, directions, plane, error)
+      call find_tangents(settings%family, point%orbit, directions, plane, error, newton%linear)
       if (allocated(error)) return
       g = plane(1)%parameters(1)*plane(2)%parameters(2) &
           - plane(1)%parameters(2)*plane(2)%parameters(1)

@@ -24,24 +24,26 @@ module orbit_equations
       integer :: iterations = 0
       !> The last change
       real(wp) :: last_change = 0.0_wp
+      !> Linear equations about the orbit, for tangents and multipliers
+      type(orbit_passes_type) :: linear
    end type newton_type
 
    !> Residual of the linear systems.
    real(wp), parameter :: linear_tolerance = 1.0e-10_wp
    !> A change of this size that does not decrease by half is one of rounding errors.
    real(wp), parameter :: rounding = 1.0e-7_wp
+   !> After a change of this size the linear equations before it are those about the orbit.
+   real(wp), parameter :: negligible = 1.0e-12_wp
    !> A change so much larger than the orbit is divergence.
    real(wp), parameter :: divergence = 1.0e3_wp
 
    !> The linear system of an iteration; the vector is the past, then the changes of the period and
    !> of the free parameters.
    type, extends(linear_map_type) :: orbit_map_type
-      !> Collocation equations
+      !> Collocation equations, prepared for the sums over the nodes in the conditions
       type(orbit_passes_type) :: linear
       !> The phase condition, then a condition for each free parameter
       type(orbit_change_type), allocatable :: conditions(:)
-      !> Nodes that follow from the last vector
-      real(wp), allocatable :: nodes(:)
    contains
       procedure :: apply => defect_of_change
    end type orbit_map_type
@@ -75,14 +77,20 @@ contains
       do i = 1, newton%most_iterations
          newton%iterations = i
          call find_targets(reference, family, conditions, distances, orbit, target(:, 1))
-         call solve_conditions(family, orbit, conditions, 1.0_wp, target, change, error)
+         call linearise_orbit(family, orbit, .false., newton%linear, error)
+         if (allocated(error)) return
+         call solve_conditions(newton%linear, conditions, 1.0_wp, target, change, error)
          if (allocated(error)) return
          before = newton%last_change
          newton%last_change = change(1)%size_against(orbit)
          if (.not. newton%last_change <= divergence) exit
          call change(1)%add_to(orbit, family)
-         if (newton%last_change <= newton%tolerance) return
-         if (newton%last_change <= rounding .and. newton%last_change >= 0.5_wp*before) return
+         if (newton%last_change <= newton%tolerance &
+             .or. (newton%last_change <= rounding .and. newton%last_change >= 0.5_wp*before)) then
+            if (newton%last_change <= negligible) return
+            call linearise_orbit(family, orbit, .false., newton%linear, error)
+            return
+         end if
          if (.not. orbit%period > 0.0_wp) exit
       end do
       call raise(error, "periodic orbit: Newton's method changes it by " &
@@ -92,7 +100,7 @@ contains
 
    !> Changes that keep an orbit one: tangents. Tangent i has the inner product 1 with
    !> direction i and 0 with the others.
-   subroutine find_tangents(family, orbit, directions, tangents, error)
+   subroutine find_tangents(family, orbit, directions, tangents, error, linear)
       !> Problems and free parameters
       type(free_family_type), intent(in) :: family
       !> The orbit
@@ -103,7 +111,10 @@ contains
       type(orbit_change_type), intent(out) :: tangents(:)
       !> The directions do not determine them
       type(error_type), allocatable, intent(out) :: error
+      !> Linear equations about the orbit, if they are known
+      type(orbit_passes_type), intent(in), optional :: linear
       type(orbit_change_type) :: conditions(1 + size(directions))
+      type(orbit_passes_type) :: equations
       real(wp) :: targets(1 + size(directions), size(directions))
       integer :: i
 
@@ -111,8 +122,14 @@ contains
       do i = 1, size(directions)
          targets(i + 1, i) = 1.0_wp
       end do
+      if (present(linear)) then
+         equations = linear
+      else
+         call linearise_orbit(family, orbit, .false., equations, error)
+         if (allocated(error)) return
+      end if
       call set_conditions(orbit, directions, family, conditions)
-      call solve_conditions(family, orbit, conditions, 0.0_wp, targets, tangents, error)
+      call solve_conditions(equations, conditions, 0.0_wp, targets, tangents, error)
    end subroutine find_tangents
 
    !> The phase condition at an orbit, and a condition for each direction.
@@ -130,7 +147,7 @@ contains
    end subroutine set_conditions
 
    !> Turn a direction to the tangent of norm 1 whose inner product with it is positive.
-   subroutine turn_to_tangent(family, orbit, direction, error)
+   subroutine turn_to_tangent(family, orbit, direction, error, linear)
       !> Problems and free parameters
       type(free_family_type), intent(in) :: family
       !> The orbit
@@ -139,17 +156,18 @@ contains
       type(orbit_change_type), intent(inout) :: direction
       !> There is none
       type(error_type), allocatable, intent(out) :: error
+      !> Linear equations about the orbit, if they are known
+      type(orbit_passes_type), intent(in), optional :: linear
       type(orbit_change_type) :: tangent(1)
 
-      call find_tangents(family, orbit, [direction], tangent, error)
+      call find_tangents(family, orbit, [direction], tangent, error, linear)
       if (allocated(error)) return
       direction = tangent(1)%times(1.0_wp/sqrt(inner_product(orbit, tangent(1), tangent(1))))
    end subroutine turn_to_tangent
 
    !> Solve the linear equations about an orbit.
-   subroutine solve_conditions(family, orbit, conditions, residual, targets, changes, error)
-      type(free_family_type), intent(in) :: family
-      type(periodic_orbit_type), intent(in) :: orbit
+   subroutine solve_conditions(linear, conditions, residual, targets, changes, error)
+      type(orbit_passes_type), intent(inout) :: linear
       type(orbit_change_type), intent(in) :: conditions(:)
       !> 1 if the change removes the residual of the orbit, 0 if it leaves it
       real(wp), intent(in) :: residual
@@ -158,16 +176,17 @@ contains
       type(orbit_change_type), intent(out) :: changes(:)
       type(error_type), allocatable, intent(out) :: error
       type(orbit_map_type) :: map
-      real(wp), allocatable :: right(:), solution(:)
-      integer :: i, past, unknowns
+      real(wp), allocatable :: right(:), solution(:), weights(:, :, :)
+      integer :: i, past
 
-      call linearise_orbit(family, orbit, .false., map%linear, error)
-      if (allocated(error)) return
-      map%conditions = conditions
-      past = map%linear%past_size()
-      unknowns = past + size(conditions)
-      allocate (map%nodes(size(orbit%nodes)))
-      allocate (right(unknowns), solution(unknowns))
+      allocate (weights(linear%n, linear%intervals*linear%degree + 1, size(conditions)))
+      do i = 1, size(conditions)
+         weights(:, :, i) = conditions(i)%nodes
+      end do
+      call linear%prepare(weights)
+      map = orbit_map_type(linear, conditions)
+      past = linear%past_size()
+      allocate (right(past + size(conditions)), solution(past + size(conditions)))
       do i = 1, size(changes)
          solution = 0.0_wp
          call find_defects(map, solution, residual, right)
@@ -175,8 +194,8 @@ contains
          right(past + 1:) = right(past + 1:) + targets(:, i)
          call solve_by_gmres(map, right, linear_tolerance, solution, error)
          if (allocated(error)) return
-         call find_defects(map, solution, residual, right)
-         changes(i)%nodes = reshape(map%nodes, shape(orbit%nodes))
+         allocate (changes(i)%nodes(size(weights, 1), size(weights, 2)))
+         call find_defects(map, solution, residual, right, changes(i)%nodes)
          changes(i)%period = solution(past + 1)
          changes(i)%parameters = solution(past + 2:)
       end do
@@ -192,19 +211,21 @@ contains
    end subroutine defect_of_change
 
    !> Defect of a change, plus a multiple of the residual of the orbit.
-   subroutine find_defects(self, vector, residual, image)
-      class(orbit_map_type), intent(inout) :: self
+   subroutine find_defects(self, vector, residual, image, nodes)
+      class(orbit_map_type), intent(in) :: self
       real(wp), intent(in) :: vector(:), residual
       real(wp), intent(out) :: image(:)
+      !> The change of the nodes
+      real(wp), intent(out), contiguous, optional :: nodes(:, :)
       integer :: i, past
 
       past = self%linear%past_size()
-      call self%linear%pass(vector(:past), [residual, vector(past + 1:)], self%nodes, image(:past))
+      call self%linear%pass(vector(:past), [residual, vector(past + 1:)], image(:past), &
+                            image(past + 1:), nodes)
       image(:past) = vector(:past) - image(:past)
       do i = 1, size(self%conditions)
          associate (c => self%conditions(i))
-            image(past + i) = dot_product(reshape(c%nodes, [size(c%nodes)]), self%nodes) &
-                              + c%period*vector(past + 1) &
+            image(past + i) = image(past + i) + c%period*vector(past + 1) &
                               + dot_product(c%parameters, vector(past + 2:))
          end associate
       end do

@@ -2,12 +2,12 @@
 !> linear about an approximation and solved on each interval.
 module orbit_linearisation
    use dde, only: dde_problem_type, find_jacobian
-   use dde_errors, only: error_type, raise
+   use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use lapack, only: solve
    use orbit_passes, only: orbit_passes_type
    use periodic_orbit, only: periodic_orbit_type
    use problem_family, only: free_family_type
+   use small_systems, only: group, solve_equations
    implicit none (type, external)
    private
    public :: linearise_orbit
@@ -21,10 +21,16 @@ module orbit_linearisation
       class(dde_problem_type), allocatable :: problem
    end type member_type
 
-   !> Derivatives and residual at a collocation point.
+   !> A collocation point: state, delayed values, and derivatives there.
    type :: point_type
+      !> State and its derivative by s, shape (n)
+      real(wp), allocatable :: y(:), y_slope(:)
+      !> Delayed values and their derivatives by s, shape (delays)
+      real(wp), allocatable :: z(:), z_slope(:)
       !> Derivatives of f by y and z
       real(wp), allocatable :: by_y(:, :), by_z(:, :)
+      !> f, and f at parameters above and below, shape (n)
+      real(wp), allocatable :: f(:), f_above(:), f_below(:)
       !> Forcings, shape (n, forcings)
       real(wp), allocatable :: forcing(:, :)
    end type point_type
@@ -49,8 +55,10 @@ contains
       real(wp), intent(in), optional :: further(:, :, :, :)
       class(dde_problem_type), allocatable :: problem
       type(member_type), allocatable :: beside(:, :)
-      real(wp), allocatable :: local(:, :), parameters(:), place(:, :, :), right(:, :)
-      integer :: first, forcings, i, p
+      type(point_type) :: point
+      real(wp), allocatable :: equations(:, :), parameters(:), slope(:, :, :, :)
+      integer :: first, forcings, i, numbers, p
+      logical :: singular
 
       call family%problems%at(orbit%parameters, problem)
       allocate (beside(2, merge(0, size(family%free), whole_past)))
@@ -66,18 +74,31 @@ contains
       self%n = problem%n
       self%degree = orbit%basis%degree
       self%intervals = orbit%intervals()
-      call find_sources(self, problem, orbit, whole_past, place)
-      associate (n => self%n, m => self%degree, delays => size(problem%lag))
-         first = n + delays*m + 2 + size(beside, 2) + 1
-         forcings = 0
-         if (present(further)) forcings = size(further, 4)
-         allocate (self%response(n*m, first - 1 + forcings, self%intervals))
-         allocate (local(n*m, n*(m + 1)), right(n*m, size(self%response, 2)))
+      call find_sources(self, problem, orbit, whole_past, slope)
+      forcings = 0
+      if (present(further)) forcings = size(further, 4)
+      associate (n => self%n, m => self%degree, delays => size(problem%lag), &
+                 parameters_free => size(beside, 2))
+         first = self%inputs() + 2 + parameters_free + 1
+         allocate (self%response(first - 1 + forcings, n*m, self%intervals))
+         numbers = n*m + size(self%response, 1)
+         allocate (equations(group*((numbers + group - 1)/group), n*m))
+         allocate (point%y(n), point%y_slope(n), point%f(n), point%f_above(n), point%f_below(n))
+         allocate (point%z(delays), point%z_slope(delays), point%by_y(n, n))
+         allocate (point%by_z(n, delays), point%forcing(n, 2 + parameters_free))
          do i = 1, self%intervals
-            if (present(further)) right(:, first:) = reshape(further(:, :, i, :), [n*m, forcings])
-            call local_system(self, problem, beside, orbit, place(:, :, i), i, local, right)
-            call solve(local(:, n + 1:), right, self%response(:, :, i), error)
-            if (allocated(error)) return
+            call set_equations(self, problem, beside, orbit, slope(:, :, :, i), i, point, &
+                               equations)
+            do p = 1, forcings
+               equations(n*m + first - 1 + p, :) = reshape(further(:, :, i, p), [n*m])
+            end do
+            call solve_equations(n*m, size(equations, 1), equations, singular)
+            if (singular) then
+               call raise(error, "periodic orbit: the equations of interval "//text(i)//" of " &
+                          //text(self%intervals)//" are singular; a regular matrix expected")
+               return
+            end if
+            self%response(:, :, i) = equations(n*m + 1:numbers, :)
          end do
       end associate
       if (.not. all(abs(self%response) < huge(1.0_wp))) then
@@ -87,14 +108,14 @@ contains
    end subroutine linearise_orbit
 
    !> Where delayed values come from.
-   subroutine find_sources(self, problem, orbit, whole_past, place)
+   subroutine find_sources(self, problem, orbit, whole_past, slope)
       type(orbit_passes_type), intent(inout) :: self
       class(dde_problem_type), intent(in) :: problem
       type(periodic_orbit_type), intent(in) :: orbit
       logical, intent(in) :: whole_past
-      !> Place in the interval of the source, shape (delays, m, intervals)
-      real(wp), allocatable, intent(out) :: place(:, :, :)
-      real(wp) :: back, s, sigma
+      !> Weights of the slope of a delayed value, by the place in its interval; as `weight`
+      real(wp), allocatable, intent(out) :: slope(:, :, :, :)
+      real(wp) :: place, s, sigma
       integer :: i, interval, k, l
 
       associate (m => self%degree, delays => size(problem%lag))
@@ -105,137 +126,144 @@ contains
             end if
             self%row(l) = findloc(self%delayed, problem%component(l), dim=1)
          end do
-         allocate (self%source(delays, m, self%intervals), place(delays, m, self%intervals))
+         allocate (self%source(delays, m, self%intervals))
+         allocate (self%later(delays, m, self%intervals), source=0)
          allocate (self%weight(m + 1, delays, m, self%intervals))
+         allocate (slope(m + 1, delays, m, self%intervals))
          do i = 1, self%intervals
             do k = 1, m
                s = orbit%mesh(i) + (orbit%mesh(i + 1) - orbit%mesh(i))*orbit%basis%point(k)
                do l = 1, delays
-                  back = problem%lag(l)/orbit%period
-                  if (.not. whole_past) back = back - floor(back)
-                  sigma = s - back
-                  call orbit%locate(sigma - floor(sigma), interval, place(l, k, i))
+                  sigma = s - problem%lag(l)/orbit%period
+                  call orbit%locate(sigma - floor(sigma), interval, place)
                   interval = interval + floor(sigma)*self%intervals
-                  if (interval > i .or. back <= 0.0_wp) then
+                  if (interval > i .or. problem%lag(l) <= 0.0_wp) then
                      interval = i
-                     place(l, k, i) = (sigma - orbit%mesh(i))/(orbit%mesh(i + 1) - orbit%mesh(i))
+                     place = (sigma - orbit%mesh(i))/(orbit%mesh(i + 1) - orbit%mesh(i))
+                  else if (interval < i .and. .not. whole_past) then
+                     self%later(l, k, i) = (i - 1 - interval)/self%intervals
+                     interval = interval + self%later(l, k, i)*self%intervals
                   end if
                   self%source(l, k, i) = interval
+                  self%weight(:, l, k, i) = orbit%basis%values_at(place)
+                  slope(:, l, k, i) = orbit%basis%slopes_at(place)
                end do
             end do
          end do
-         self%reach = 0
          if (delays > 0) self%reach = max(0, 1 - minval(self%source))
       end associate
    end subroutine find_sources
 
-   !> Equations of an interval: local x = right (inputs), x all its nodes; the first n columns of
-   !> local, those of the left end, are moved to the right.
-   subroutine local_system(self, problem, beside, orbit, place, i, local, right)
+   !> Equations of an interval, one a column: the factors of the nodes but the first, then those of
+   !> the inputs on the right-hand side; those of further forcings are left.
+   subroutine set_equations(self, problem, beside, orbit, slope, i, point, equations)
       type(orbit_passes_type), intent(inout) :: self
       class(dde_problem_type), intent(in) :: problem
       type(member_type), intent(in) :: beside(:, :)
       type(periodic_orbit_type), intent(in) :: orbit
-      !> Place in the interval of the source of delayed values, shape (delays, m)
-      real(wp), intent(in) :: place(:, :)
+      !> Weights of the slopes of delayed values, shape (m + 1, delays, m)
+      real(wp), intent(in) :: slope(:, :, :)
       integer, intent(in) :: i
-      real(wp), intent(out) :: local(:, :)
-      !> Right-hand sides; those of further forcings are given
-      real(wp), intent(inout) :: right(:, :)
-      type(point_type) :: point
-      real(wp) :: h, row_size(size(local, 1)), values(self%degree + 1)
-      integer :: column, first, interval, j, k, l, last, r
+      type(point_type), intent(inout) :: point
+      real(wp), intent(inout) :: equations(:, :)
+      real(wp) :: factor, h
+      integer :: c, column, j, k, l, r, right
 
       h = orbit%mesh(i + 1) - orbit%mesh(i)
-      last = self%n + self%degree*size(problem%lag) + 2 + size(beside, 2)
-      local = 0.0_wp
-      right(:, :last) = 0.0_wp
+      equations = 0.0_wp
       associate (n => self%n, m => self%degree, basis => orbit%basis, period => orbit%period)
+         right = n*m
          do k = 1, m
-            r = (k - 1)*n
-            call evaluate_point(self, problem, beside, orbit, place(:, k), i, k, point)
-            do j = 1, m + 1
-               column = (j - 1)*n
-               local(r + 1:r + n, column + 1:column + n) = -period*basis%value(j, k)*point%by_y
-               do l = 1, n
-                  local(r + l, column + l) = local(r + l, column + l) + basis%slope(j, k)/h
-               end do
+            call evaluate_point(self, problem, beside, orbit, slope(:, :, k), i, k, point)
+            do r = 1, n
+               associate (equation => equations(:, (k - 1)*n + r))
+                  do j = 1, m + 1
+                     ! the left end is an input
+                     column = merge(right, (j - 2)*n, j == 1)
+                     factor = merge(1.0_wp, -1.0_wp, j == 1)*period*basis%value(j, k)
+                     do c = 1, n
+                        equation(column + c) = factor*point%by_y(r, c)
+                     end do
+                     equation(column + r) = equation(column + r) &
+                                            + merge(-1.0_wp, 1.0_wp, j == 1)*basis%slope(j, k)/h
+                  end do
+                  do l = 1, size(problem%lag)
+                     if (self%source(l, k, i) < i) then
+                        column = right + n + (k - 1)*size(problem%lag) + l
+                        equation(column) = period*point%by_z(r, l)
+                        cycle
+                     end if
+                     ! the delayed value is one of this interval's own
+                     do j = 1, m + 1
+                        column = merge(right, (j - 2)*n, j == 1) + problem%component(l)
+                        equation(column) = equation(column) + merge(1.0_wp, -1.0_wp, j == 1) &
+                                           *period*self%weight(j, l, k, i)*point%by_z(r, l)
+                     end do
+                  end do
+                  column = right + self%inputs()
+                  equation(column + 1:column + size(point%forcing, 2)) = point%forcing(r, :)
+               end associate
             end do
             do l = 1, size(problem%lag)
-               interval = self%source(l, k, i)
-               first = modulo(interval - 1, self%intervals)*m
-               values = basis%values_at(place(l, k))
-               if (interval == i) then
-                  ! the delayed value is one of this interval's own
-                  do j = 1, m + 1
-                     column = (j - 1)*n + problem%component(l)
-                     local(r + 1:r + n, column) = local(r + 1:r + n, column) &
-                                                  - period*values(j)*point%by_z(:, l)
-                  end do
-                  self%weight(:, l, k, i) = 0.0_wp
-                  self%source(l, k, i) = 1
-               else
-                  column = n + (k - 1)*size(problem%lag) + l
-                  right(r + 1:r + n, column) = period*point%by_z(:, l)
-                  self%weight(:, l, k, i) = values
-                  self%source(l, k, i) = (interval - 1 + self%reach)*m + 1
-               end if
+               if (self%source(l, k, i) == i) self%weight(:, l, k, i) = 0.0_wp
             end do
-            right(r + 1:r + n, n + m*size(problem%lag) + 1:last) = point%forcing
-         end do
-         right(:, :n) = -local(:, :n)
-         row_size = maxval(abs(local(:, n + 1:)), dim=2)
-         do column = n + 1, size(local, 2)
-            local(:, column) = local(:, column)/row_size
-         end do
-         do column = 1, size(right, 2)
-            right(:, column) = right(:, column)/row_size
          end do
       end associate
-   end subroutine local_system
+   end subroutine set_equations
 
    !> Derivatives and forcings at a collocation point.
-   subroutine evaluate_point(self, problem, beside, orbit, place, i, k, point)
+   subroutine evaluate_point(self, problem, beside, orbit, slope, i, k, point)
       type(orbit_passes_type), intent(in) :: self
       class(dde_problem_type), intent(in) :: problem
       type(member_type), intent(in) :: beside(:, :)
       type(periodic_orbit_type), intent(in) :: orbit
-      !> Place of the sources of delayed values, shape (delays)
-      real(wp), intent(in) :: place(:)
+      !> Weights of the slopes of delayed values, shape (m + 1, delays)
+      real(wp), intent(in) :: slope(:, :)
       integer, intent(in) :: i, k
       type(point_type), intent(inout) :: point
-      real(wp) :: slope_z(size(place)), z(size(place))
-      real(wp), dimension(self%n) :: f, f_above, f_below, y, y_slope
-      integer :: first, from, l, p
+      integer :: first, from, j, l, p
 
-      if (.not. allocated(point%by_y)) then
-         allocate (point%by_y(self%n, self%n), point%by_z(self%n, size(place)))
-         allocate (point%forcing(self%n, 2 + size(beside, 2)))
-      end if
-      associate (m => self%degree, basis => orbit%basis, mesh => orbit%mesh, period => orbit%period)
+      associate (m => self%degree, basis => orbit%basis, mesh => orbit%mesh, &
+                 period => orbit%period, y => point%y, z => point%z)
          first = (i - 1)*m
-         y = matmul(orbit%nodes(:, first + 1:first + m + 1), basis%value(:, k))
-         y_slope = matmul(orbit%nodes(:, first + 1:first + m + 1), basis%slope(:, k)) &
-                   /(mesh(i + 1) - mesh(i))
-         do l = 1, size(place)
+         y = 0.0_wp
+         point%y_slope = 0.0_wp
+         do j = 1, m + 1
+            y = y + basis%value(j, k)*orbit%nodes(:, first + j)
+            point%y_slope = point%y_slope + basis%slope(j, k)/(mesh(i + 1) - mesh(i)) &
+                            *orbit%nodes(:, first + j)
+         end do
+         do l = 1, size(z)
             from = modulo(self%source(l, k, i) - 1, self%intervals) + 1
             first = (from - 1)*m
-            associate (x => orbit%nodes(problem%component(l), first + 1:first + m + 1))
-               z(l) = dot_product(x, basis%values_at(place(l)))
-               slope_z(l) = dot_product(x, basis%slopes_at(place(l)))/(mesh(from + 1) - mesh(from))
-            end associate
+            z(l) = 0.0_wp
+            point%z_slope(l) = 0.0_wp
+            do j = 1, m + 1
+               associate (x => orbit%nodes(problem%component(l), first + j))
+                  z(l) = z(l) + x*self%weight(j, l, k, i)
+                  point%z_slope(l) = point%z_slope(l) + x*slope(j, l)/(mesh(from + 1) - mesh(from))
+               end associate
+            end do
          end do
-         call problem%rhs(0.0_wp, y, z, f)
+         call problem%rhs(0.0_wp, y, z, point%f)
          call find_full_jacobian(problem, y, z, point%by_y, point%by_z)
-         point%forcing(:, 1) = period*f - y_slope
-         point%forcing(:, 2) = period*f + matmul(point%by_z, slope_z*problem%lag)
+         point%forcing(:, 1) = period*point%f - point%y_slope
+         point%forcing(:, 2) = period*point%f
+         do l = 1, size(z)
+            point%forcing(:, 2) = point%forcing(:, 2) &
+                                  + point%z_slope(l)*problem%lag(l)*point%by_z(:, l)
+         end do
          do p = 1, size(beside, 2)
-            associate (above => beside(1, p)%problem, below => beside(2, p)%problem)
-               call above%rhs(0.0_wp, y, z, f_above)
-               call below%rhs(0.0_wp, y, z, f_below)
-               point%forcing(:, 2 + p) = (period*(f_above - f_below) &
-                                          - matmul(point%by_z, slope_z*(above%lag - below%lag))) &
-                                         /(2.0_wp*difference)
+            associate (above => beside(1, p)%problem, below => beside(2, p)%problem, &
+                       forcing => point%forcing(:, 2 + p))
+               call above%rhs(0.0_wp, y, z, point%f_above)
+               call below%rhs(0.0_wp, y, z, point%f_below)
+               forcing = period*(point%f_above - point%f_below)
+               do l = 1, size(z)
+                  forcing = forcing &
+                            - point%z_slope(l)*(above%lag(l) - below%lag(l))*point%by_z(:, l)
+               end do
+               forcing = forcing/(2.0_wp*difference)
             end associate
          end do
       end associate

@@ -80,6 +80,7 @@ contains
       type(special_point_type), allocatable, intent(inout) :: points(:)
       type(error_type), allocatable, intent(out) :: error
       type(multipliers_type) :: between
+      type(newton_type) :: newton
       type(orbit_change_type) :: tangent
       type(periodic_orbit_type) :: middle
       type(segment_type) :: segment
@@ -115,13 +116,13 @@ contains
          return
       end if
       if (allocated(error)) deallocate (error)
-      call find_orbit_at(settings%family, segment, 0.5_wp, middle, error)
+      call find_orbit_at(settings%family, segment, 0.5_wp, middle, newton, error)
       if (allocated(error)) return
       call find_multipliers(settings%family, middle, settings%refinement%multipliers, between, &
-                            error)
+                            error, linear=newton%linear)
       if (allocated(error)) return
       tangent = segment%along(1)
-      call turn_to_tangent(settings%family, middle, tangent, error)
+      call turn_to_tangent(settings%family, middle, tangent, error, newton%linear)
       if (allocated(error)) return
       sign_between = sign(1.0_wp, tangent%parameters(1))
       call search_between(settings, first, middle, [signs(1), sign_between], before, between, &
@@ -190,12 +191,13 @@ contains
       type(segment_type), intent(in) :: segment
       type(special_point_type), intent(inout) :: point
       type(error_type), allocatable, intent(out) :: error
+      type(newton_type) :: newton
       type(sign_change_type) :: change
-      real(wp) :: at, g, moved
+      real(wp) :: at, g, moved, ignored
       integer :: i
 
       do i = 1, 2
-         call test_at(settings, segment, change%places(i), point, change%values(i), error)
+         call test_at(settings, segment, change%places(i), point, newton, change%values(i), error)
          if (allocated(error)) return
       end do
       if (product(change%values) > 0.0_wp) then
@@ -206,7 +208,7 @@ contains
       end if
       do i = 1, most_iterations
          at = change%next()
-         call test_at(settings, segment, at, point, g, error)
+         call test_at(settings, segment, at, point, newton, g, error)
          if (allocated(error)) return
          call change%narrow(at, g, moved)
          if (moved <= share .or. abs(g) <= tiny(g)) exit
@@ -216,6 +218,9 @@ contains
                     //" where it changes sign; at most "//text(small)//" expected")
       else if (point%kind == torus_bifurcation) then
          call set_growth(settings, segment, at, point)
+      else if (point%kind == fold) then
+         ! its test function needs no multipliers
+         call judge_point(settings, point, newton%linear, ignored, error)
       end if
    end subroutine locate_point
 
@@ -226,6 +231,7 @@ contains
       real(wp), intent(in) :: at
       type(special_point_type), intent(inout) :: point
       type(error_type), allocatable :: failure
+      type(newton_type) :: newton
       type(special_point_type) :: side
       real(wp) :: parameter(2), rate(2)
       integer :: i
@@ -233,7 +239,7 @@ contains
       if (allocated(point%growth)) deallocate (point%growth)
       side%kind = point%kind
       do i = 1, 2
-         call test_at(settings, segment, at + merge(-beside, beside, i == 1), side, &
+         call test_at(settings, segment, at + merge(-beside, beside, i == 1), side, newton, &
                       rate(i), failure)
          if (allocated(failure)) return
          rate(i) = log(1.0_wp + rate(i))/side%orbit%period
@@ -243,25 +249,30 @@ contains
    end subroutine set_growth
 
    !> The orbit at a place on a segment, and the test function of the point there.
-   subroutine test_at(settings, segment, place, point, g, error)
+   subroutine test_at(settings, segment, place, point, newton, g, error)
       type(follow_settings_type), intent(in) :: settings
       type(segment_type), intent(in) :: segment
       real(wp), intent(in) :: place
       !> The point, of known kind; its orbit is the one at the place
       type(special_point_type), intent(inout) :: point
+      !> What corrected the orbit
+      type(newton_type), intent(out) :: newton
       real(wp), intent(out) :: g
       type(error_type), allocatable, intent(out) :: error
       type(orbit_change_type) :: tangent
 
       g = 0.0_wp
-      call find_orbit_at(settings%family, segment, place, point%orbit, error)
+      call find_orbit_at(settings%family, segment, place, point%orbit, newton, error)
       if (allocated(error)) return
-      call judge_point(settings, point, g, error)
-      if (allocated(error) .or. point%kind /= fold) return
-      tangent = segment%along(1)
-      call turn_to_tangent(settings%family, point%orbit, tangent, error)
-      g = tangent%parameters(1)
+      if (point%kind == fold) then
+         tangent = segment%along(1)
+         call turn_to_tangent(settings%family, point%orbit, tangent, error, newton%linear)
+         g = tangent%parameters(1)
+      else
+         call judge_point(settings, point, newton%linear, g, error)
+      end if
    end subroutine test_at
+
    !> The segment between two orbits, on the mesh of the first.
    type(segment_type) function segment_between(first, second, family) result(segment)
       type(periodic_orbit_type), intent(in) :: first, second
@@ -279,13 +290,14 @@ contains
    end function segment_between
 
    !> The orbit at a place on a segment.
-   subroutine find_orbit_at(family, segment, place, orbit, error)
+   subroutine find_orbit_at(family, segment, place, orbit, newton, error)
       type(free_family_type), intent(in) :: family
       type(segment_type), intent(in) :: segment
       real(wp), intent(in) :: place
       type(periodic_orbit_type), intent(out) :: orbit
+      !> What corrected the orbit
+      type(newton_type), intent(out) :: newton
       type(error_type), allocatable, intent(out) :: error
-      type(newton_type) :: newton
 
       associate (first => segment%ends(1), second => segment%ends(2))
          orbit = first

@@ -4,6 +4,7 @@ module special_points
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use floquet_multipliers, only: find_multipliers, multipliers_type
+   use orbit_passes, only: orbit_passes_type
    use periodic_orbit, only: periodic_orbit_type
    implicit none (type, external)
    private
@@ -102,11 +103,13 @@ contains
    end function nearest_resonance
 
    !> The critical multiplier of a point, its accuracy, and the test function by multipliers.
-   subroutine judge_point(settings, point, g, error)
+   subroutine judge_point(settings, point, linear, g, error)
       !> Problems and number of multipliers
       type(follow_settings_type), intent(in) :: settings
       !> The point, of known kind and orbit
       type(special_point_type), intent(inout) :: point
+      !> Linear equations about the orbit
+      type(orbit_passes_type), intent(in) :: linear
       !> The test function
       real(wp), intent(out) :: g
       !> No multipliers
@@ -115,7 +118,7 @@ contains
 
       g = 0.0_wp
       call find_multipliers(settings%family, point%orbit, settings%refinement%multipliers, &
-                            multipliers, error)
+                            multipliers, error, linear=linear)
       if (allocated(error)) return
       call test_value(point%kind, multipliers, point%multiplier, g)
       point%trivial_error = multipliers%trivial_error

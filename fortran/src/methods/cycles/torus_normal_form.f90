@@ -33,11 +33,9 @@ module torus_normal_form
       complex(wp) :: multiplier = (1.0_wp, 0.0_wp)
       !> Real and imaginary part of its forcing, and of that which the further unknown multiplies
       integer :: given(2) = 0, unknown(2) = 0
-      !> Weights of the nodes in a sum that is 0; where they are not allocated, the further unknown
-      !> is 0
-      complex(wp), allocatable :: condition(:)
-      !> Real and imaginary part of the nodes for the last vector
-      real(wp), allocatable :: nodes(:, :)
+      !> Weights in a sum over the nodes that is 0, shape (n, nodes); where they are not allocated,
+      !> the further unknown is 0
+      complex(wp), allocatable :: condition(:, :)
    contains
       procedure :: apply => defect_of_term
    end type term_map_type
@@ -101,7 +99,7 @@ contains
       ! a lower speed is a longer period
       map%unknown = [of_period, 0]
       phase = phase_condition(orbit, 0)
-      map%condition = cmplx(reshape(phase%nodes, [size(phase%nodes)]), kind=wp)
+      map%condition = cmplx(phase%nodes, kind=wp)
       call solve_term(map, x%nodes(:, :, h11), a, error)
       if (allocated(error)) return
       x%a = -real(a)
@@ -111,7 +109,7 @@ contains
       map%multiplier = x%multiplier(q)
       map%given = further + [1, 2]
       map%unknown = further + [3, 4]
-      map%condition = reshape(weights_with(orbit, x%nodes(:, :, q)), [size(orbit%nodes)])
+      map%condition = weights_with(orbit, x%nodes(:, :, q))
       allocate (h21(size(orbit%nodes, 1), size(orbit%nodes, 2)))
       call solve_term(map, h21, d, error)
       if (allocated(error)) return
@@ -140,11 +138,15 @@ contains
       complex(wp), intent(out) :: nodes(:, :)
       complex(wp), intent(out) :: unknown
       type(error_type), allocatable, intent(out) :: error
-      real(wp), allocatable :: right(:), solution(:)
+      real(wp), allocatable :: parts(:, :, :), right(:), solution(:)
 
       associate (linear => map%linear)
-         if (allocated(map%nodes)) deallocate (map%nodes)
-         allocate (map%nodes(size(nodes), 2))
+         allocate (parts(size(nodes, 1), size(nodes, 2), 2), source=0.0_wp)
+         if (allocated(map%condition)) then
+            parts(:, :, 1) = real(map%condition)
+            parts(:, :, 2) = aimag(map%condition)
+         end if
+         call linear%prepare(parts)
          allocate (right(2*linear%past_size() + 2), solution(2*linear%past_size() + 2))
       end associate
       nodes = 0.0_wp
@@ -154,8 +156,8 @@ contains
       right = -right
       call solve_by_gmres(map, right, tolerance, solution, error)
       if (allocated(error)) return
-      call defect(map, solution, 1.0_wp, right)
-      nodes = reshape(cmplx(map%nodes(:, 1), map%nodes(:, 2), kind=wp), shape(nodes))
+      call defect(map, solution, 1.0_wp, right, parts)
+      nodes = cmplx(parts(:, :, 1), parts(:, :, 2), kind=wp)
       unknown = cmplx(solution(size(solution) - 1), solution(size(solution)), kind=wp)
    end subroutine solve_term
 
@@ -169,12 +171,14 @@ contains
    end subroutine defect_of_term
 
    !> Defect of a term, plus a multiple of the given forcing.
-   subroutine defect(self, vector, given, image)
-      class(term_map_type), intent(inout) :: self
+   subroutine defect(self, vector, given, image, nodes)
+      class(term_map_type), intent(in) :: self
       real(wp), intent(in) :: vector(:), given
       real(wp), intent(out) :: image(:)
+      !> Real and imaginary part of the nodes, shape (n, nodes, 2)
+      real(wp), intent(out), optional :: nodes(:, :, :)
       complex(wp) :: past(self%linear%past_size()), unknown
-      real(wp) :: factor(0:6, 2), later(size(past), 2)
+      real(wp) :: factor(0:6, 2), later(size(past), 2), sums(2, 2)
       integer :: i, last
 
       associate (n => size(past))
@@ -185,15 +189,19 @@ contains
          factor(self%unknown, 2) = [aimag(unknown), real(unknown)]
          factor(self%given(1), 1) = given
          factor(self%given(2), 2) = given
-         last = size(self%linear%response, 2) - self%linear%n &
-                - self%linear%degree*size(self%linear%row)
+         last = size(self%linear%response, 1) - self%linear%inputs()
          do i = 1, 2
-            call self%linear%pass(vector((i - 1)*n + 1:i*n), factor(1:last, i), self%nodes(:, i), &
-                                  later(:, i))
+            if (present(nodes)) then
+               call self%linear%pass(vector((i - 1)*n + 1:i*n), factor(1:last, i), later(:, i), &
+                                     sums(:, i), nodes(:, :, i))
+            else
+               call self%linear%pass(vector((i - 1)*n + 1:i*n), factor(1:last, i), later(:, i), &
+                                     sums(:, i))
+            end if
          end do
          past = self%multiplier*past - cmplx(later(:, 1), later(:, 2), kind=wp)
          if (allocated(self%condition)) then
-            unknown = sum(self%condition*cmplx(self%nodes(:, 1), self%nodes(:, 2), kind=wp))
+            unknown = cmplx(sums(1, 1) - sums(2, 2), sums(1, 2) + sums(2, 1), kind=wp)
          end if
          image = [real(past), aimag(past), real(unknown), aimag(unknown)]
       end associate
