@@ -3,7 +3,6 @@
 from typing import Annotated
 
 import numpy as np
-import xarray as xr
 
 from scripts.claims.claims_of_routes import stretches_of
 from scripts.claims.claims_results import (
@@ -31,6 +30,7 @@ from scripts.claims.declare import (
     tested_with,
 )
 from scripts.claims.roots_of_5 import unstable_pairs as unstable_pairs_of_5
+from scripts.files.inputs import Dataset
 from scripts.tables.motion_rows import is_computed, parameter_of
 
 KINDS = {"supercritical": -1, "subcritical": 1}
@@ -158,7 +158,7 @@ def hopf_depends_on(
     return decided(with_xi and not with_tau, " ".join(parts), instead, partly=with_xi)
 
 
-def boundary(curves: xr.Dataset) -> xr.Dataset:
+def boundary(curves: Dataset) -> Dataset:
     """The points where stability changes."""
     return curves.isel(point=curves.unstable_pairs.values == 0)
 

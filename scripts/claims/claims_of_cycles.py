@@ -1,7 +1,5 @@
 """Claims about cycles at a scene's parameters, by their Floquet multipliers and special points."""
 
-import xarray as xr
-
 from scripts.claims.claims_of_attractors import attractor_class
 from scripts.claims.claims_results import (
     CORRECTED,
@@ -14,6 +12,7 @@ from scripts.claims.claims_results import (
     short,
 )
 from scripts.claims.declare import Scene, claim, reads, says, tested_with
+from scripts.files.inputs import Dataset
 from scripts.namelists.study_cases import PARAMETERS
 from scripts.tables.attractor_tables import SAME_MAXIMUM
 from scripts.tables.cycle_branches import CycleThere, cycles_there
@@ -66,7 +65,7 @@ def second_hopf(results: Results, *, scene: Scene) -> Finding:
     return decided(bool(elsewhere) and here, evidence, instead)
 
 
-def lines_through(results: Results, scene: str) -> dict[str, xr.Dataset]:
+def lines_through(results: Results, scene: str) -> dict[str, Dataset]:
     """Cycles followed along lines that pass a scene."""
     place = results.stability_of(scene)
     return {

@@ -2,10 +2,9 @@
 
 from typing import Annotated
 
-import xarray as xr
-
 from scripts.claims.claims_results import Finding, Results, decided, short
 from scripts.claims.declare import Scene, among, claim, reads, says, tested_with
+from scripts.files.inputs import Dataset
 
 KINDS = ["periodic", "quasiperiodic", "continuum"]
 Kind = Annotated[str, among("kind of a spectrum", KINDS)]
@@ -45,7 +44,7 @@ def spectrum_class(results: Results, *, scene: Scene, expected: Kind) -> Finding
     )
 
 
-def second_peak(scene: str, spectrum: xr.Dataset) -> str:
+def second_peak(scene: str, spectrum: Dataset) -> str:
     """What the second highest peak is, in a sentence."""
     kind, count = spectrum.attrs["spectrum_kind"], spectrum.sizes["peak"]
     if kind != "periodic" or count < 2:
@@ -59,7 +58,7 @@ def second_peak(scene: str, spectrum: xr.Dataset) -> str:
     )
 
 
-def in_words(scene: str, spectrum: xr.Dataset) -> str:
+def in_words(scene: str, spectrum: Dataset) -> str:
     """Kind of the spectrum; its two highest peaks, or the power beside all lines."""
     kind = spectrum.attrs["spectrum_kind"]
     words = f"Kind of the spectrum of scene {scene}: {kind}."

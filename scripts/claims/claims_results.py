@@ -5,9 +5,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-import xarray as xr
-
-from scripts.files.inputs import read
+from scripts.files.inputs import Dataset, read
 from scripts.files.tsv import read_table
 from scripts.namelists.laws import law_of
 
@@ -96,11 +94,11 @@ class Results:
         own = [row for row in rows if row["mean_step"] == rows[0]["mean_step"]]
         return [(row["exponent"], row["error"]) for row in own]
 
-    def spectrum_of(self, scene: str) -> xr.Dataset:
+    def spectrum_of(self, scene: str) -> Dataset:
         """The spectrum of the scene's v; to have none is an error."""
         return _data_about(self.spectra, "results/spectra", scene)
 
-    def events_of(self, scene: str) -> xr.Dataset:
+    def events_of(self, scene: str) -> Dataset:
         """The scene's slip events; to have none is an error."""
         return _data_about(self.slip_events, "results/slip_events", scene)
 
@@ -143,7 +141,7 @@ def _rows_about(rows: list[dict], table: str, kind: str, name: str) -> list[dict
     return found
 
 
-def _data_about(data: dict[str, xr.Dataset], folder: str, scene: str) -> xr.Dataset:
+def _data_about(data: dict[str, Dataset], folder: str, scene: str) -> Dataset:
     """The file of a scene; to have none is an error."""
     if scene not in data:
         raise ValueError(f"{folder}: no file of scene '{scene}'; there are: {', '.join(data)}")

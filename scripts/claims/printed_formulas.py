@@ -7,7 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-import xarray as xr
+
+from scripts.files.inputs import Dataset
 
 NUDGE = 1e-30
 """Step of a complex-step derivative: small enough to leave no error of its own."""
@@ -29,7 +30,7 @@ class Points:
         return self.gamma**2 / self.xi
 
 
-def points_of(curves: xr.Dataset) -> Points:
+def points_of(curves: Dataset) -> Points:
     """Points of a file of Hopf curves; to have none is an error."""
     if curves.sizes["point"] == 0:
         raise ValueError(f"no Hopf curve in the window of the plane {dict(curves.attrs)}")

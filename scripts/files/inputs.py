@@ -1,13 +1,19 @@
 """NetCDF files that scripts read."""
 
 from pathlib import Path
-
-import xarray as xr
+from typing import TYPE_CHECKING, TypeAlias
 
 from scripts.files.outputs import FileError
 
+# takes half a second to load, and planning knows functions of data by name alone
+if TYPE_CHECKING:
+    import xarray
 
-def with_law_in_words(data: xr.Dataset) -> xr.Dataset:
+Dataset: TypeAlias = "xarray.Dataset"
+DataArray: TypeAlias = "xarray.DataArray"
+
+
+def with_law_in_words(data: Dataset) -> Dataset:
     """The data with the values of the law's own parameters beside its name."""
     own = data.attrs.get("law_parameters", "").split()
     if own:
@@ -16,8 +22,10 @@ def with_law_in_words(data: xr.Dataset) -> xr.Dataset:
     return data
 
 
-def read(path: str | Path) -> xr.Dataset:
+def read(path: str | Path) -> Dataset:
     """All of a NetCDF file. Raises FileError; a damaged file is removed and so made again."""
+    import xarray as xr
+
     try:
         return with_law_in_words(xr.load_dataset(path, engine="netcdf4"))
     except (OSError, RuntimeError) as problem:

@@ -3,9 +3,8 @@
 from pathlib import Path
 
 import numpy as np
-import xarray as xr
 
-from scripts.files.inputs import read
+from scripts.files.inputs import DataArray, Dataset, read
 from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
 from scripts.namelists.laws import law_of
@@ -26,7 +25,7 @@ NOT_COMPUTED = {*PARAMETERS, "law", *HISTORY, "computed", "class", "period"}
 """Columns of points of the atlas that were not computed; the others are empty."""
 
 
-def rows_of(run: xr.Dataset, **flags: list[str]) -> list[dict]:
+def rows_of(run: Dataset, **flags: list[str]) -> list[dict]:
     """Rows of a file, with columns of further flags before the class; values not found are NaN."""
     columns = {
         **{key: numbers(run[key]) for key in AXES_FIRST},
@@ -54,7 +53,7 @@ def rows_of(run: xr.Dataset, **flags: list[str]) -> list[dict]:
     ]
 
 
-def atlas_rows(run: xr.Dataset) -> list[dict]:
+def atlas_rows(run: Dataset) -> list[dict]:
     """Rows of a part of the atlas, with the column `computed` before the class."""
     rows = rows_of(run, computed=words(run.computed))
     for row in rows:
@@ -63,23 +62,23 @@ def atlas_rows(run: xr.Dataset) -> list[dict]:
     return rows
 
 
-def numbers(values: xr.DataArray) -> list[float]:
+def numbers(values: DataArray) -> list[float]:
     """A column of numbers."""
     return values.values.astype(float).tolist()
 
 
-def positive(values: xr.DataArray) -> list[float]:
+def positive(values: DataArray) -> list[float]:
     """A column of numbers, NaN where 0 says that there is none."""
     return numbers(values.where(values > 0))
 
 
-def words(flags: xr.DataArray) -> list[str]:
+def words(flags: DataArray) -> list[str]:
     """A column of flags by their meanings."""
     meanings = [word.replace("_", " ") for word in flags.attrs["flag_meanings"].split()]
     return [meanings[flag] for flag in flags.values]
 
 
-def scene_rows(scene: str, run: xr.Dataset) -> list[dict]:
+def scene_rows(scene: str, run: Dataset) -> list[dict]:
     """Rows of a scene, numbered by history and by attractor; a run that failed reached none.
 
     Histories are tame if v is at most as large in all of them as on the attractors: they cannot be
@@ -102,7 +101,7 @@ def scene_rows(scene: str, run: xr.Dataset) -> list[dict]:
     return numbered
 
 
-def route_rows(path: Path, run: xr.Dataset) -> list[dict]:
+def route_rows(path: Path, run: Dataset) -> list[dict]:
     """Rows of a run along a route, named by the file: its history or its sweep."""
     return [{"route": path.parent.name, "run": path.stem, **row} for row in rows_of(run)]
 

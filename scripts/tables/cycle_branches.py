@@ -3,7 +3,8 @@
 from dataclasses import dataclass
 
 import numpy as np
-import xarray as xr
+
+from scripts.files.inputs import Dataset
 
 
 @dataclass
@@ -19,7 +20,7 @@ class CycleThere:
     """The largest of a multiplier but 1, that of the nearest orbit"""
 
 
-def cycles_there(cycles: xr.Dataset, place: float) -> list[CycleThere]:
+def cycles_there(cycles: Dataset, place: float) -> list[CycleThere]:
     """All cycles at a value of the parameter, each between two points of its branch."""
     along = cycles.attrs["along"]
     found = []
@@ -36,7 +37,7 @@ def cycles_there(cycles: xr.Dataset, place: float) -> list[CycleThere]:
     return found
 
 
-def modulus_at(orbits: xr.Dataset, place: float, most: float) -> float:
+def modulus_at(orbits: Dataset, place: float, most: float) -> float:
     """Modulus of the largest multiplier but 1, between the nearest orbit and the next."""
     away = orbits[orbits.attrs["along"]].values - place
     nearest = int(np.hypot(away, orbits.v_most.values - most).argmin())
@@ -48,7 +49,7 @@ def modulus_at(orbits: xr.Dataset, place: float, most: float) -> float:
     return float(moduli[nearest])
 
 
-def branch_of(cycles: xr.Dataset, number: int, along: str) -> tuple[np.ndarray, ...]:
+def branch_of(cycles: Dataset, number: int, along: str) -> tuple[np.ndarray, ...]:
     """Parameter, greatest v, and between each two points the number of unstable multipliers.
 
     Special points stand between the orbits where this number changes, so that each part of the
