@@ -39,9 +39,9 @@ module orbit_branch
    real(wp), parameter :: least_cosine = 0.8_wp
    !> Least share of its amplitude that an orbit has after its correction
    real(wp), parameter :: remaining_share = 0.1_wp
-   !> Error after an adaption over that before, from which on another one on as many intervals is
-   !> not worth its cost, unless the branch would end
-   real(wp), parameter :: gain = 0.5_wp
+   !> Error after an adaption over that before, from which on another one on as many intervals does
+   !> not help
+   real(wp), parameter :: gain = 0.9_wp
    !> Orbits between two adaptions of an accurate mesh
    integer, parameter :: adapt_every = 5
 
@@ -226,8 +226,7 @@ contains
                if (round > 1 .or. .not. due) return
             end if
             if (round > 2 .and. intervals == orbit%intervals() &
-                .and. multipliers%trivial_error > gain*before &
-                .and. multipliers%trivial_error <= sqrt(refinement%accuracy)) return
+                .and. multipliers%trivial_error > gain*before) return
             before = multipliers%trivial_error
             reference = orbit%on_mesh(adapted_mesh(orbit, intervals))
             direction(1) = along%on_mesh(orbit, reference%mesh)

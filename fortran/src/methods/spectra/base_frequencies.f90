@@ -234,23 +234,24 @@ contains
       integer, intent(in) :: order
       integer :: multiple(2)
       real(wp) :: best, misfit
-      integer :: m, n, side, total
+      integer :: least, m, n, nearest
 
       multiple = 0
-      do total = 1, order
-         best = 1.0_wp
-         do n = -total, total
-            if (n == 0) cycle
-            do side = -1, 1, 2
-               m = side*(total - abs(n))
-               misfit = abs(line%frequency - m*first%frequency - n*second%frequency) &
-                        /(line%accuracy + abs(m)*first%accuracy + abs(n)*second%accuracy)
-               if (misfit > best) cycle
-               best = misfit
-               multiple = [m, n]
-            end do
+      least = order
+      best = 1.0_wp
+      do n = -order, order
+         if (n == 0) cycle
+         ! no other multiples of the first base come near
+         nearest = nint((line%frequency - n*second%frequency)/first%frequency)
+         do m = nearest - 1, nearest + 1
+            if (abs(m) + abs(n) > least) cycle
+            misfit = abs(line%frequency - m*first%frequency - n*second%frequency) &
+                     /(line%accuracy + abs(m)*first%accuracy + abs(n)*second%accuracy)
+            if (misfit > merge(best, 1.0_wp, abs(m) + abs(n) == least)) cycle
+            least = abs(m) + abs(n)
+            best = misfit
+            multiple = [m, n]
          end do
-         if (any(multiple /= 0)) return
       end do
    end function combination_of
 end module base_frequencies
