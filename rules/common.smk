@@ -100,10 +100,12 @@ def fill_in(value):
 def namelist_of(run):
     """The text of a run's namelist, by the wildcards."""
 
-    def write_text(wildcards, input):
+    # without `input`: Snakemake does not compare parameters that take it with those of the last run
+    def write_text(wildcards):
         groups = fill_in(run.groups(config, **wildcards))
         if run.horizons:
-            groups = end_at_horizons(groups, read_table(input.horizons))
+            table = read_table(fill_in(f"<results>/{run.needs['horizons']}"))
+            groups = end_at_horizons(groups, table)
         return text_of(groups)
 
     return write_text

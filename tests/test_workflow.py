@@ -94,7 +94,7 @@ def test_folders_of_results_stand_in_their_readme(smoke):
     """Every folder and the page; the file itself is kept as it is."""
     readme = (smoke.folder / "results" / "README.md").read_text()
     assert readme == (ROOT / "results" / "README.md").read_text()
-    named = set(re.findall(r"`results/([\w.]+)", readme))
+    named = set(re.findall(r"`results/([\w.-]+)", readme))
     made = {path.name for path in (smoke.folder / "results").iterdir()}
     assert named == (made | {"docs", "mine"}) - {"page", "README.md"}
 
