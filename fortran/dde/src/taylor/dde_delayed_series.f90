@@ -111,6 +111,7 @@ contains
       logical, intent(in) :: skipping
       !> Expected length of the step
       real(wp), intent(in) :: h
+      real(wp) :: valid_for
       integer :: k
 
       self%valid_for = huge(1.0_wp)
@@ -123,8 +124,12 @@ contains
             call read_start(context, k)
             self%first(k) = cursor%step(k)
             if (skipping) call skip_short(context, k, thin*h)
-            self%valid_for = min(self%valid_for, &
-                                 past%validity_of(cursor%step(k)) - cursor%offset(k))
+            valid_for = past%validity_of(cursor%step(k)) - cursor%offset(k)
+            if (.not. valid_for > 0.0_wp .and. cursor%step(k) < past%newest) then
+               ! rounding hides the rest of this step, but not the start of the next
+               valid_for = elapsed(cursor%delayed_start(k), past%start_of(cursor%step(k) + 1))
+            end if
+            self%valid_for = min(self%valid_for, valid_for)
          end do
       end associate
    end subroutine choose_steps

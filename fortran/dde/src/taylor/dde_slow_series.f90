@@ -98,12 +98,14 @@ contains
          self%change(degree, :) = 0.0_wp
          open = largest_term(degree, size(scale), self%change, scale, self%reach)
          distance = maxval(abs(y(0, :) - self%state)/scale)
-         if (distance > transient + 2*open) then
+         if (distance <= transient + 2*open) then
+            if (open < left_open) exit
+         else if (iteration > 1) then
+            ! the first iteration has no w', which disturbances of 1/rate are proportional to;
             ! a limited step reduces the distance by `limited` e-foldings at least
             self%patience = min(int(log(distance)/limited), self%patience)
             return
          end if
-         if (open < left_open) exit
       end do
       self%holds = open < left_open
       if (.not. self%holds) return

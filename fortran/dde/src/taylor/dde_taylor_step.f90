@@ -106,8 +106,9 @@ contains
       type(step_context), intent(inout) :: context
       real(wp), intent(inout) :: h
       real(wp) :: possible, unit
-      logical :: skipping
+      logical :: held, skipping
 
+      held = self%series%slow%holds
       associate (series => self%series, cursor => context%cursor)
          unit = merge(min(series%reach, growth*self%h), h, series%reach > 0.0_wp)
          call context%tolerance%scale(self%y, self%scale)
@@ -123,6 +124,8 @@ contains
             if (possible >= nearly*cursor%h) possible = series%reach
             if (possible > 0.0_wp .or. .not. skipping) exit
             skipping = .false.
+            ! a series that is not finite shows nothing of the slow one
+            if (.not. series%reach > 0.0_wp) series%slow%holds = held
          end do
          self%place = 0.0_wp
          self%valid_for = beyond*series%reach

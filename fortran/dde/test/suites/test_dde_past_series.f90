@@ -30,6 +30,7 @@ contains
                    new_unittest("series of the next step", test_next), &
                    new_unittest("series beyond its step", test_disagreement), &
                    new_unittest("series behind a layer", test_layer), &
+                   new_unittest("the last 1e-17 of a step", test_hidden_rest), &
                    new_unittest("series over many steps", test_fit)]
    end subroutine collect_dde_past_series
 
@@ -149,6 +150,25 @@ contains
       call expect_series(error, context, 0.0_wp, 0.5_wp, 1.0e-3_wp, .true., &
                          [1.1_wp, 0.0_wp, 0.0_wp], "before a short step", series)
    end subroutine test_layer
+
+   !> At t = 1 the next step begins in 1e-17, which is not short for it: it is 1e-15 long. The step
+   !> before is valid until then, although its length less the time passed is 0.
+   subroutine test_hidden_rest(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: rest = 1.0e-17_wp
+      type(delayed_series) :: series
+      type(step_context) :: context
+      type(wille_baker), target :: problem
+
+      problem = delayed()
+      context = new_context(problem, 0.0_wp, 0.1_wp, 0.0_wp, 1.0_wp)
+      call append(context, 0.0_wp, 1.0_wp, [1.0_wp, 1.0_wp, 0.0_wp], 1.0_wp)
+      call context%past%append(instant(1.0_wp, rest), 1.0e-15_wp, [0.0_wp], &
+                               reshape([2.0_wp, 0.0_wp], [2, 1]), 1.0e-15_wp)
+      call expect_series(error, context, 1.0_wp, 0.5_wp, 0.5_wp, .false., &
+                         [2.0_wp, rest, 0.0_wp], "series over the rest", series)
+      call expect_close(error, series%valid_for, rest, 0.01_wp*rest, "the rest")
+   end subroutine test_hidden_rest
 
    !> sin t in 40 cubics of 0.05: after a step that these have cut, one series of degree 13 over 1.2
    !> units replaces them. It does not step over a kink, or over 0.1 more in one of the steps.

@@ -19,7 +19,8 @@ module lyapunov_spectrum
    real(wp), parameter :: vector_size = 0.01_wp
    !> A part smaller than this number of tolerances of the vector it is taken from is noise.
    real(wp), parameter :: noise = 10.0_wp
-   !> How often an interval in which a vector is lost to noise is halved, before that is an error.
+   !> How often an interval in which a vector is lost to noise is halved before what is left of the
+   !> vector gives a bound. Without bounds it is halved until it takes one step.
    integer, parameter :: most_halvings = 10
 
    !> What growth is measured over.
@@ -297,7 +298,8 @@ contains
       else if (halvings == 0 .and. settings%bounds) then
          growth = log(max(norm, tiny(1.0_wp))/vector_size)
          if (present(observer)) call observer%keep_interval()
-      else if (halvings == 0) then
+      else if (outcome%accepted <= 1 .and. .not. settings%bounds) then
+         ! lost within a step
          call raise(error, "exponents: at t = "//text(time)//" a share of "//text(share) &
                     //" is left of a tangent vector without those before it; expected > " &
                     //text(lost)//" (ask for fewer exponents or a smaller " &
