@@ -47,8 +47,8 @@ def test_files_name_their_origin(smoke, files):
     for name in files.values():
         attributes = xr.open_dataset(smoke.folder / "results" / name).attrs
         assert attributes["Conventions"] == "CF-1.8"
-        program = attributes["source"].split()[1]
-        assert (ROOT / "fortran" / "app" / f"{program}.f90").exists()
+        command = attributes["source"].split()[1]
+        assert (ROOT / "fortran" / "app" / f"{command}_command.f90").exists()
         assert attributes["source"].endswith(attributes["program_version"])
         assert "Time-delay in spring-block model" in attributes["references"]
         assert "20" not in attributes["history"]
