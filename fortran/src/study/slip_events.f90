@@ -47,8 +47,11 @@ module slip_events
       real(wp), allocatable :: u(:)
    contains
       procedure :: reads => places_of_ln_v
+      procedure :: reads_for => place_of_ln_v
+      procedure :: takes => places_of_event
       procedure :: never_zero => keep_from_zero
       procedure :: values => ln_v_and_slope
+      procedure :: value => ln_v_or_slope
       procedure :: take => take_passage
    end type slip_watcher_type
 
@@ -97,6 +100,31 @@ contains
       components = [(components_of_block*(place - 1) + index_of_ln_v, place=1, size(self%last))]
    end function places_of_ln_v
 
+   !> The place of ln v of the block of a function.
+   pure function place_of_ln_v(self, which, n) result(components)
+      class(slip_watcher_type), intent(in) :: self
+      integer, intent(in) :: which, n
+      integer, allocatable :: components(:)
+
+      components = [first_place(which) + index_of_ln_v]
+   end function place_of_ln_v
+
+   !> The places of u and ln v of the block of a function.
+   pure function places_of_event(self, which, n) result(components)
+      class(slip_watcher_type), intent(in) :: self
+      integer, intent(in) :: which, n
+      integer, allocatable :: components(:)
+
+      components = first_place(which) + [index_of_u, index_of_ln_v]
+   end function places_of_event
+
+   !> The place before those of the block of a function.
+   pure integer function first_place(which) result(place)
+      integer, intent(in) :: which
+
+      place = components_of_block*((which - 1)/functions_of_block)
+   end function first_place
+
    !> Whether ln v of all blocks and its slopes keep from zero.
    pure logical function keep_from_zero(self, least, most, least_slope, most_slope) result(value)
       class(slip_watcher_type), intent(in) :: self
@@ -118,6 +146,17 @@ contains
       g(2::functions_of_block) = slope(index_of_ln_v::components_of_block)
    end subroutine ln_v_and_slope
 
+   !> One of these functions.
+   pure real(wp) function ln_v_or_slope(self, which, t, y, slope) result(value)
+      class(slip_watcher_type), intent(in) :: self
+      integer, intent(in) :: which
+      real(wp), intent(in) :: t, y(:), slope(:)
+
+      associate (ln_v => first_place(which) + index_of_ln_v)
+         value = merge(slope(ln_v), y(ln_v), modulo(which, functions_of_block) == 0)
+      end associate
+   end function ln_v_or_slope
+
    !> Begin or end an event of a block, or note an extreme velocity.
    subroutine take_passage(self, which, t, y, slope)
       class(slip_watcher_type), intent(inout) :: self
@@ -128,7 +167,7 @@ contains
       real(wp) :: u
 
       place = (which + functions_of_block - 1)/functions_of_block
-      first = components_of_block*(place - 1)
+      first = first_place(which)
       u = y(first + index_of_u)
       if (modulo(which, functions_of_block) == 0) then
          if (self%last(place) == 0) return

@@ -26,14 +26,19 @@ module dde_events
       !> functions that change faster than the solution
       real(wp) :: look_every = huge(1.0_wp)
    contains
-      !> Components that the functions depend on
+      !> Components that the functions depend on, that one of them does, and that `take` needs at
+      !> the events of one; reading less saves time
       procedure :: reads => all_components
+      procedure :: reads_for => components_read
+      procedure :: takes => components_of_state
       !> Refuse what cannot be watched
       procedure :: check => check_directions
       !> Whether bounds of state and slope show that no function is zero
       procedure :: never_zero => not_known
       !> The event functions
       procedure(event_values), deferred :: values
+      !> One of them
+      procedure :: value => one_of_values
       !> Receive an event
       procedure(take_event), deferred :: take
    end type event_watcher_type
@@ -64,9 +69,9 @@ module dde_events
          integer, intent(in) :: which
          !> Time of the event: t%hi, and t%lo beyond its last digit
          type(instant), intent(in) :: t
-         !> State there, shape (n)
+         !> State there, of the components that `takes` names, shape (n)
          real(wp), intent(in) :: y(:)
-         !> Time derivative of the state, shape (n)
+         !> Time derivative of the state, of these components, shape (n)
          real(wp), intent(in) :: slope(:)
       end subroutine take_event
    end interface
@@ -90,9 +95,11 @@ module dde_events
       real(wp), allocatable :: y(:, :)
    contains
       procedure :: reads => components_of_table
+      procedure :: reads_for => component_of_function
       procedure :: check => check_table
       procedure :: never_zero => never_at_level
       procedure :: values => less_level
+      procedure :: value => one_less_level
       procedure :: take => take_row
    end type event_table
 
@@ -164,6 +171,37 @@ contains
       components = [(i, i=1, n)]
    end function all_components
 
+   !> One function may depend on all components that are read.
+   pure function components_read(self, which, n) result(components)
+      class(event_watcher_type), intent(in) :: self
+      integer, intent(in) :: which, n
+      integer, allocatable :: components(:)
+
+      components = self%reads(n)
+   end function components_read
+
+   !> An event has the whole state.
+   pure function components_of_state(self, which, n) result(components)
+      class(event_watcher_type), intent(in) :: self
+      integer, intent(in) :: which, n
+      integer, allocatable :: components(:)
+
+      components = all_components(self, n)
+   end function components_of_state
+
+   !> One of all functions.
+   pure real(wp) function one_of_values(self, which, t, y, slope) result(value)
+      class(event_watcher_type), intent(in) :: self
+      !> Number of the function
+      integer, intent(in) :: which
+      !> As for all functions; of state and slope those that `reads_for` names
+      real(wp), intent(in) :: t, y(:), slope(:)
+      real(wp) :: g(size(self%direction))
+
+      call self%values(t, y, slope, g)
+      value = g(which)
+   end function one_of_values
+
    !> Nothing is known of functions in general.
    pure logical function not_known(self, least, most, least_slope, most_slope) result(value)
       class(event_watcher_type), intent(in) :: self
@@ -214,6 +252,20 @@ contains
       components = pack(components, [(any(self%component == i), i=1, n)])
    end function components_of_table
 
+   !> The component of a function of the table, or of an extension all that it reads.
+   pure function component_of_function(self, which, n) result(components)
+      class(event_table), intent(in) :: self
+      integer, intent(in) :: which, n
+      integer, allocatable :: components(:)
+      type(event_table) :: plain
+
+      if (same_type_as(self, plain)) then
+         components = [self%component(which)]
+      else
+         components = self%reads(n)
+      end if
+   end function component_of_function
+
    !> Whether components and slopes keep from their levels. An extension may have other functions:
    !> nothing is known of those.
    pure logical function never_at_level(self, least, most, least_slope, most_slope) result(value)
@@ -244,6 +296,22 @@ contains
          end if
       end do
    end subroutine less_level
+
+   !> One component or slope, less its level. An extension may have other functions.
+   pure real(wp) function one_less_level(self, which, t, y, slope) result(value)
+      class(event_table), intent(in) :: self
+      integer, intent(in) :: which
+      real(wp), intent(in) :: t, y(:), slope(:)
+      type(event_table) :: plain
+
+      if (.not. same_type_as(self, plain)) then
+         value = one_of_values(self, which, t, y, slope)
+      else if (self%of_slope(which)) then
+         value = slope(self%component(which)) - self%level(which)
+      else
+         value = y(self%component(which)) - self%level(which)
+      end if
+   end function one_less_level
 
    !> Fill the next row.
    subroutine take_row(self, which, t, y, slope)

@@ -20,8 +20,9 @@ module dde_dense_state
       real(wp), allocatable :: y(:), slope(:)
       !> Bounds of each component over the step, and of its time derivative, shape (n)
       real(wp), allocatable, dimension(:) :: least, most, least_slope, most_slope
-      !> Components looked at
+      !> Components looked at, and the place of each component among them, shape (n)
       integer, allocatable :: components(:)
+      integer, allocatable, private :: row(:)
       !> Start and end of the step
       type(instant), private :: start, finish
       !> Length of the step
@@ -51,11 +52,14 @@ contains
       type(instant), intent(in) :: t
       real(wp), intent(in) :: y(:), slope(:)
       integer, intent(in) :: components(:)
+      integer :: j
 
       self%t = t
       self%y = y
       self%slope = slope
       self%components = components
+      allocate (self%row(size(y)), source=0)
+      self%row(components) = [(j, j=1, size(components))]
       allocate (self%ends(2, size(components)), self%straight(size(components)))
       allocate (self%y_end(size(components)), self%coefficients(0:0, size(components)))
       allocate (self%least(size(y)), self%most(size(y)))
@@ -93,23 +97,39 @@ contains
    end subroutine take_up
 
    !> Go to a place of the step.
-   pure subroutine go_to(self, place)
+   pure subroutine go_to(self, place, only)
       class(dense_state), intent(inout) :: self
       real(wp), intent(in) :: place
-      real(wp) :: slope
-      integer :: i, j
+      !> Components that go there, of those looked at; all if it is not present
+      integer, intent(in), optional :: only(:)
 
       self%t = later(self%start, place*self%h)
       ! at the end of the step time and state are those of the next start, without rounding
       if (.not. place < 1.0_wp) self%t = self%finish
-      do j = 1, size(self%components)
-         i = self%components(j)
+      if (present(only)) then
+         call place_components(self, place, only)
+      else
+         call place_components(self, place, self%components)
+      end if
+   end subroutine go_to
+
+   !> State and slope of some components at a place of the step.
+   pure subroutine place_components(self, place, components)
+      type(dense_state), intent(inout) :: self
+      real(wp), intent(in) :: place
+      integer, intent(in) :: components(:)
+      real(wp) :: slope
+      integer :: i, j, k
+
+      do k = 1, size(components)
+         i = components(k)
+         j = self%row(i)
          call newton_state(self%nodes, self%coefficients(:, j), place, self%y(i), slope)
          if (.not. place < 1.0_wp) self%y(i) = self%y_end(j)
          if (self%straight(j)) slope = (1.0_wp - place)*self%ends(1, j) + place*self%ends(2, j)
          self%slope(i) = slope/self%h
       end do
-   end subroutine go_to
+   end subroutine place_components
 
    !> Bounds over the step: by powers of x = 2 s - 1, all of them at most 1.
    pure subroutine find_bounds(self)

@@ -1,7 +1,7 @@
 !> The search for events in a step. Where bounds of dense output exclude events there is none. Else
-!> event functions are evaluated on it, at a number of places that its degree requires, and where a
-!> parabola through three of these is nearest to zero.
-!> A passage between two places is located to rounding of the step.
+!> event functions are evaluated on it, at a number of places that its degree requires, and each
+!> where a parabola through three of these is nearest to zero. A passage between two places is
+!> located to rounding of the step; this costs evaluations of its function alone.
 module dde_event_search
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_dense_state, only: dense_state
@@ -35,7 +35,7 @@ module dde_event_search
       integer, allocatable, private :: side(:)
    contains
       procedure :: begin, search_step, read_slope
-      procedure, private :: choose_places, go_to, report, locate, stays
+      procedure, private :: fill_grid, find_passages, go_to, locate, report, stays
    end type event_search
 
 contains
@@ -68,32 +68,28 @@ contains
       !> Share of the step up to there, 0..1
       real(wp), intent(out) :: share
       logical, intent(out) :: ended
-      integer :: side(size(self%side))
+      integer, allocatable :: which(:)
+      real(wp), allocatable :: grid(:, :), root(:)
       integer :: i
-      real(wp), allocatable :: g(:, :), places(:)
-      real(wp) :: before
 
       call self%here%take_up(step, start, step_end)
       ended = .false.
       share = 1.0_wp
       call watcher%values(self%here%t%hi, self%here%y, self%here%slope, self%g)
       if (self%stays(watcher)) return
-      call self%choose_places(watcher, places, g)
-      share = 0.0_wp
-      do i = 1, size(places)
-         before = share
-         share = places(i)
-         side = sign_of(g(:, i), self%side)
-         if (any(side /= self%side .and. self%side /= 0)) then
-            call self%event%take_up(step, start, step_end)
-            call self%report(watcher, before, share, side)
-            ended = self%ended
-            if (ended) step_end = self%event%t
-            if (ended) return
-         end if
-         self%side = side
+      call self%fill_grid(watcher, grid)
+      allocate (root(0), which(0))
+      do i = 1, size(self%g)
+         call self%find_passages(watcher, i, grid(:, i), root, which)
       end do
-      call self%go_to(watcher, 1.0_wp)
+      if (size(root) > 0) then
+         call self%event%take_up(step, start, step_end)
+         call self%report(watcher, root, which, share)
+         ended = self%ended
+         if (ended) step_end = self%event%t
+         if (ended) return
+      end if
+      call self%here%go_to(1.0_wp)
    end subroutine search_step
 
    !> Whether no function leaves its side in the step, by the functions at its end and by bounds.
@@ -109,71 +105,117 @@ contains
       end associate
    end function stays
 
-   !> Places at which functions are evaluated, ascending up to 1: an even grid, and places between
-   !> where a function may pass zero twice.
-   pure subroutine choose_places(self, watcher, places, g)
+   !> All functions on an even grid over the step.
+   pure subroutine fill_grid(self, watcher, grid)
       class(event_search), intent(inout) :: self
       class(event_watcher_type), intent(in) :: watcher
-      real(wp), allocatable, intent(out) :: places(:)
-      !> Event functions there, shape (functions, places)
-      real(wp), allocatable, intent(out) :: g(:, :)
-      real(wp), allocatable :: grid(:, :)
-      real(wp) :: bend, half_rise, place
-      integer :: i, k, last
+      !> Event functions, shape (0:last, functions)
+      real(wp), allocatable, intent(out) :: grid(:, :)
+      integer :: k, last
 
       last = max(size(self%here%nodes) + 1, ceiling(self%here%h/watcher%look_every))
-      allocate (grid(size(self%g), 0:last))
+      allocate (grid(0:last, size(self%g)))
       do k = 0, last
-         call self%go_to(watcher, k*1.0_wp/last)
-         grid(:, k) = self%g
+         call self%here%go_to(k*1.0_wp/last)
+         call watcher%values(self%here%t%hi, self%here%y, self%here%slope, self%g)
+         grid(k, :) = self%g
       end do
-      allocate (places, source=[(k*1.0_wp/last, k=1, last)])
-      allocate (g, source=grid(:, 1:))
-      do k = 1, last - 1
-         do i = 1, size(self%g)
-            if (abs(sum(sign_of(grid(i, k - 1:k + 1), 0))) < 3) cycle
-            half_rise = 0.5_wp*(grid(i, k + 1) - grid(i, k - 1))
-            bend = (grid(i, k + 1) - grid(i, k)) - (grid(i, k) - grid(i, k - 1))
-            ! towards zero and back: the vertex of the parabola lies between the three places
-            if (sign(1.0_wp, grid(i, k))*bend <= abs(half_rise)) cycle
-            place = (k - half_rise/bend)/last
-            call self%go_to(watcher, place)
-            associate (earlier => count(places < place))
-               g = reshape([g(:, :earlier), self%g, g(:, earlier + 1:)], shape(g) + [0, 1])
-               places = [places(:earlier), place, places(earlier + 1:)]
-            end associate
-         end do
-      end do
-   end subroutine choose_places
+   end subroutine fill_grid
 
-   !> Report the events between two places, in order of time, up to the end of the run.
-   subroutine report(self, watcher, before, share, side)
+   !> Append the passages of one function: between places of the grid and places beside them where
+   !> it may pass zero twice. On return its side is that at the end of the step.
+   subroutine find_passages(self, watcher, i, grid, root, which)
+      class(event_search), intent(inout) :: self
+      class(event_watcher_type), intent(in) :: watcher
+      integer, intent(in) :: i
+      !> The function on the grid, shape (0:last)
+      real(wp), intent(in) :: grid(0:)
+      !> Places of passages, and their functions
+      real(wp), allocatable, intent(inout) :: root(:)
+      integer, allocatable, intent(inout) :: which(:)
+      real(wp) :: before, g_before, vertex(0:1)
+      integer :: k, last
+
+      last = ubound(grid, 1)
+      before = 0.0_wp
+      g_before = grid(0)
+      vertex = 0.0_wp
+      do k = 1, last
+         ! beside the left end of this interval, and its right end
+         vertex(0) = vertex(1)
+         vertex(1) = 0.0_wp
+         if (k < last) vertex(1) = vertex_of(grid(k - 1:k + 1))
+         if (vertex(0) > 0.0_wp) call look((k - 1 + vertex(0))/last)
+         if (vertex(1) < 0.0_wp) call look((k + vertex(1))/last)
+         call look(k*1.0_wp/last, grid(k))
+      end do
+
+   contains
+
+      !> Look at the next place, and append the passage since the place before.
+      subroutine look(place, known)
+         real(wp), intent(in) :: place
+         !> The function there, if it is known
+         real(wp), intent(in), optional :: known
+         real(wp) :: g
+         integer :: side
+
+         if (present(known)) then
+            g = known
+         else
+            call self%go_to(watcher, i, place, g)
+         end if
+         side = sign_of(g, self%side(i))
+         if (side /= self%side(i) .and. self%side(i)*watcher%direction(i) <= 0 &
+             .and. self%side(i) /= 0) then
+            root = [root, place]
+            which = [which, i]
+            call self%locate(watcher, i, before, g_before, g, root(size(root)))
+         end if
+         self%side(i) = side
+         before = place
+         g_before = g
+      end subroutine look
+   end subroutine find_passages
+
+   !> Place of the vertex of a parabola through three values at -1, 0 and 1, if it goes from zero
+   !> and back there, on one side; otherwise 0.
+   pure real(wp) function vertex_of(g) result(place)
+      real(wp), intent(in) :: g(-1:1)
+      real(wp) :: bend, half_rise
+
+      place = 0.0_wp
+      if (abs(sum(sign_of(g, 0))) < 3) return
+      half_rise = 0.5_wp*(g(1) - g(-1))
+      bend = (g(1) - g(0)) - (g(0) - g(-1))
+      ! towards zero and back: the vertex lies between the three places
+      if (sign(1.0_wp, g(0))*bend > abs(half_rise)) place = -half_rise/bend
+   end function vertex_of
+
+   !> Report passages in order of time, up to the end of the run; of those at one time all.
+   subroutine report(self, watcher, root, which, share)
       class(event_search), intent(inout) :: self
       class(event_watcher_type), intent(inout) :: watcher
-      real(wp), intent(in) :: before
-      !> The later place; the event that ends the run, if one does
+      real(wp), intent(in) :: root(:)
+      integer, intent(in) :: which(:)
+      !> Place of the event that ends the run, if one does
       real(wp), intent(inout) :: share
-      integer, intent(in) :: side(:)
-      real(wp) :: root(size(side))
-      logical :: passed(size(side))
+      logical :: passed(size(root))
       integer :: i
 
-      passed = side /= self%side .and. self%side /= 0 .and. watcher%direction*self%side <= 0
-      root = share
-      do i = 1, size(side)
-         if (passed(i)) call self%locate(watcher, i, before, root(i))
-      end do
+      passed = .true.
       do while (any(passed))
          i = minloc(root, dim=1, mask=passed)
          if (self%ended .and. root(i) > share) exit
          passed(i) = .false.
-         call self%event%go_to(root(i))
-         call watcher%take(i, self%event%t, self%event%y, self%event%slope)
-         if (watcher%terminal(i)) then
+         call self%event%go_to(root(i), watcher%takes(which(i), size(self%event%y)))
+         call watcher%take(which(i), self%event%t, self%event%y, self%event%slope)
+         if (watcher%terminal(which(i))) then
             self%ended = .true.
             share = root(i)
          end if
       end do
+      if (self%ended) call self%event%go_to(share)
    end subroutine report
 
    !> Replace the slope where the search is by the one that the functions were given last, of the
@@ -189,27 +231,25 @@ contains
       end if
    end subroutine read_slope
 
-   !> First place after `before` where function `i` has no longer its sign, by the method of
+   !> First place after `left` where function `i` has no longer its sign, by the method of
    !> Oliveira and Takahashi (2020), "An Enhancement of the Bisection Method Average Performance
    !> Preserving Minmax Optimality": at most one evaluation more than bisection.
-   subroutine locate(self, watcher, i, before, root)
+   subroutine locate(self, watcher, i, before, g_before, g_root, root)
       class(event_search), intent(inout) :: self
       class(event_watcher_type), intent(in) :: watcher
       integer, intent(in) :: i
-      !> A place where it has its sign
-      real(wp), intent(in) :: before
+      !> A place where it has its sign, and its values there and at the root
+      real(wp), intent(in) :: before, g_before, g_root
       !> A place where it has not; on return the first one
       real(wp), intent(inout) :: root
-      real(wp) :: first_width, g_left, g_right, left, move, place, width
+      real(wp) :: first_width, g, g_left, g_right, left, move, place, width
       integer :: j, halvings
 
-      call self%go_to(watcher, root)
-      g_right = self%g(i)
       left = before
-      call self%go_to(watcher, left)
+      g_left = g_before
+      g_right = g_root
       ! a slope may jump where the step begins
-      if (sign_of(self%g(i), self%side(i)) /= self%side(i)) root = left
-      g_left = self%g(i)
+      if (sign_of(g_left, self%side(i)) /= self%side(i)) root = left
       first_width = root - left
       halvings = max(0, exponent(first_width/accuracy)) + 1
       do j = halvings, 0, -1
@@ -221,25 +261,27 @@ contains
          move = sign(max(0.0_wp, min(abs(move) - 0.2_wp*width**2/first_width, &
                                      scale(0.5_wp*accuracy, j) - 0.5_wp*width)), move)
          place = left + 0.5_wp*width + move
-         call self%go_to(watcher, place)
-         if (sign_of(self%g(i), self%side(i)) == self%side(i)) then
+         call self%go_to(watcher, i, place, g)
+         if (sign_of(g, self%side(i)) == self%side(i)) then
             left = place
-            g_left = self%g(i)
+            g_left = g
          else
             root = place
-            g_right = self%g(i)
+            g_right = g
          end if
       end do
    end subroutine locate
 
-   !> Evaluate the functions at one place of the step.
-   pure subroutine go_to(self, watcher, place)
+   !> Evaluate one function at a place of the step.
+   pure subroutine go_to(self, watcher, i, place, g)
       class(event_search), intent(inout) :: self
       class(event_watcher_type), intent(in) :: watcher
+      integer, intent(in) :: i
       real(wp), intent(in) :: place
+      real(wp), intent(out) :: g
 
-      call self%here%go_to(place)
-      call watcher%values(self%here%t%hi, self%here%y, self%here%slope, self%g)
+      call self%here%go_to(place, watcher%reads_for(i, size(self%here%y)))
+      g = watcher%value(i, self%here%t%hi, self%here%y, self%here%slope)
    end subroutine go_to
 
    !> Sign of a value; the last one if the value is not finite.

@@ -1,8 +1,9 @@
 !> Events: where they are found, in what order, and that one can end a run.
 module test_dde_events
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use dde, only: continuation_type, elapsed, event_met, event_table, instant, &
-                  integration_options, integration_result, methods, reached_end, table_sampler
+   use dde, only: continuation_type, elapsed, event_met, event_table, event_watcher_type, &
+                  instant, integration_options, integration_result, methods, reached_end, &
+                  table_sampler
    use dde_errors, only: text
    use expectations, only: expect, expect_between, expect_close
    use dde_kinds, only: wp
@@ -28,6 +29,18 @@ module test_dde_events
    type, extends(event_table) :: searched_table
    end type searched_table
 
+   !> Zeros of cos t and -sin t, each by its own component: 1 where the other was evaluated, too.
+   type, extends(event_watcher_type) :: frugal_watcher
+      !> Events, and those of which the other component is known
+      integer :: received = 0, whole = 0
+   contains
+      procedure :: reads_for => own_component
+      procedure :: takes => own_component
+      procedure :: values => both_components
+      procedure :: value => component_alone
+      procedure :: take => count_event
+   end type frugal_watcher
+
 contains
 
    subroutine collect_dde_events(testsuite)
@@ -42,6 +55,7 @@ contains
                    new_unittest("a fast function of time", test_fast), &
                    new_unittest("steps without events are not searched", test_bounds), &
                    new_unittest("the state of an event is whole", test_whole), &
+                   new_unittest("an event costs its own components", test_frugal), &
                    new_unittest("within a spacing of t", test_within_spacing), &
                    new_unittest("a slope that jumps", test_jump), &
                    new_unittest("a zero where runs meet", test_zero_between)]
@@ -258,6 +272,67 @@ contains
                                 == searched%which(:searched%received)), "of the same functions")
       end do
    end subroutine test_bounds
+
+   !> Neither the location of an event nor the event itself evaluates what it does not read.
+   subroutine test_frugal(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(frugal_watcher) :: watcher
+      type(integration_result) :: outcome
+      integer :: i
+
+      do i = 1, size(methods)
+         watcher = frugal_watcher(direction=[0, 0], terminal=[.false., .false.])
+         call run(error, swing(), 0.1_wp, 12.0_wp, at_tolerance(1.0e-10_wp, methods(i)), outcome, &
+                  watcher=watcher)
+         call expect(error, watcher%received == 7, text(watcher%received)//" events")
+         call expect(error, watcher%whole == 0, text(watcher%whole)//" of them whole")
+      end do
+   end subroutine test_frugal
+
+   !> The component of a function.
+   pure function own_component(self, which, n) result(components)
+      class(frugal_watcher), intent(in) :: self
+      integer, intent(in) :: which, n
+      integer, allocatable :: components(:)
+
+      components = [which]
+   end function own_component
+
+   !> Both components.
+   pure subroutine both_components(self, t, y, slope, g)
+      class(frugal_watcher), intent(in) :: self
+      real(wp), intent(in) :: t, y(:), slope(:)
+      real(wp), intent(out) :: g(:)
+
+      g = y
+   end subroutine both_components
+
+   !> One component; no event is found where the other is that of the same time.
+   pure real(wp) function component_alone(self, which, t, y, slope) result(value)
+      class(frugal_watcher), intent(in) :: self
+      integer, intent(in) :: which
+      real(wp), intent(in) :: t, y(:), slope(:)
+
+      value = merge(1.0_wp, y(which), are_whole(y))
+   end function component_alone
+
+   !> Count an event.
+   subroutine count_event(self, which, t, y, slope)
+      class(frugal_watcher), intent(inout) :: self
+      integer, intent(in) :: which
+      type(instant), intent(in) :: t
+      real(wp), intent(in) :: y(:), slope(:)
+
+      self%received = self%received + 1
+      if (are_whole(y) .or. abs(y(which)) > 1.0e-6_wp) self%whole = self%whole + 1
+   end subroutine count_event
+
+   !> Whether cos t and -sin t are those of one time.
+   pure logical function are_whole(y) result(value)
+      real(wp), intent(in) :: y(:)
+
+      value = abs(sum(y**2) - 1.0_wp) < 1.0e-6_wp
+   end function are_whole
 
    !> Times of the events of one function.
    pure function times_of(table, which) result(times)
