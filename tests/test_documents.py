@@ -17,6 +17,7 @@ from scripts.config.check_config import checked
 from scripts.files.read_config import parse, read
 from scripts.namelists.laws import built_in
 from scripts.plans.registry import FIGURES
+from scripts.results import run_times
 from scripts.results.programs import RUNS
 
 RESULTS = "results/README.md"
@@ -256,3 +257,9 @@ def test_citation_is_valid_and_complete():
 def test_laws_on_the_page_are_those_of_the_project():
     rows = re.findall(r"^\| `(\w+)` \| .*\| .*\|$", text_of("docs/friction-law.md"), re.MULTILINE)
     assert set(built_in()) <= set(rows)
+
+
+def test_readme_says_the_times_that_were_measured():
+    text = (ROOT / "README.md").read_text()
+    assert run_times.put_sentence(text) == text
+    assert run_times.sentence_of(run_times.MEASURED) in text
