@@ -19,7 +19,7 @@ from scripts.files.tsv import read_table, write_table
 TIMES, FIRST_PAGE = "run-times.tsv", "figures.html"
 PROJECT = Path(__file__).parents[2]
 MEASURED = PROJECT / "docs" / "measured-times.tsv"
-"""Times of a whole run from a fresh clone, without its set-up."""
+"""Times of a whole run of `./reproduce` from a fresh clone, its set-up included."""
 
 
 def record_times(folder: str | Path) -> None:
@@ -41,8 +41,8 @@ def sentence_of(path: Path) -> str:
     """What README says of these times."""
     (row,) = read_table(path)
     return (
-        f"On {row['cores']:.0f} cores, after the set-up of about one minute, Figures 1 to 8 were"
-        f" there after {row['seconds_to_figures']:.0f} s,\nand everything after"
+        f"On {row['cores']:.0f} cores, the set-up included, Figures 1 to 8 were there after"
+        f" {row['seconds_to_figures']:.0f} s, and everything\nafter"
         f" {row['seconds']:.0f} s ({row['cpu_seconds']:.0f} s of CPU time;"
         " `docs/measured-times.tsv`)."
     )
