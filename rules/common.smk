@@ -111,6 +111,19 @@ def namelist_of(run):
     return write_text
 
 
+def namelists_before(run):
+    """Texts of the namelists of the runs whose results a run reads, by the wildcards.
+
+    A result that is missing is no reason for Snakemake to doubt what was made of it.
+    """
+    makers = [namelist_of(other) for other in RUNS if other.output in run.needs.values()]
+
+    def write_texts(wildcards):
+        return [write_text(wildcards) for write_text in makers]
+
+    return write_texts
+
+
 def models_of(run):
     """Models that a run opens, by the wildcards."""
 

@@ -80,6 +80,7 @@ for run in RUNS:
         localrule: not run.takes_minutes
         params:
             namelist=namelist_of(run),
+            before=namelists_before(run),
             sources=digest_of_program(),
             models=digests_of_models(run),
             command=run.command,
