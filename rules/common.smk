@@ -116,7 +116,9 @@ def namelists_before(run):
 
     A result that is missing is no reason for Snakemake to doubt what was made of it.
     """
-    makers = [namelist_of(other) for other in RUNS if other.output in run.needs.values()]
+    makers = [
+        namelist_of(other) for other in RUNS if other.output in run.needs.values()
+    ]
 
     def write_texts(wildcards):
         return [write_text(wildcards) for write_text in makers]
