@@ -2,7 +2,7 @@
 !> each accepted step is stored in the past that later steps read.
 module dde_integrator
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use dde_continuation, only: account_size, continuation_type
+   use dde_continuation, only: continuation_type
    use dde_diagnosis, only: find_culprit
    use dde_event_search, only: endless, most_places
    use dde_events, only: event_watcher_type
@@ -49,7 +49,7 @@ contains
       type(run_type) :: run
       type(switch_type) :: switch
       type(instant) :: step_end
-      real(wp) :: account(account_size), error_estimate, h, lacking, left, longest, longest_of_all
+      real(wp) :: error_estimate, h, lacking, left, longest, longest_of_all
       character(len=:), allocatable :: culprit
       integer :: goal
       logical :: automatic, ended, landing, last, other
@@ -77,9 +77,7 @@ contains
       end if
       longest = longest_step(problem, run%step, longest_of_all)
       automatic = options%method == "auto"
-      account = 0.0_wp
-      if (present(continuation)) account = continuation%account
-      switch = switch_type(price_of_trial(problem, run%context%tolerance), account)
+      if (automatic) switch = switch_type(price_of_trial(problem, run%context%tolerance))
       error_estimate = 0.0_wp
 
       outcome%reason = reached_end
@@ -101,13 +99,6 @@ contains
             outcome%rejected = outcome%rejected + 1
             run%h = h
             call run%control%reject(run%step%constants, run%step%safety, run%h, error_estimate)
-            if (ieee_is_finite(error_estimate)) cycle
-            if (.not. automatic .or. run%step%constants%implicit) cycle
-            call switch%abandon(run%context%work)
-            call change_method()
-            if (lacking > 0.0_wp) exit
-            ! the slope of a series that is not finite is not, either
-            run%fresh = .true.
             cycle
          end if
 
@@ -138,15 +129,21 @@ contains
          ! a step shortened to end at a point does not reduce the step size proposed before
          run%h = merge(max(run%h, h), h, landing)
          if (landing .and. .not. last) outcome%breaking_points = outcome%breaking_points + 1
-         if (other) call change_method()
-         if (lacking > 0.0_wp) exit
+         if (other) then
+            call run%change_to_other(lacking)
+            if (lacking > 0.0_wp) then
+               outcome%reason = out_of_memory
+               exit
+            end if
+            outcome%switches = outcome%switches + 1
+            longest = longest_step(problem, run%step, longest_of_all)
+         end if
       end do
 
       outcome%t = run%now%hi
       outcome%y = run%step%y
       if (present(continuation) .and. outcome%reason /= out_of_memory) then
          call run%keep(options, continuation)
-         if (automatic) continuation%account = switch%account(run%context%work)
       end if
       outcome%evaluations = run%context%work%evaluations
       outcome%work = run%context%work%total()
@@ -155,19 +152,6 @@ contains
          call find_culprit(run, h, outcome%reason, culprit)
          call explain(outcome, t_end, h, options, culprit, lacking, error)
       end if
-
-   contains
-
-      !> Continue by the other method of `auto`, if there is memory for it.
-      subroutine change_method()
-         call run%change_to_other(lacking)
-         if (lacking > 0.0_wp) then
-            outcome%reason = out_of_memory
-            return
-         end if
-         outcome%switches = outcome%switches + 1
-         longest = longest_step(problem, run%step, longest_of_all)
-      end subroutine change_method
    end subroutine integrate
 
    !> Whether the error of a step is finite and within the tolerance.

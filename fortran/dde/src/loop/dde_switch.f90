@@ -4,7 +4,6 @@
 !> limited steps earns a trial of the other method. A trial takes a few steps; then the method that
 !> made less time for its work is left, and the other one is settled.
 module dde_switch
-   use dde_continuation, only: account_size
    use dde_problem, only: dde_problem_type
    use dde_slow_series, only: least_balance
    use dde_step, only: step_type
@@ -57,7 +56,7 @@ module dde_switch
       !> Pace of the other method when it was left
       real(wp), private :: pace_of_other = 0.0_wp
    contains
-      procedure :: judge, abandon, account
+      procedure :: judge
    end type switch_type
 
    interface switch_type
@@ -67,38 +66,13 @@ module dde_switch
 contains
 
    !> The choice at the start of a run.
-   pure type(switch_type) function new_switch(least_price, account) result(switch)
+   pure type(switch_type) function new_switch(least_price) result(switch)
       !> Work of a short trial of the implicit method without its linear systems
       real(wp), intent(in) :: least_price
-      !> What the run before rests its choice on, zeros if there is none
-      real(wp), intent(in) :: account(account_size)
 
       switch%least_price = least_price
-      switch%price = least_price + account(1)
-      switch%state = merge(on_trial, settled, account(2) > 0.0_wp)
-      switch%limited_work = account(3)
-      switch%lost_work = account(4)
-      switch%work_in_systems = -account(5)
-      switch%pace_of_other = account(6)
-      switch%recent = stretch_type(nint(account(7)), account(8), account(9))
-      switch%visit = stretch_type(nint(account(10)), account(11), account(12))
+      switch%price = least_price
    end function new_switch
-
-   !> What the choice rests on, for a run that continues this one.
-   pure function account(self, work_done) result(numbers)
-      class(switch_type), intent(in) :: self
-      !> Work of this run
-      type(work_type), intent(in) :: work_done
-      real(wp) :: numbers(account_size)
-
-      associate (recent => self%recent, visit => self%visit)
-         numbers = [self%price - self%least_price, merge(1.0_wp, 0.0_wp, self%state == on_trial), &
-                    self%limited_work, self%lost_work, &
-                    work_done%in_systems() - self%work_in_systems, self%pace_of_other, &
-                    real(recent%steps, wp), recent%time, recent%work, &
-                    real(visit%steps, wp), visit%time, visit%work]
-      end associate
-   end function account
 
    !> One more step.
    pure subroutine add(self, time, work)
@@ -173,19 +147,6 @@ contains
       end if
       if (other .or. pace_is_known) self%recent = stretch_type()
    end subroutine judge
-
-   !> An explicit step is not finite: the implicit method takes over, without a trial.
-   pure subroutine abandon(self, work_done)
-      class(switch_type), intent(inout) :: self
-      !> Work of the run so far
-      type(work_type), intent(in) :: work_done
-
-      self%state = settled
-      self%work_done = work_done%total()
-      self%work_in_systems = work_done%in_systems()
-      call end_visit(self, self%recent%pace())
-      self%recent = stretch_type()
-   end subroutine abandon
 
    !> The other method takes over.
    pure subroutine end_visit(self, pace)

@@ -11,10 +11,7 @@ module dde_continuation
    use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: account_size, continuation_type
-
-   !> Numbers that `auto` rests its choice on.
-   integer, parameter :: account_size = 12
+   public :: continuation_type
 
    !> A step may end so far before the next one begins, in units of the spacing of times.
    real(wp), parameter :: rounding = 4.0_wp
@@ -39,8 +36,6 @@ module dde_continuation
       real(wp) :: next_step = 0.0_wp
       !> Name of the method in use
       character(len=8) :: method = ""
-      !> What `auto` rests its choice on; zeros at the first run
-      real(wp) :: account(account_size) = 0.0_wp
       !> Kinks in the steps kept, shape (2, kinks), ascending
       real(wp), allocatable :: kink(:, :)
       !> Passages through a delay that each has made; -1 for a jump of the solution

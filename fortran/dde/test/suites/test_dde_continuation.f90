@@ -222,13 +222,13 @@ contains
       allocate (back%coefficients, mold=kept%coefficients)
       open (newunit=unit, status="scratch", action="readwrite", form="formatted")
       write (unit, "(*(es27.17e4))") kept%time, kept%origin, kept%y, kept%slope, kept%rate, &
-         kept%next_step, kept%account, kept%kink, kept%step_start, kept%step_length, &
-         kept%valid_for, kept%nodes, kept%coefficients
+         kept%next_step, kept%kink, kept%step_start, kept%step_length, kept%valid_for, &
+         kept%nodes, kept%coefficients
       write (unit, "(a, *(1x, i0))") kept%method, kept%passages, kept%generation, kept%kept
       rewind (unit)
       read (unit, *) back%time, back%origin, back%y, back%slope, back%rate, &
-         back%next_step, back%account, back%kink, back%step_start, back%step_length, &
-         back%valid_for, back%nodes, back%coefficients
+         back%next_step, back%kink, back%step_start, back%step_length, back%valid_for, &
+         back%nodes, back%coefficients
       read (unit, *) back%method, back%passages, back%generation, back%kept
       close (unit)
    end function through_file

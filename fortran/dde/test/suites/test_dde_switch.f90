@@ -1,7 +1,6 @@
 !> When `auto` changes the method, what that costs, and how work is counted.
 module test_dde_switch
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use dde, only: continuation_type, dde_problem_type, integration_result
+   use dde, only: dde_problem_type, integration_result
    use dde_errors, only: text
    use dde_methods, only: price_of_trial
    use dde_tolerance, only: tolerance_type
@@ -13,18 +12,12 @@ module test_dde_switch
    use published_problems, only: enzyme, infection, mackey_glass
    use single_step, only: held_back
    use solving, only: at_tolerance, run
-   use stiff_problems, only: prothero_robinson, sdisc
+   use stiff_problems, only: sdisc
    use test_problems, only: fill, sine
    use undelayed_problems, only: swing
    implicit none (type, external)
    private
    public :: collect_dde_switch
-
-   !> A sine whose series is not finite after a time.
-   type, extends(sine) :: lost_series
-   contains
-      procedure :: series => finite_at_first
-   end type lost_series
 
    !> Tolerances whose average counts, over one of them.
    real(wp), parameter :: neighbours(5) = [0.9_wp, 0.95_wp, 1.0_wp, 1.05_wp, 1.1_wp]
@@ -37,8 +30,6 @@ contains
       testsuite = [new_unittest("an oscillation", test_oscillation), &
                    new_unittest("cost of changes", test_cost), &
                    new_unittest("layers after each delay", test_layers), &
-                   new_unittest("the account of short runs", test_short_runs), &
-                   new_unittest("a series that is not finite", test_not_finite), &
                    new_unittest("work of three methods in turn", test_methods), &
                    new_unittest("work of a run", test_run)]
    end subroutine collect_dde_switch
@@ -105,51 +96,6 @@ contains
                      text(work)//" by auto, "//text(better)//" by radau9")
       end do
    end subroutine test_layers
-
-   !> A continued run goes on with the account of the run before: runs of which none earns a trial
-   !> together earn it.
-   subroutine test_short_runs(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(continuation_type) :: continuation
-      type(integration_result) :: outcome
-      type(prothero_robinson) :: problem
-      real(wp), parameter :: length = 3.0e-5_wp
-      integer :: i
-
-      problem = prothero_robinson(-1.0e6_wp)
-      do i = 0, 19
-         call run(error, problem, i*length, (i + 1)*length, at_tolerance(1.0e-6_wp, "auto"), &
-                  outcome, continuation=continuation)
-         if (allocated(error)) return
-         if (i == 0) call expect(error, outcome%switches == 0, "one run earns no trial")
-      end do
-      call expect(error, outcome%implicit_steps == outcome%accepted, "implicit at last")
-   end subroutine test_short_runs
-
-   !> Where the series is not finite `auto` goes on by implicit steps at once.
-   subroutine test_not_finite(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(integration_result) :: outcome
-      type(lost_series) :: problem
-
-      problem%sine = sine()
-      call run(error, problem, 0.0_wp, 3.0_wp, at_tolerance(1.0e-8_wp, "auto"), outcome)
-      if (allocated(error)) return
-      call expect_close(error, outcome%y, [sin(3.0_wp)], 1.0e-6_wp, "sin 3")
-      call expect(error, outcome%switches == 1, "one change of the method")
-   end subroutine test_not_finite
-
-   !> The series of a sine up to t = 1.
-   pure subroutine finite_at_first(self, t, unit, degree, z, y)
-      class(lost_series), intent(in) :: self
-      real(wp), intent(in) :: t, unit
-      integer, intent(in) :: degree
-      real(wp), intent(in) :: z(0:degree, size(self%lag))
-      real(wp), intent(inout) :: y(0:degree, self%n)
-
-      call self%sine%series(t, unit, degree, z, y)
-      if (t > 1.0_wp) y(1:, :) = ieee_value(1.0_wp, ieee_quiet_nan)
-   end subroutine finite_at_first
 
    !> The work of `auto` and of the methods that it chooses from.
    subroutine compare_work(error, problem, t_end, name, changing)
