@@ -9,9 +9,8 @@ min_version("9.27")
 # the scripts of jobs import the project's modules, too, by the Python that runs this
 folders = [str(workflow.basedir), os.environ.get("PYTHONPATH")]
 os.environ.update(PYTHONPATH=os.pathsep.join(filter(None, folders)))
-os.environ["PATH"] = os.pathsep.join(
-    [os.path.dirname(sys.executable), os.environ["PATH"]]
-)
+folders = [os.path.dirname(sys.executable), os.environ.get("PATH")]
+os.environ.update(PATH=os.pathsep.join(filter(None, folders)))
 sys.path.insert(0, str(workflow.basedir))
 
 from scripts.files.read_config import ConfigError

@@ -20,7 +20,10 @@ def models_in(groups, command: str = "") -> set[str]:
     found = set().union(*(models_in(each, command) for each in groups.values()))
     law = groups.get("law")
     if isinstance(law, str):
-        found |= {law} | ({CHAIN + law} if "blocks" in groups or command == "synchrony" else set())
+        found.add(law)
+        # laws without inertia have no chains
+        if ("blocks" in groups or command == "synchrony") and not law.startswith(PREFIX):
+            found.add(CHAIN + law)
     return found
 
 
