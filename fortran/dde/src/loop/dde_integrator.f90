@@ -130,7 +130,7 @@ contains
          run%h = merge(max(run%h, h), h, landing)
          if (landing .and. .not. last) outcome%breaking_points = outcome%breaking_points + 1
          if (other) then
-            call run%change_to_other(lacking)
+            call run%change_to_other(switch%returned, lacking)
             if (lacking > 0.0_wp) then
                outcome%reason = out_of_memory
                exit

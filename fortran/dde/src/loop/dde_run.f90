@@ -35,6 +35,11 @@ module dde_run
    !> others as many.
    real(wp), parameter :: uncoupled = 2.0_wp
 
+   !> The solution hardly moves on in a few steps that are shorter by this factor than those before.
+   !> It is below 6**6, by which implicit steps may grow in a trial (`dde_switch`): otherwise steps
+   !> could stay short for ever.
+   real(wp), parameter :: hardly = 3.0e4_wp
+
    !> The state of a run.
    type :: run_type
       !> The step, of the method in use
@@ -49,8 +54,9 @@ module dde_run
       type(event_search) :: search
       !> Now
       type(instant) :: now
-      !> Length proposed for the next step
+      !> Length proposed for the next step, and by the other method when it was left
       real(wp) :: h = 0.0_wp
+      real(wp), private :: h_of_other = 0.0_wp
       !> Whether the slope at the start of the next step must be evaluated
       logical :: fresh = .false.
       !> Breaking points and the end
@@ -261,11 +267,15 @@ contains
    end subroutine plan
 
    !> Continue by the other method of `auto`.
-   subroutine change_to_other(self, lacking)
+   subroutine change_to_other(self, returned, lacking)
       class(run_type), intent(inout) :: self
+      !> Whether it was left a few steps ago: if in these the solution hardly moved on, its steps
+      !> are as long as they were
+      logical, intent(in) :: returned
       !> Bytes that could not be allocated, or 0: the step is then the same as before
       real(wp), intent(out) :: lacking
       class(step_type), allocatable :: last
+      real(wp) :: h
 
       lacking = 0.0_wp
       if (.not. allocated(self%other)) then
@@ -284,6 +294,9 @@ contains
       call move_alloc(last, self%other)
       call self%context%work%set_cost(self%step%constants%evaluation_cost)
       self%control = controller_type()
+      h = self%h
+      if (returned .and. self%h_of_other > hardly*h) self%h = self%h_of_other
+      self%h_of_other = h
    end subroutine change_to_other
 
    !> Go to the end of an accepted step.

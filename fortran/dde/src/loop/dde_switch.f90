@@ -55,6 +55,8 @@ module dde_switch
       type(stretch_type), private :: recent, visit
       !> Pace of the other method when it was left
       real(wp), private :: pace_of_other = 0.0_wp
+      !> Whether the last change ended a trial: it was one back
+      logical :: returned = .false.
    contains
       procedure :: judge
    end type switch_type
@@ -142,6 +144,7 @@ contains
          if (other) self%state = on_trial
       end select
       if (other) then
+         self%returned = self%state == settled
          self%work_in_systems = work_done%in_systems()
          call end_visit(self, pace)
       end if

@@ -1,5 +1,6 @@
 !> When `auto` changes the method, what that costs, and how work is counted.
 module test_dde_switch
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde, only: dde_problem_type, integration_result
    use dde_errors, only: text
    use dde_methods, only: price_of_trial
@@ -7,6 +8,7 @@ module test_dde_switch
    use dde_kinds, only: wp
    use dde_work, only: work_type
    use expectations, only: expect, expect_close
+   use fast_problems, only: follower
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use piecewise_problems, only: piecewise, switching_kinds
    use published_problems, only: enzyme, infection, mackey_glass
@@ -19,6 +21,12 @@ module test_dde_switch
    private
    public :: collect_dde_switch
 
+   !> A fast component whose slow series is not found.
+   type, extends(follower) :: without_slow_series
+   contains
+      procedure :: slow_series => not_found
+   end type without_slow_series
+
    !> Tolerances whose average counts, over one of them.
    real(wp), parameter :: neighbours(5) = [0.9_wp, 0.95_wp, 1.0_wp, 1.05_wp, 1.1_wp]
 
@@ -30,6 +38,7 @@ contains
       testsuite = [new_unittest("an oscillation", test_oscillation), &
                    new_unittest("cost of changes", test_cost), &
                    new_unittest("layers after each delay", test_layers), &
+                   new_unittest("series that are never found", test_lost_series), &
                    new_unittest("work of three methods in turn", test_methods), &
                    new_unittest("work of a run", test_run)]
    end subroutine collect_dde_switch
@@ -96,6 +105,34 @@ contains
                      text(work)//" by auto, "//text(better)//" by radau9")
       end do
    end subroutine test_layers
+
+   !> The component is in balance, but its slow series is not found: all trials of the explicit method
+   !> fail, at steps of 1e-22. The steps of the implicit method do not begin so short after each.
+   subroutine test_lost_series(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(integration_result) :: auto, implicit
+      type(without_slow_series) :: problem
+
+      problem%follower = follower(1.0e22_wp, 0.0_wp)
+      call run(error, problem, 0.0_wp, 5.0_wp, at_tolerance(1.0e-8_wp, "auto"), auto)
+      call run(error, problem, 0.0_wp, 5.0_wp, at_tolerance(1.0e-8_wp, "radau9"), implicit)
+      if (allocated(error)) return
+      call expect(error, auto%switches > 1, "trials of the explicit method")
+      call expect(error, auto%work <= 2*implicit%work, &
+                  text(auto%work)//" by auto, "//text(implicit%work)//" by radau9")
+      call expect_close(error, auto%y, problem%exact(5.0_wp), 1.0e-7_wp, "by auto")
+   end subroutine test_lost_series
+
+   !> No number.
+   pure subroutine not_found(self, t, unit, degree, z, y)
+      class(without_slow_series), intent(in) :: self
+      real(wp), intent(in) :: t, unit
+      integer, intent(in) :: degree
+      real(wp), intent(in) :: z(0:degree, size(self%lag))
+      real(wp), intent(inout) :: y(0:degree, self%n)
+
+      y = ieee_value(1.0_wp, ieee_quiet_nan)
+   end subroutine not_found
 
    !> The work of `auto` and of the methods that it chooses from.
    subroutine compare_work(error, problem, t_end, name, changing)
