@@ -106,8 +106,8 @@ contains
       end do
    end subroutine test_layers
 
-   !> The component is in balance, but its slow series is not found: all trials of the explicit method
-   !> fail, at steps of 1e-22. The steps of the implicit method do not begin so short after each.
+   !> The component is in balance, but its slow series is not found: all trials of the explicit
+   !> method fail, at steps of 1e-22. Implicit steps do not begin so short after each of them.
    subroutine test_lost_series(error)
       type(error_type), allocatable, intent(out) :: error
       type(integration_result) :: auto, implicit
