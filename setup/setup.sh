@@ -87,8 +87,9 @@ make_venv() {
     venv_source >"$made_from"
 }
 
+# Most modules are never imported: Python compiles a module when it first is.
 install_locked() {
-    "$venv/bin/python" -m pip install --quiet --no-input --no-user --disable-pip-version-check \
+    "$venv/bin/python" -m pip install --quiet --no-input --no-user --no-compile --disable-pip-version-check \
         "${@:2}" --require-hashes -r "$1"
 }
 
