@@ -31,8 +31,8 @@ contains
    end subroutine collect_dde_layers
 
    !> The pulse that y1 leaves behind is in y2 a delay later, at rates over six decades. An error of
-   !> y1 counts for y2 as often as the rate says: both are asked for the same absolute tolerance, then
-   !> for one over the rate.
+   !> y1 counts for y2 as often as the rate says: both have the same absolute tolerance,
+   !> then one over the rate.
    subroutine test_pulses(error)
       type(error_type), allocatable, intent(out) :: error
       type(integration_result) :: outcome
