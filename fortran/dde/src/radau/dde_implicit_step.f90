@@ -25,8 +25,8 @@ module dde_implicit_step
    real(wp), parameter :: keep_length = 1.2_wp
    !> Below this value of step size times norm of the Jacobian the problem is not stiff.
    real(wp), parameter :: least_stiff = 8.0_wp
-   !> At least this share of the last term of the polynomial counts as an error that the embedded
-   !> estimate overlooks: by chance it is small in a step that is far too long.
+   !> A step is far too long if this share of the last term of its polynomial is above the
+   !> tolerance: there the embedded error can be small by chance.
    real(wp), parameter :: least_hidden = 0.003_wp
    !> Cost of an evaluation within this method over one within the explicit pair.
    real(wp), parameter :: implicit_cost = 3.0_wp
@@ -283,15 +283,18 @@ contains
          call add_up(size(hidden), s, self%differences(:, s), self%stages%increments, 1.0_wp, &
                      self%raw)
          ! the filter does not change the errors of components that are not stiff
-         hidden = max(least_hidden*abs(hidden), &
-                      abs(hidden) - 2.0_wp*(self%method%real_eigenvalue/h &
-                                            *abs(self%error_vector))) &
+         hidden = max(0.0_wp, abs(hidden) - 2.0_wp*(self%method%real_eigenvalue/h &
+                                                    *abs(self%error_vector))) &
                   /max(abs(hidden), tiny(1.0_wp))
          hidden = hidden*self%method%bulge*self%raw
          inside = min(scaled_norm(size(self%scale), hidden, self%scale), hopeless) &
                   *self%asked_over_inside
          ! below 1 its power is smaller still
          if (inside > min(error, 1.0_wp)) error = max(error, inside**((s + 1.0_wp)/s))
+         if (error > 1.0_wp) return
+         inside = least_hidden*self%method%bulge*self%asked_over_inside &
+                  *min(scaled_norm(size(self%scale), self%raw, self%scale), hopeless)
+         if (inside > 1.0_wp) error = inside
       end associate
    end subroutine find_error_inside
 
