@@ -5,6 +5,7 @@ Expressions are read by Python's own parser and never evaluated: a definition ca
 
 import ast
 import keyword
+import math
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -47,6 +48,8 @@ overflow."""
 
 LARGEST_POWER = 64
 """Largest exponent that is a number: 9**9**9 has more digits than there is memory for."""
+LARGEST_LOGARITHM = 700
+"""Largest logarithm of a power of numbers: ((9**64)**64)**64 has a million digits."""
 LONGEST_TEXT, LONGEST_UNIT = 500, 60
 """Letters of texts that stand in files of results."""
 
@@ -104,6 +107,16 @@ class Model:
     def symbol(self, name: str) -> sympy.Symbol:
         """The symbol of a parameter, a state or an auxiliary."""
         return sympy.Symbol(name, real=True)
+
+    @property
+    def signed(self) -> dict[sympy.Symbol, sympy.Symbol]:
+        """For the symbol of each parameter that is never negative one that is known not to be."""
+        names = [
+            one.name
+            for one in self.parameters
+            if any(bound is not None and bound >= 0 for bound in (one.above, one.at_least))
+        ]
+        return {self.symbol(name): sympy.Symbol(name, nonnegative=True) for name in names}
 
     @property
     def variables(self) -> set[sympy.Symbol]:
@@ -338,8 +351,12 @@ class _Expression:
     def value(self, node: ast.AST) -> sympy.Expr:
         match node:
             case ast.Constant(value=int() | float()) if not isinstance(node.value, bool):
+                digits = ast.get_source_segment(self.text, node).replace("_", "")
+                is_zero = not set("123456789") & set(digits.lower().partition("e")[0])
+                if not math.isfinite(float(digits)) or (float(digits) == 0) != is_zero:
+                    self.refuse(node, "a number from 1e-308 to 1e308")
                 # the decimal digits as written are exact
-                return sympy.Rational(ast.get_source_segment(self.text, node).replace("_", ""))
+                return sympy.Rational(digits)
             case ast.Name(id=name):
                 return self.named(node, name)
             case ast.UnaryOp(op=ast.USub(), operand=one):
@@ -378,6 +395,9 @@ class _Expression:
                     self.refuse(node, "a power with a constant exponent; write exp(b*log(a))")
                 if right.is_number and abs(right) > LARGEST_POWER:
                     self.refuse(node, f"an exponent of size <= {LARGEST_POWER}")
+                digits = abs(right) * sympy.log(abs(left)) if left.is_number and left != 0 else 0
+                if right.is_number and abs(sympy.N(digits)) > LARGEST_LOGARITHM:
+                    self.refuse(node, f"a power below exp({LARGEST_LOGARITHM})")
                 return left**right
         self.refuse(node, "+ - * / **")
 
@@ -408,7 +428,8 @@ class _Expression:
         lag = TIME - self.value(args[0]) if len(args) == 1 else TIME
         if lag == 0:
             return model.symbol(name)
-        if lag.free_symbols & model.variables or (lag.is_number and lag <= 0):
+        # one whose sign depends on the parameters is seen with their values, before a run
+        if lag.free_symbols & model.variables or lag.subs(model.signed).is_nonpositive:
             self.refuse(node, f"{name}(t - DELAY) with a delay >= 0 of numbers and parameters")
         if name in model.auxiliary:
             return sympy.exp(self.reader.delayed(model.auxiliary[name], lag))

@@ -7,17 +7,19 @@ import numpy as np
 import pytest
 import xarray as xr
 from conftest import ROOT
+from jinja2 import nodes
 from made_up_results import attractor_row, hopf_curve, route_rows
+from matplotlib import pyplot as plt
 
 from scripts.claims.claims_results import VERDICTS
 from scripts.claims.ledger import paper_claims
 from scripts.figures import figure_4, plane, stability, work_precision
 from scripts.figures.wording import as_formulas, count, joined, short, shortened
 from scripts.figures.write_captions import caption_of as caption_from
-from scripts.figures.write_captions import render
+from scripts.figures.write_captions import ENVIRONMENT, render
 from scripts.files.tsv import write_table
 from scripts.page import captions
-from scripts.plans.registry import FIGURES, caption_of, template_of
+from scripts.plans.registry import FIGURES, OF_USERS, caption_of, template_of
 from scripts.tables.attractor_tables import same_attractor
 
 
@@ -44,6 +46,35 @@ def test_captions_say_whether_claims_hold():
     assert {name for names in named.values() for name in names} <= set(paper_claims())
     without = [figure for figure, names in named.items() if not names]
     assert without == ["figure_1", "work_precision", "synchrony", "chain_modes"]
+
+
+@pytest.mark.parametrize("kind", OF_USERS)
+def test_captions_of_users_say_nothing_of_the_papers_claims(kind):
+    """A file of one's own may have no claims: verdicts stand within `if paper` alone."""
+    tree = ENVIRONMENT.parse((ROOT / template_of(f"{kind}/mine")).read_text())
+    allowed = [
+        call
+        for branch in tree.find_all(nodes.If)
+        if isinstance(branch.test, nodes.Name) and branch.test.name == "paper"
+        for part in branch.body
+        for call in part.find_all(nodes.Call)
+    ]
+    calls = [call for call in tree.find_all(nodes.Call) if call.node.name == "verdict"]
+    assert [call for call in calls if call not in allowed] == []
+
+
+def test_plane_without_a_curve_has_a_figure_and_a_caption(smoke):
+    """In the window of the file."""
+    curves = xr.load_dataset(smoke.folder / "results" / "hopf" / "tau_of_epsilon.nc")
+    empty = curves.isel(point=slice(0), special=slice(0))
+    figure = plane.draw(empty, {})
+    window = (0.0, pytest.approx(1.5)), (0.0, pytest.approx(30.0))
+    assert (figure.axes[0].get_xlim(), figure.axes[0].get_ylim()) == window
+    plt.close(figure)
+    text = (ROOT / template_of("planes/mine")).read_text()
+    caption = render(text, [], paper=False, **plane.numbers(empty, {}))
+    assert caption.startswith("No Hopf curve lies in this plane, at ")
+    assert "Lyapunov" not in caption
 
 
 @pytest.mark.parametrize("text", ['{{ verdict("other") }}', "{{ other }}"])

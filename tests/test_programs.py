@@ -14,7 +14,11 @@ import pytest
 import xarray as xr
 from conftest import COMMANDS, ROOT, Programs
 
-from generator.module import interface_digest
+from generator.compile import compile_module
+from generator.definition import overlaid, read_model
+from generator.module import interface_digest, write_module
+from scripts.files.read_config import read
+from scripts.namelists.laws import BLOCK
 
 REFUSED = {
     "trajectory": ("scene", "tau", -1.0, "scene 'torus': tau = -1.0; expected a finite number >= "),
@@ -342,6 +346,19 @@ def test_model_that_cannot_be_opened_is_refused(programs, good_groups, monkeypat
     if damage is None:
         run = programs.run_groups("reference", good_groups["reference"])
         assert "is no model for this program" in refusal(programs, run)
+
+
+def test_delay_that_is_negative_is_refused(programs, good_groups, monkeypatch):
+    """One whose sign depends on the parameters; others are refused in the definition."""
+    ahead = {"name": "ahead", "definitions": {"evolution": "-v*(theta + w(t - (tau - 10)))"}}
+    models = programs.folder.with_name("models")
+    compile_module(write_module(read_model(overlaid(read(BLOCK), ahead))), models / "ahead.so")
+    monkeypatch.setenv("MODELS", str(models))
+    scene = good_groups["trajectory"]["scene"] | {"law": "ahead", "tau": 7.0}
+    line = refusal(programs, programs.run_groups("trajectory", {"scene": scene}))
+    assert "law ahead: delay 1 = -3.0; expected a finite number >= 0" in line
+    scene["tau"] = 12.0
+    assert programs.run_groups("trajectory", {"scene": scene}).returncode == 0
 
 
 @pytest.mark.parametrize("law", ["../models/slip_cut_off", "chain_slip_cut_off", "slip cut off"])

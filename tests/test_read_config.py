@@ -7,6 +7,13 @@ from pathlib import Path
 import pytest
 
 from scripts.files.read_config import ConfigError, merge, parse, read
+from scripts.workflow.plan import read_plan
+
+
+def aliases(times: int) -> bytes:
+    """Sixty lists, each of so many aliases of the one before."""
+    lines = [f"a{i}: &a{i} [{', '.join([f'*a{i - 1}'] * times)}]" for i in range(1, 60)]
+    return "\n".join(["a0: &a0 [x]", *lines]).encode()
 
 
 @pytest.mark.parametrize(
@@ -38,6 +45,11 @@ def test_scalar_is_what_yaml_1_2_says(text, value):
         (b"a: \xff\n", ": 'utf-8' codec can't decode byte 0xff in position 3"),
         (b"# only a comment\n", ": the file is empty"),
         (b"- a\n", ": ['a']; expected keys with values below them"),
+        (aliases(9), ": a5: too large or an alias of itself; expected at most 100000 values"),
+        (aliases(1), ": a49: too large or an alias of itself; expected at most 100000 values"),
+        (b"a: &x [*x]\n", ": a: too large or an alias of itself"),
+        (b"a: &x { b: *x }\n", ": a: too large or an alias of itself"),
+        (b"a: " + b"[" * 1000 + b"]" * 1000, ": nested too deep; expected 50 levels at most"),
         (None, ": cannot be read: No such file or directory"),
     ],
 )
@@ -49,6 +61,14 @@ def test_what_cannot_be_read_is_named_in_one_line(tmp_path, text, words):
         read(path)
     assert str(caught.value).startswith(f"{path}{words}")
     assert "\n" not in str(caught.value)
+
+
+def test_size_of_what_snakemake_was_given_is_checked():
+    """It has read it already."""
+    given = {"scenes": []}
+    given["scenes"].append(given["scenes"])
+    with pytest.raises(ConfigError, match="--config or --configfile: scenes: too large"):
+        read_plan(given)
 
 
 def test_what_is_no_regular_file_is_refused(tmp_path):

@@ -66,6 +66,8 @@ module model_problem
       procedure :: relaxation_rate
       procedure :: slow_series
       procedure :: slow_tangent_series
+      !> Delays
+      procedure :: delays
       !> State at rest, shape (n)
       procedure :: steady_state
       !> Derivative form of the right-hand side at the steady state
@@ -84,6 +86,20 @@ contains
       description = description_of(self%code%description, self%sizes)
    end function describe
 
+   !> Delays of a block with these parameters, and the states that are delayed.
+   pure subroutine delays(self, parameters, lag, state)
+      class(model_type), intent(in) :: self
+      !> Parameters, in the order of the definition
+      real(wp), intent(in) :: parameters(:)
+      !> Delays, some of them 0
+      real(wp), allocatable, intent(out) :: lag(:)
+      !> Numbers of the states
+      integer(c_int), allocatable, intent(out) :: state(:)
+
+      allocate (lag(self%sizes%delayed), state(self%sizes%delayed))
+      call self%code%delayed(parameters, lag, state)
+   end subroutine delays
+
    !> Give a model its parameters and its past. A delay of 0 is none unless it is kept. A chain has
    !> its neighbours before.
    pure subroutine set(self, parameters, past, keep_delays)
@@ -94,8 +110,8 @@ contains
       real(wp), intent(in) :: past(:)
       !> Whether delays of 0 are delayed values, too; .false. unless given
       logical, intent(in), optional :: keep_delays
-      integer(c_int) :: component(self%sizes%delayed)
-      real(wp) :: lag(self%sizes%delayed)
+      integer(c_int), allocatable :: component(:)
+      real(wp), allocatable :: lag(:)
       logical, allocatable :: kept(:)
       integer :: block, k, states
 
@@ -104,7 +120,7 @@ contains
       self%analytic_tangents = .true.
       self%numbers = parameters
       self%past = past
-      call self%code%delayed(parameters, lag, component)
+      call self%delays(parameters, lag, component)
       kept = lag > 0.0_wp
       if (present(keep_delays)) kept = kept .or. keep_delays
       self%place = merge([(count(kept(:k)), k=1, size(lag))], 0, kept)

@@ -27,7 +27,7 @@ def draw(curves: xr.Dataset, scenes: dict[str, dict[str, float]]) -> Figure:
     """Curves by branch, solid where supercritical, over unstable pairs; scenes of this plane."""
     ordinate = curves.attrs["ordinate"]
     figure, axes = plt.subplots(figsize=(5.2, 4.4))
-    axes.set(xlim=(0, float(curves.epsilon.max())), ylim=(0, float(curves[ordinate].max())))
+    axes.set(xlim=window_of(curves.map_epsilon.values), ylim=window_of(curves.map_ordinate.values))
     shades = shade(axes, curves)
     ends = []
     for piece in np.unique(curves.piece):
@@ -43,15 +43,19 @@ def draw(curves: xr.Dataset, scenes: dict[str, dict[str, float]]) -> Figure:
     mark_scenes(axes, scenes, ordinate)
     axes.set_title(in_words(curves.attrs, "epsilon", ordinate), pad=14)
     axes.set(xlabel=axis_of("epsilon"), ylabel=axis_of(ordinate))
-    handles = [
-        Line2D([], [], color=INK, label="supercritical"),
-        Line2D([], [], color=INK, ls=SUBCRITICAL, label="subcritical"),
-    ]
+    kinds = {"supercritical": "-", "subcritical": SUBCRITICAL} if ends else {}
+    handles = [Line2D([], [], color=INK, ls=ls, label=kind) for kind, ls in kinds.items()]
     marked = [Line2D([], [], label="scene", **SCENE)] if scenes else []
     bar = figure.colorbar(shades, ax=axes, label="unstable pairs", pad=0.03)
     bar.set_ticks(range(round(shades.norm.vmax - 0.5) + 1))
     figure.legend(handles=handles + points + marked, loc="outside lower center", ncols=2)
     return figure
+
+
+def window_of(centres: np.ndarray) -> tuple[float, float]:
+    """The ends of the window of which these are the centres of the cells."""
+    half = (centres[-1] - centres[0]) / (2 * (centres.size - 1)) if centres.size > 1 else centres[0]
+    return float(centres[0] - half), float(centres[-1] + half)
 
 
 def shade(axes: Axes, curves: xr.Dataset):
@@ -126,7 +130,7 @@ def numbers(curves: xr.Dataset, scenes: dict[str, dict]) -> dict:
         "points": curves.sizes["point"],
         "subcritical": int((curves.l1 > 0).sum()),
         "stabilising": int((curves.crossing < 0).sum()),
-        "stable": short(100 * float((curves.map_unstable_pairs == 0).mean()), 2),
+        "stable": short(100 * float((curves.map_unstable_pairs == 0).mean()), 3),
         "boundary": ends_of(boundary.epsilon),
         "ordinates": ends_of(boundary[ordinate]),
         "without_delay": [x for kind, x, _ in points if kind == "hopf_without_delay"],

@@ -7,6 +7,10 @@ from ruamel.yaml import YAML
 from ruamel.yaml.error import MarkedYAMLError, YAMLError
 from snakemake.utils import update_config
 
+MOST_VALUES, DEEPEST = 100_000, 50
+"""The largest configuration: values, each alias counted as what it stands for, and levels of
+nesting. With aliases a file of a kilobyte can stand for millions."""
+
 
 class ConfigError(ValueError):
     """All that is wrong with a configuration, one line each."""
@@ -29,6 +33,7 @@ def read(path: str | Path) -> dict:
         raise ConfigError(f"{path}: the file is empty")
     if not isinstance(values, dict):
         raise ConfigError(f"{path}: {values!r}; expected keys with values below them")
+    check_size(values, str(path))
     return values
 
 
@@ -36,12 +41,46 @@ def parse(text: str, source: str = "text"):
     """The value that a text stands for; raise ConfigError naming its source and the line."""
     try:
         return YAML(typ="safe", pure=True).load(text)
+    except RecursionError:
+        raise ConfigError(f"{source}: nested too deep; expected {DEEPEST} levels at most") from None
     except MarkedYAMLError as problem:
         mark = problem.problem_mark or problem.context_mark
         words = f"{problem.problem} {problem.context or ''}".strip()
         raise ConfigError(f"{source}, line {mark.line + 1}: {words}") from None
     except (YAMLError, ValueError) as problem:
         raise ConfigError(f"{source}: {' '.join(str(problem).split())}") from None
+
+
+def check_size(config: dict, source: str) -> None:
+    """Raise ConfigError, with its key, for an entry that is too large or holds itself."""
+    known: dict[int, tuple[int, int]] = {}
+    open_ones = set()
+
+    def measure(value, depth: int) -> tuple[int, int]:
+        """Values and levels of a value."""
+        if not isinstance(value, dict | list):
+            return 1, 0
+        if id(value) in open_ones or depth > DEEPEST:
+            raise OverflowError
+        if id(value) not in known:
+            open_ones.add(id(value))
+            inside = value.values() if isinstance(value, dict) else value
+            sizes, levels = zip((1, 0), *(measure(one, depth + 1) for one in inside), strict=True)
+            known[id(value)] = sum(sizes), 1 + max(levels)
+            open_ones.remove(id(value))
+        size, levels = known[id(value)]
+        if size > MOST_VALUES or depth + levels > DEEPEST:
+            raise OverflowError
+        return size, levels
+
+    for key, value in config.items():
+        try:
+            measure(value, 1)
+        except OverflowError:
+            raise ConfigError(
+                f"{source}: {key}: too large or an alias of itself; expected at most {MOST_VALUES} "
+                f"values, with aliases written out, and {DEEPEST} levels"
+            ) from None
 
 
 def merge(config: dict, *overlays: dict) -> dict:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from scripts.claims.ledger import check_user_claims, names_in, paper_claims
 from scripts.config.check_config import checked
-from scripts.files.read_config import ConfigError, merge, read
+from scripts.files.read_config import ConfigError, check_size, merge, read
 from scripts.plans import registry
 from scripts.results import paths
 from scripts.results.programs import KINDS
@@ -113,6 +113,7 @@ def read_plan(overlay: dict) -> Plan:
     `overlay` is what Snakemake was given by --configfile and --config: it changes the paper's own
     configuration, but for `user_file`, a path. Raises ConfigError in words.
     """
+    check_size(overlay, "--config or --configfile")
     overlay = copy.deepcopy(overlay)
     user_file = overlay.pop("user_file", None)
     whole = merge(read(CONFIG), overlay)

@@ -2,8 +2,9 @@
 !> those of the law's definition. All quantities are nondimensional; the defaults are steady sliding
 !> by the paper's law.
 module block_parameters
+   use, intrinsic :: iso_c_binding, only: c_int
    use chain, only: chain_ends, ends_length => word_length
-   use dde_errors, only: error_type
+   use dde_errors, only: error_type, text
    use dde_kinds, only: wp
    use model_description, only: description_type, unbounded, word_length
    use model_library, only: list_models, open_model
@@ -157,13 +158,16 @@ contains
       class(block_parameters_type), intent(in) :: self
       character(len=*), intent(in) :: place
       type(error_type), allocatable, intent(inout) :: error
-      real(wp), allocatable :: vector(:)
+      real(wp), allocatable :: lag(:), vector(:)
+      integer(c_int), allocatable :: state(:)
+      type(model_type) :: model
       type(description_type) :: law
       integer :: i
 
       call check_choice(error, place, "law", self%law, law_names())
-      if (.not. allocated(error)) call describe_law(self%law, law, error)
+      if (.not. allocated(error)) call open_model(trim(self%law), model, error)
       if (allocated(error)) return
+      law = model%describe()
       vector = [vector_of(self), self%own]
       do i = 1, size(law%parameters)
          associate (one => law%parameters(i))
@@ -176,6 +180,13 @@ contains
             end if
          end associate
       end do
+      if (.not. allocated(error)) then
+         call model%delays(vector(:size(law%parameters)), lag, state)
+         do i = 1, size(lag)
+            call check_number(error, place//": law "//trim(self%law), "delay "//text(i), lag(i), &
+                              at_least=0.0_wp)
+         end do
+      end if
       call check_chain(self, place, error)
    end subroutine check_parameters
 

@@ -3,7 +3,8 @@
 !>     dy/dt = f(t, y(t), z),   z(k) = y_c(k)(t - lag(k)),   y(t0) given,   y_c(t) given for t < t0.
 !>
 !> Extend `dde_problem_type`, fill `n`, `lag` and `component`, and write the three deferred
-!> procedures. Without delays `lag` and `component` have size zero, and no past is kept.
+!> procedures. Without delays `lag` and `component` have size zero or are not allocated, and no past
+!> is kept.
 !>
 !> Optional are - for implicit methods: `jacobian`, `lower` and `upper` of a banded one, and `rows`
 !> of delayed values, - for the method `taylor`: `series` and `past_series`, with `analytic` true, -

@@ -111,8 +111,9 @@ contains
       if (problem%n < 1) then
          call raise(error, "integrate: n = "//text(problem%n)//" equations; at least 1 expected")
       else if (.not. (allocated(problem%lag) .and. allocated(problem%component))) then
-         call raise(error, "integrate: lag and component are not allocated; expected to be, of " &
-                    //"size 0 without delays")
+         call raise(error, "integrate: "//trim(merge("component", "lag      ", &
+                                                     allocated(problem%lag)))//" is not allocated" &
+                    //"; lag and component expected, or none of them (no delays)")
       else if (size(problem%lag) /= size(problem%component)) then
          call raise(error, "integrate: "//text(size(problem%lag))//" delays for " &
                     //text(size(problem%component))//" delayed components; " &

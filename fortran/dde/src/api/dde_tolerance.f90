@@ -16,7 +16,8 @@ module dde_tolerance
    type :: tolerance_type
       !> Relative and absolute tolerance, shape (n)
       real(wp), allocatable :: relative(:), absolute(:)
-      !> The largest of all of them
+      !> The strictest relative tolerance above 0, which has no unit: orders and bounds of errors
+      !> follow from it. Where all are 0 it is the strictest absolute one, as for a state of size 1.
       real(wp) :: level = 0.0_wp
    contains
       procedure :: scale, of_component
@@ -40,7 +41,8 @@ contains
       allocate (tolerance%absolute(n), source=absolute)
       if (present(each_relative)) tolerance%relative = each_relative
       if (present(each_absolute)) tolerance%absolute = each_absolute
-      tolerance%level = max(maxval(tolerance%relative), maxval(tolerance%absolute))
+      tolerance%level = minval(tolerance%relative, mask=tolerance%relative > 0.0_wp)
+      if (.not. any(tolerance%relative > 0.0_wp)) tolerance%level = minval(tolerance%absolute)
       tolerance%level = min(most_level, max(least_level, tolerance%level))
    end function new_tolerance
 

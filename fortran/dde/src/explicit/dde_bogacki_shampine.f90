@@ -101,7 +101,7 @@ module dde_bogacki_shampine
    !> The pair. Slope 8 is that at the end.
    type, extends(explicit_pair) :: bogacki_shampine
    contains
-      procedure :: take_stages, take_dense_stages, find_error, find_coefficients
+      procedure :: take_stages, find_error, find_coefficients
    end type bogacki_shampine
 
    interface bogacki_shampine
@@ -152,18 +152,6 @@ contains
       y_new = y + h*(b1*k(:, :, 1) + b3*k(:, :, 3) + b4*k(:, :, 4) + b5*k(:, :, 5) &
                      + b6*k(:, :, 6) + b7*k(:, :, 7))
    end subroutine take_stages
-
-   !> There are none.
-   pure subroutine take_dense_stages(self, context, h, blocks, y, z, k, stage, finite)
-      class(bogacki_shampine), intent(in) :: self
-      type(step_context), intent(inout) :: context
-      real(wp), intent(in) :: h
-      integer, intent(in) :: blocks
-      real(wp), intent(in) :: y(lanes, blocks), z(size(context%problem%lag), &
-                              size(self%dense_places))
-      real(wp), intent(inout) :: k(lanes, blocks, slope_count), stage(lanes, blocks)
-      logical, intent(inout) :: finite
-   end subroutine take_dense_stages
 
    !> The sum of both embedded errors, the largest of all components. In steps far too long each of
    !> them alone can be small by chance.

@@ -14,10 +14,15 @@ module dde_dop853
    !> tolerance**(1/2) and tolerance**(3/4). They are a few times the values of accurate steps.
    real(wp), parameter :: largest_e3 = 50.0_wp, largest_e5 = 3.0_wp
 
+   !> Error of the dense output over the last term of its polynomial and tolerance**(1/8), the ratio
+   !> of terms that follow each other where the pair's error is the tolerance. The term is at most
+   !> (4/7)**4 (3/7)**3 = 0.0084 times its coefficient.
+   real(wp), parameter :: share_of_last = 0.1_wp*4.0_wp**4*3.0_wp**3/7.0_wp**7
+
    !> The pair. Slope 13 is that at the end, slopes 14 to 16 serve the dense output.
    type, extends(explicit_pair) :: dop853
    contains
-      procedure :: take_stages, take_dense_stages, find_error, find_coefficients
+      procedure :: take_stages, take_dense_stages, find_error, find_dense_error, find_coefficients
    end type dop853
 
    interface dop853
@@ -83,7 +88,7 @@ contains
                      + b9*k(:, :, 9) + b10*k(:, :, 10) + b11*k(:, :, 11) + b12*k(:, :, 12))
    end subroutine take_stages
 
-   !> Slopes 14 to 16, for the dense output of an accepted step.
+   !> Slopes 14 to 16, for the dense output.
    pure subroutine take_dense_stages(self, context, h, blocks, y, z, k, stage, finite)
       class(dop853), intent(in) :: self
       type(step_context), intent(inout) :: context
@@ -154,6 +159,21 @@ contains
          error = max(error, of_5*(of_5/sqrt(of_5**2 + of_3**2 + tiny(1.0_wp))))
       end do
    end function combine
+
+   !> The dense output is of one order less than the pair, and where a component decays within the
+   !> step its error can be large while that at the end is small. It is estimated by the last
+   !> coefficient.
+   pure subroutine find_dense_error(self, n, blocks, k, h, scale, tolerance, last, error)
+      class(dop853), intent(in) :: self
+      integer, intent(in) :: n, blocks
+      real(wp), intent(in) :: k(lanes, blocks, slope_count), h, scale(n), tolerance
+      real(wp), intent(out) :: last(lanes, blocks), error
+
+      last = h*(d71*k(:, :, 1) + d76*k(:, :, 6) + d77*k(:, :, 7) + d78*k(:, :, 8) &
+                + d79*k(:, :, 9) + d7_10*k(:, :, 10) + d7_11*k(:, :, 11) + d7_12*k(:, :, 12) &
+                + d7_13*k(:, :, 13) + d7_14*k(:, :, 14) + d7_15*k(:, :, 15) + d7_16*k(:, :, 16))
+      error = share_of_last*sqrt(sqrt(sqrt(tolerance)))*scaled_norm(n, last, scale)
+   end subroutine find_dense_error
 
    !> Newton coefficients of one component's dense output over the nodes 0, 1, 0, 1, 0, 1, 0.
    pure subroutine find_coefficients(self, k, h, y, y_new, a)

@@ -29,8 +29,9 @@ module dde_explicit_pair
       real(wp), allocatable :: nodes(:)
    contains
       procedure(take_stages), deferred :: take_stages
-      procedure(take_dense_stages), deferred :: take_dense_stages
       procedure(find_error), deferred :: find_error
+      !> Unless a pair has stages for its dense output alone these do nothing.
+      procedure :: take_dense_stages, find_dense_error
       procedure(find_coefficients), deferred :: find_coefficients
    end type explicit_pair
 
@@ -59,29 +60,6 @@ module dde_explicit_pair
          !> Whether all slopes are finite
          logical, intent(inout) :: finite
       end subroutine take_stages
-
-      !> The stages of the dense output of an accepted step.
-      pure subroutine take_dense_stages(self, context, h, blocks, y, z, k, stage, finite)
-         import :: explicit_pair, lanes, slope_count, step_context, wp
-         implicit none (type, external)
-         class(explicit_pair), intent(in) :: self
-         !> The context of the step
-         type(step_context), intent(inout) :: context
-         !> Length of the step
-         real(wp), intent(in) :: h
-         !> Number of blocks of lanes
-         integer, intent(in) :: blocks
-         !> State at the start
-         real(wp), intent(in) :: y(lanes, blocks)
-         !> Delayed values at `dense_places`
-         real(wp), intent(in) :: z(size(context%problem%lag), size(self%dense_places))
-         !> Slopes, those of the step and at its end known
-         real(wp), intent(inout) :: k(lanes, blocks, slope_count)
-         !> Argument of a stage
-         real(wp), intent(inout) :: stage(lanes, blocks)
-         !> Whether all slopes are finite
-         logical, intent(inout) :: finite
-      end subroutine take_dense_stages
 
       !> Estimated error, the largest of all components.
       pure subroutine find_error(self, n, blocks, k, h, scale, tolerance, embedded, error)
@@ -121,6 +99,49 @@ module dde_explicit_pair
    end interface
 
 contains
+
+   !> The stages of the dense output.
+   pure subroutine take_dense_stages(self, context, h, blocks, y, z, k, stage, finite)
+      class(explicit_pair), intent(in) :: self
+      !> The context of the step
+      type(step_context), intent(inout) :: context
+      !> Length of the step
+      real(wp), intent(in) :: h
+      !> Number of blocks of lanes
+      integer, intent(in) :: blocks
+      !> State at the start
+      real(wp), intent(in) :: y(lanes, blocks)
+      !> Delayed values at `dense_places`
+      real(wp), intent(in) :: z(size(context%problem%lag), size(self%dense_places))
+      !> Slopes, those of the step and at its end known
+      real(wp), intent(inout) :: k(lanes, blocks, slope_count)
+      !> Argument of a stage
+      real(wp), intent(inout) :: stage(lanes, blocks)
+      !> Whether all slopes are finite
+      logical, intent(inout) :: finite
+   end subroutine take_dense_stages
+
+   !> Estimated error of the dense output, the largest of all components.
+   pure subroutine find_dense_error(self, n, blocks, k, h, scale, tolerance, last, error)
+      class(explicit_pair), intent(in) :: self
+      !> Number of equations, and of blocks of lanes
+      integer, intent(in) :: n, blocks
+      !> Slopes, those of the dense output too
+      real(wp), intent(in) :: k(lanes, blocks, slope_count)
+      !> Length of the step
+      real(wp), intent(in) :: h
+      !> Tolerance of each component, shape (n)
+      real(wp), intent(in) :: scale(n)
+      !> Tolerance level
+      real(wp), intent(in) :: tolerance
+      !> Last Newton coefficient of each component
+      real(wp), intent(out) :: last(lanes, blocks)
+      !> Estimated error in units of the tolerance
+      real(wp), intent(out) :: error
+
+      last = 0.0_wp
+      error = 0.0_wp
+   end subroutine find_dense_error
 
    !> Add `weight` times the newest slope to a stage and evaluate it, unless an earlier slope was
    !> not finite. The addition is scalar: the evaluation has just stored the slope number by number,

@@ -33,7 +33,7 @@ module dde_explicit_step
       !> Whether all slopes so far are finite
       logical :: finite = .true.
    contains
-      procedure :: set_up, attempt, extend, interpolant, stiff, advance
+      procedure :: set_up, attempt, interpolant, stiff, advance
    end type explicit_step_type
 
 contains
@@ -68,12 +68,13 @@ contains
       end associate
    end subroutine set_up
 
-   !> Attempt a step. `error` is the estimate in units of the tolerance, or not finite if an
-   !> evaluation was not.
+   !> Attempt a step. `error` is the estimate in units of the tolerance, at its end and, where they
+   !> are read, at the places between, or not finite if an evaluation was not.
    pure subroutine attempt(self, context, error)
       class(explicit_step_type), intent(inout) :: self
       type(step_context), intent(inout) :: context
       real(wp), intent(out) :: error
+      real(wp) :: error_between
 
       self%t = context%cursor%t
       self%h = context%cursor%h
@@ -97,6 +98,16 @@ contains
          self%scale = tolerance%absolute + tolerance%relative*max(abs(self%y), abs(self%y_new))
          call self%pair%find_error(size(self%y), size(self%k, 2), self%k, self%h, self%scale, &
                                    tolerance%level, self%embedded, error)
+         if (error > 1.0_wp .or. size(self%dense_times) == 0 .or. .not. context%between) return
+         self%dense_times = self%h*self%pair%dense_places
+         call context%delayed_values(self%dense_times, self%dense_delayed)
+         call self%pair%take_dense_stages(context, self%h, size(self%k, 2), self%start, &
+                                          self%dense_delayed, self%k, self%dense_stage, self%finite)
+         call self%pair%find_dense_error(size(self%y), size(self%k, 2), self%k, self%h, &
+                                         self%scale, tolerance%level, self%dense_stage, &
+                                         error_between)
+         error = max(error, error_between)
+         if (.not. self%finite) error = ieee_value(1.0_wp, ieee_quiet_nan)
       end associate
    end subroutine attempt
 
@@ -143,19 +154,7 @@ contains
       call copy(size(self%y), self%k(:, :, self%pair%stages + 1), self%slope)
    end subroutine advance
 
-   !> Slopes of the dense output of an accepted step.
-   pure subroutine extend(self, context)
-      class(explicit_step_type), intent(inout) :: self
-      type(step_context), intent(inout) :: context
-
-      if (size(self%dense_times) == 0) return
-      self%dense_times = self%h*self%pair%dense_places
-      call context%delayed_values(self%dense_times, self%dense_delayed)
-      call self%pair%take_dense_stages(context, self%h, size(self%k, 2), self%start, &
-                                       self%dense_delayed, self%k, self%dense_stage, self%finite)
-   end subroutine extend
-
-   !> Dense output of component `i` over an accepted and extended step, before `advance`.
+   !> Dense output of component `i` over an accepted step, before `advance`.
    pure subroutine interpolant(self, i, a)
       class(explicit_step_type), intent(in) :: self
       integer, intent(in) :: i

@@ -12,7 +12,7 @@ module dde_history
    use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: history_type, memory_of_past
+   public :: history_type, kept_components, memory_of_past
 
    !> Slots of a new ring. It is a power of two, as are its doubles.
    integer, parameter :: first_capacity = 64
@@ -81,9 +81,8 @@ contains
       integer :: i, k
 
       past%origin = origin
-      allocate (row_of(problem%n), source=0)
-      row_of(problem%component) = 1
-      past%kept = pack([(i, i=1, problem%n)], row_of > 0)
+      past%kept = kept_components(problem)
+      allocate (row_of(problem%n))
       row_of(past%kept) = [(i, i=1, size(past%kept))]
       past%row = [(row_of(problem%component(k)), k=1, size(problem%lag))]
       allocate (past%start(first_capacity), past%length(first_capacity))
@@ -92,6 +91,18 @@ contains
       allocate (past%nodes(highest_degree, first_capacity))
       allocate (past%place(first_capacity), past%stored(first_capacity))
    end function new_history
+
+   !> The delayed components, ascending, each once.
+   pure function kept_components(problem) result(kept)
+      class(dde_problem_type), intent(in) :: problem
+      integer, allocatable :: kept(:)
+      logical, allocatable :: delayed(:)
+      integer :: i
+
+      allocate (delayed(problem%n), source=.false.)
+      delayed(problem%component) = .true.
+      kept = pack([(i, i=1, problem%n)], delayed)
+   end function kept_components
 
    !> Slot of step number `step`.
    pure integer function slot_of(self, step) result(slot)

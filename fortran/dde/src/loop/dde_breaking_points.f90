@@ -9,7 +9,7 @@
 !> estimate covers the kink then: if the step is accepted, the kink is below the tolerance, and so
 !> are the smoother kinks that it would cause.
 module dde_breaking_points
-   use dde_kinks, only: kink_type, merged, same_point, sorted
+   use dde_kinks, only: coincide, kink_type, merged, same_point, sorted
    use dde_time, only: elapsed, instant, later
    use dde_kinds, only: wp
    implicit none (type, external)
@@ -77,7 +77,10 @@ contains
       self%ahead = [kink_type(finish, no_kink, no_kink)]
       all_kinks = sorted(kinks, origin)
       self%met = pack(all_kinks, elapsed(all_kinks%at, now) >= 0.0_wp)
-      call self%add_ahead(pack(all_kinks, elapsed(all_kinks%at, now) < 0.0_wp), now)
+      ! backwards: each is then the first
+      do i = size(all_kinks), size(self%met) + 1, -1
+         call self%add_ahead(all_kinks(i), now)
+      end do
       do i = 1, size(self%met)
          call self%add_returns(self%met(i), now)
       end do
@@ -99,44 +102,69 @@ contains
       class(breaking_points), intent(inout) :: self
       type(kink_type), intent(in) :: kink
       type(instant), intent(in) :: now
-      type(kink_type), allocatable :: children(:)
+      integer :: i
 
       if (kink%passages >= self%most_passages) return
       if (kink%generation > 0 .and. size(self%ahead) - self%next >= most_ahead) return
-      allocate (children(size(self%lag)))
-      children%at = later(kink%at, self%lag)
-      children%passages = kink%passages + 1
-      children%generation = kink%generation + 1
-      call self%add_ahead(children, now)
+      do i = 1, size(self%lag)
+         call self%add_ahead(kink_type(later(kink%at, self%lag(i)), kink%passages + 1, &
+                                       kink%generation + 1), now)
+      end do
    end subroutine add_returns
 
-   !> Add points that lie after `now` and not after the end.
-   pure subroutine add_ahead(self, points, now)
+   !> Add a point if it lies after `now` and not after the end. This moves the points before it,
+   !> which lie at most a delay ahead of those that the run lands on, to the room that passed points
+   !> leave.
+   pure subroutine add_ahead(self, new, now)
       class(breaking_points), intent(inout) :: self
-      type(kink_type), intent(in) :: points(:)
+      type(kink_type), intent(in) :: new
       type(instant), intent(in) :: now
-      type(kink_type), allocatable :: new(:)
-      integer :: count, i
+      type(kink_type), allocatable :: wider(:)
+      type(kink_type) :: point
+      integer :: after, before, middle
 
-      allocate (new(size(points)))
-      count = 0
-      associate (finish => self%ahead(size(self%ahead))%at)
-         do i = 1, size(points)
-            associate (point => new(count + 1))
-               point = points(i)
-               if (abs(elapsed(finish, point%at)) <= same_point*elapsed(self%origin, finish)) then
-                  point%at = finish
-               end if
-               if (elapsed(point%at, finish) >= 0.0_wp &
-                   .and. elapsed(now, point%at) > same_point*elapsed(self%origin, point%at)) then
-                  count = count + 1
-               end if
-            end associate
-         end do
+      point = new
+      after = size(self%ahead)
+      associate (finish => self%ahead(after)%at)
+         if (abs(elapsed(finish, point%at)) <= same_point*elapsed(self%origin, finish)) then
+            point%at = finish
+         end if
+         if (elapsed(point%at, finish) < 0.0_wp &
+             .or. elapsed(now, point%at) <= same_point*elapsed(self%origin, point%at)) return
       end associate
-      if (count == 0) return
-      self%ahead = merged(self%ahead(self%next:), new(:count), self%origin)
-      self%next = 1
+      ! the first that is not before it
+      before = self%next - 1
+      do while (after - before > 1)
+         middle = before + (after - before)/2
+         if (elapsed(self%ahead(middle)%at, point%at) > 0.0_wp) then
+            before = middle
+         else
+            after = middle
+         end if
+      end do
+      if (before >= self%next) then
+         if (coincide(self%ahead(before), point, self%origin)) then
+            call self%ahead(before)%take_in(point)
+            return
+         end if
+      end if
+      if (coincide(point, self%ahead(after), self%origin)) then
+         call point%take_in(self%ahead(after))
+         self%ahead(after) = point
+         return
+      end if
+      if (self%next == 1) then
+         associate (points => size(self%ahead))
+            allocate (wider(2*points))
+            wider(points + 1:) = self%ahead
+            call move_alloc(wider, self%ahead)
+            self%next = points + 1
+            after = after + points
+         end associate
+      end if
+      self%ahead(self%next - 1:after - 2) = self%ahead(self%next:after - 1)
+      self%next = self%next - 1
+      self%ahead(after - 1) = point
    end subroutine add_ahead
 
    !> The first point that must be landed on.

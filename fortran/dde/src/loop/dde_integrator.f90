@@ -8,8 +8,8 @@ module dde_integrator
    use dde_events, only: event_watcher_type
    use dde_methods, only: longest_step, price_of_trial
    use dde_outcome, only: event_met, explain, integration_result, limit_met, out_of_memory, &
-                          reached_end
-   use dde_output, only: deliver
+                          reached_end, refused
+   use dde_output, only: deliver, is_read
    use dde_problem, only: dde_problem_type
    use dde_request, only: check, integration_options
    use dde_run, only: run_type
@@ -17,17 +17,21 @@ module dde_integrator
    use dde_switch, only: switch_type
    use dde_time, only: elapsed, instant, later, too_short
    use dde_errors, only: error_type
-   use dde_kinds, only: wp
+   use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
    public :: integrate
+
+   !> The series of the first step, of those after breaking points and of one step in so many are
+   !> checked.
+   integer(int64), parameter :: check_every = 64
 
 contains
 
    !> Integrate `problem` from t_start to t_end >= t_start, or to an event that ends the run. Only
    !> the past that the delays need is stored. On an error `outcome` holds the last time reached.
-   subroutine integrate(problem, t_start, t_end, options, outcome, error, sampler, watcher, &
-                        continuation)
+   recursive subroutine integrate(problem, t_start, t_end, options, outcome, error, sampler, &
+                                  watcher, continuation)
       !> The problem
       class(dde_problem_type), intent(in), target :: problem
       !> Initial time
@@ -46,14 +50,23 @@ contains
       class(event_watcher_type), intent(inout), optional :: watcher
       !> Where an earlier run ended; on return where this one ended
       type(continuation_type), intent(inout), optional :: continuation
+      class(dde_problem_type), allocatable :: whole
       type(run_type) :: run
       type(switch_type) :: switch
       type(instant) :: step_end
       real(wp) :: error_estimate, h, lacking, left, longest, longest_of_all
       character(len=:), allocatable :: culprit
       integer :: goal
-      logical :: automatic, ended, landing, last, other
+      logical :: automatic, ended, landing, last, other, unseen
 
+      if (.not. (allocated(problem%lag) .or. allocated(problem%component))) then
+         ! gfortran 12 leaves out empty lists that a constructor is given
+         allocate (whole, source=problem)
+         allocate (whole%lag(0), whole%component(0))
+         call integrate(whole, t_start, t_end, options, outcome, error, sampler, watcher, &
+                        continuation)
+         return
+      end if
       call check(problem, t_start, t_end, options, error, sampler, watcher, continuation)
       if (allocated(error)) return
       call run%begin(problem, t_start, t_end, options, lacking, error, continuation)
@@ -81,6 +94,7 @@ contains
       error_estimate = 0.0_wp
 
       outcome%reason = reached_end
+      unseen = .true.
       last = .not. run%points%time_to_end(run%now) > 0.0_wp
       do while (.not. last)
          call run%context%past%make_room(size(run%step%nodes), lacking)
@@ -94,6 +108,9 @@ contains
          if (outcome%reason /= reached_end) exit
          if (run%fresh) call run%step%renew(run%context)
          run%fresh = .false.
+         step_end = later(run%now, h)
+         if (landing) step_end = run%points%at(goal)
+         run%context%between = is_read(run, h, step_end, sampler, watcher)
          call run%step%attempt(run%context, error_estimate)
          if (.not. accepted(error_estimate)) then
             outcome%rejected = outcome%rejected + 1
@@ -103,10 +120,16 @@ contains
          end if
 
          outcome%accepted = outcome%accepted + 1
+         if (unseen .or. modulo(outcome%accepted, check_every) == 0) then
+            call run%step%check_series(run%context, error)
+            if (allocated(error)) then
+               outcome%reason = refused
+               exit
+            end if
+         end if
+         unseen = landing
          if (run%step%constants%implicit) outcome%implicit_steps = outcome%implicit_steps + 1
          call run%step%complete(run%context)
-         step_end = later(run%now, h)
-         if (landing) step_end = run%points%at(goal)
          if (.not. run%now%hi + h > run%now%hi) outcome%unresolved = outcome%unresolved + 1
          call deliver(run, step_end, ended, sampler, watcher)
          if (ended) then
@@ -148,7 +171,7 @@ contains
       outcome%evaluations = run%context%work%evaluations
       outcome%work = run%context%work%total()
       outcome%factorisations = run%context%work%factorisations
-      if (all(outcome%reason /= [reached_end, event_met])) then
+      if (all(outcome%reason /= [reached_end, event_met, refused])) then
          call find_culprit(run, h, outcome%reason, culprit)
          call explain(outcome, t_end, h, options, culprit, lacking, error)
       end if

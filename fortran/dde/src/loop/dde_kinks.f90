@@ -4,7 +4,7 @@ module dde_kinks
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: kink_type, merged, same_point, sorted
+   public :: coincide, kink_type, merged, same_point, sorted
 
    !> Points are one if their distance is below this share of their distance from the first kink.
    real(wp), parameter :: same_point = 16.0_wp*epsilon(1.0_wp)
@@ -17,9 +17,29 @@ module dde_kinks
       integer :: passages = 0
       !> Passages since its cause, which is the initial time or a time that the user gave
       integer :: generation = 0
+   contains
+      procedure :: take_in
    end type kink_type
 
 contains
+
+   !> Take in another kink at the same time.
+   pure subroutine take_in(self, other)
+      class(kink_type), intent(inout) :: self
+      type(kink_type), intent(in) :: other
+
+      self%passages = min(self%passages, other%passages)
+      self%generation = min(self%generation, other%generation)
+   end subroutine take_in
+
+   !> Whether a kink and the next one are the same point.
+   pure logical function coincide(kink, next, origin) result(value)
+      type(kink_type), intent(in) :: kink, next
+      !> What their rounding is measured from
+      type(instant), intent(in) :: origin
+
+      value = elapsed(kink%at, next%at) <= same_point*abs(elapsed(origin, next%at))
+   end function coincide
 
    !> Two ascending lists as one. Points that coincide become one, with the fewest passages.
    pure function merged(one, other, origin) result(points)
@@ -49,10 +69,8 @@ contains
             j = j + 1
          end if
          if (count > 0) then
-            if (elapsed(points(count)%at, point%at) &
-                <= same_point*abs(elapsed(origin, point%at))) then
-               points(count)%passages = min(points(count)%passages, point%passages)
-               points(count)%generation = min(points(count)%generation, point%generation)
+            if (coincide(points(count), point, origin)) then
+               call points(count)%take_in(point)
                cycle
             end if
          end if

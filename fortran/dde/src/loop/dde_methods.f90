@@ -2,7 +2,7 @@
 module dde_methods
    use dde_explicit_step, only: explicit_step_type
    use dde_implicit_step, only: implicit_cost, implicit_step_type, stages_of
-   use dde_history, only: memory_of_past
+   use dde_history, only: kept_components, memory_of_past
    use dde_interpolant, only: highest_degree, usual_degree
    use dde_memory, only: bytes_of, lacks
    use dde_orders, only: explicit_method, radau_method, taylor_degree
@@ -60,7 +60,7 @@ contains
       if (all(name /= implicit_methods)) then
          steps = ceiling(min(maxval(problem%lag)/minval(problem%lag), 0.5_wp*huge(1)))
       end if
-      bytes = bytes + memory_of_past(steps, steps, size(problem%lag), degree)
+      bytes = bytes + memory_of_past(steps, steps, size(kept_components(problem)), degree)
    end function memory_needed
 
    !> Bytes of the state and its tolerances.
@@ -104,9 +104,9 @@ contains
          ! and one of all stages
          if (delays > 0) bytes = bytes + n*stages*min(n*stages, stages*(2*below + above + 3))
       case ("taylor")
-         bytes = n*4*(2 + highest_degree)
+         bytes = (n + delays)*4*(2 + highest_degree)
       case default
-         bytes = n*2*26
+         bytes = (n + delays)*2*26
       end select
       bytes = bytes_of(bytes)
    end function memory_of

@@ -23,7 +23,7 @@ contains
 
    !> The explicit pair.
    pure function explicit_method(tolerance) result(name)
-      !> Relative or absolute tolerance, the larger
+      !> Level of the tolerance
       real(wp), intent(in) :: tolerance
       character(len=8) :: name
 
@@ -32,7 +32,7 @@ contains
 
    !> The Radau method of `auto`.
    pure function radau_method(tolerance) result(name)
-      !> Relative or absolute tolerance, the larger
+      !> Level of the tolerance
       real(wp), intent(in) :: tolerance
       character(len=8) :: name
 
@@ -43,7 +43,7 @@ contains
 
    !> The degree of a Taylor series.
    pure integer function taylor_degree(tolerance) result(degree)
-      !> Relative or absolute tolerance, the larger
+      !> Level of the tolerance
       real(wp), intent(in) :: tolerance
 
       degree = max(lowest_degree, min(highest_degree, nint(degree_at_one - log10(tolerance))))

@@ -88,19 +88,20 @@ contains
       !> Where an earlier run ended, if one did
       type(continuation_type), intent(in), optional :: continuation
       logical :: continued
-      integer :: degree, steps
+      integer :: degree, kept, steps
 
       continued = .false.
       if (present(continuation)) continued = allocated(continuation%y)
       degree = 0
+      kept = 0
       steps = 0
       if (continued) then
          degree = size(continuation%nodes, 1)
+         kept = size(continuation%kept)
          steps = size(continuation%step_length)
       end if
       ! the state and its tolerances, and a ring of up to twice as many slots as steps
-      lacking = memory_of_state(problem) &
-                + memory_of_past(2*steps, steps, size(problem%lag), degree)
+      lacking = memory_of_state(problem) + memory_of_past(2*steps, steps, kept, degree)
       if (lacks(lacking)) return
       self%context%problem => problem
       self%context%tolerance = tolerance_type(problem%n, options%relative, options%absolute, &
@@ -120,7 +121,6 @@ contains
          call choose_first_step(self%context, self%step, &
                                 min(t_end - t_start, options%longest_step), self%h)
       end if
-      if (.not. continued) call self%step%check_series(self%context, self%h, error)
    end subroutine begin
 
    !> The first run. Its initial time is a kink, or a jump if a delayed component differs from its

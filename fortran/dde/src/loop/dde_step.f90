@@ -38,7 +38,7 @@ module dde_step
       !> Time from the start of the step for which its polynomial is valid, if longer than the step
       real(wp) :: valid_for = 0.0_wp
    contains
-      procedure :: allocate_state, restart, renew, reset, propose, complete, extend, next_length
+      procedure :: allocate_state, restart, renew, reset, propose, complete, next_length
       procedure :: check_series, slope_here, stiff
       procedure(attempt_step), deferred :: attempt
       procedure(give_polynomial), deferred :: interpolant
@@ -59,7 +59,7 @@ module dde_step
          real(wp), intent(out) :: error
       end subroutine attempt_step
 
-      !> Polynomial of one component over an accepted and extended step, before `advance`.
+      !> Polynomial of one component over an accepted step, before `advance`.
       pure subroutine give_polynomial(self, i, a)
          import :: step_type, wp
          implicit none (type, external)
@@ -91,13 +91,11 @@ contains
       call problem%initial(self%y)
    end subroutine allocate_state
 
-   !> Refuse a series of the problem that is not that of its solution. A method without series has
-   !> nothing to refuse.
-   pure subroutine check_series(self, context, h, error)
+   !> Refuse series of the problem that do not solve its equations over an accepted step. A method
+   !> without series has nothing to refuse.
+   pure subroutine check_series(self, context, error)
       class(step_type), intent(inout) :: self
       type(step_context), intent(inout) :: context
-      !> Length proposed for the first step
-      real(wp), intent(in) :: h
       type(error_type), allocatable, intent(out) :: error
    end subroutine check_series
 
@@ -137,12 +135,6 @@ contains
       class(step_type), intent(inout) :: self
       type(step_context), intent(inout) :: context
    end subroutine complete
-
-   !> The polynomial needs no preparation unless a method says so.
-   pure subroutine extend(self, context)
-      class(step_type), intent(inout) :: self
-      type(step_context), intent(inout) :: context
-   end subroutine extend
 
    !> Step control proposes the next step size from the error, unless a method knows better.
    pure subroutine next_length(self, control, h, error)

@@ -21,6 +21,8 @@ module dde_step_context
       type(cursor_type) :: cursor
       !> Tolerance of each component
       type(tolerance_type) :: tolerance
+      !> Whether values between start and end of the step are read
+      logical :: between = .true.
       !> Work so far
       type(work_type) :: work
    contains

@@ -66,7 +66,7 @@ contains
       allocate (self%least_slope(size(y)), self%most_slope(size(y)))
    end subroutine begin
 
-   !> Take up an accepted and extended step. The place is its end.
+   !> Take up an accepted step. The place is its end.
    pure subroutine take_up(self, step, start, finish)
       class(dense_state), intent(inout) :: self
       class(step_type), intent(in) :: step

@@ -56,7 +56,7 @@ contains
       self%side = sign_of(self%g, self%side)
    end subroutine begin
 
-   !> Report the events of an accepted and extended step to the watcher. On return the search is at
+   !> Report the events of an accepted step to the watcher. On return the search is at
    !> the end of the step, or at the event that ends the run.
    subroutine search_step(self, watcher, step, start, step_end, share, ended)
       class(event_search), intent(inout) :: self

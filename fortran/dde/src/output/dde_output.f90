@@ -11,11 +11,34 @@ module dde_output
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: deliver
+   public :: deliver, is_read
 
 contains
 
-   !> Pass on the dense output of an accepted step. It is made only if it is read.
+   !> Whether a step up to `step_end` is read between its ends: as the past, at samples, by events.
+   logical function is_read(run, h, step_end, sampler, watcher) result(value)
+      class(run_type), intent(in) :: run
+      !> Length of the step
+      real(wp), intent(in) :: h
+      type(instant), intent(in) :: step_end
+      class(sampler_type), intent(inout), optional :: sampler
+      class(event_watcher_type), intent(in), optional :: watcher
+
+      value = size(run%context%problem%lag) > 0 .or. present(watcher)
+      if (.not. present(sampler)) return
+      call limit_next(sampler, run%now%hi, h)
+      value = value .or. sample_is_due(sampler, step_end)
+   end function is_read
+
+   !> Whether the next sample is at a time or before.
+   pure logical function sample_is_due(sampler, time) result(value)
+      class(sampler_type), intent(in) :: sampler
+      type(instant), intent(in) :: time
+
+      value = elapsed(instant(sampler%next), time) >= 0.0_wp
+   end function sample_is_due
+
+   !> Pass on the dense output of an accepted step, as far as it is read.
    subroutine deliver(run, step_end, ended, sampler, watcher)
       !> The run at the start of the step, its step accepted and complete
       class(run_type), intent(inout) :: run
@@ -27,25 +50,17 @@ contains
       class(sampler_type), intent(inout), optional :: sampler
       !> Receiver of events
       class(event_watcher_type), intent(inout), optional :: watcher
-      logical :: delayed, sampled
       real(wp) :: share
 
-      delayed = size(run%context%problem%lag) > 0
-      sampled = .false.
-      if (present(sampler)) then
-         call limit_next(sampler, run%now%hi, run%step%h)
-         sampled = elapsed(instant(sampler%next), step_end) >= 0.0_wp
-      end if
-      if (delayed .or. sampled .or. present(watcher)) then
-         call run%step%extend(run%context)
-      end if
       ended = .false.
       share = 1.0_wp
       if (present(watcher)) then
          call run%search%search_step(watcher, run%step, run%now, step_end, share, ended)
       end if
-      if (sampled) call sample(sampler, run%step, run%now, step_end)
-      if (delayed .and. share > 0.0_wp) then
+      if (present(sampler)) then
+         if (sample_is_due(sampler, step_end)) call sample(sampler, run%step, run%now, step_end)
+      end if
+      if (size(run%context%problem%lag) > 0 .and. share > 0.0_wp) then
          ! no polynomial is valid beyond the next kink
          call remember(run%context%past, run%step, run%now, run%points%time_to_next(run%now), share)
          call run%context%past%forget(later(step_end, -run%reach))
@@ -78,7 +93,7 @@ contains
       end do
    end subroutine remember
 
-   !> The samples that lie in an accepted and extended step.
+   !> The samples that lie in an accepted step.
    subroutine sample(sampler, step, start, step_end)
       class(sampler_type), intent(inout) :: sampler
       class(step_type), intent(in) :: step
@@ -96,7 +111,7 @@ contains
       do i = 1, size(sampler%wanted)
          call step%interpolant(sampler%wanted(i), sampler%dense(:degree, i))
       end do
-      do while (elapsed(instant(sampler%next), step_end) >= 0.0_wp)
+      do while (sample_is_due(sampler, step_end))
          time = sampler%next
          s = elapsed(start, instant(time))/step%h
          do i = 1, size(sampler%wanted)

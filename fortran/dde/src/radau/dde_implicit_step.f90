@@ -25,6 +25,9 @@ module dde_implicit_step
    real(wp), parameter :: keep_length = 1.2_wp
    !> Below this value of step size times norm of the Jacobian the problem is not stiff.
    real(wp), parameter :: least_stiff = 8.0_wp
+   !> A step is far too long if this share of the last term of its polynomial is above the
+   !> tolerance: there the embedded error can be small by chance.
+   real(wp), parameter :: least_hidden = 0.003_wp
    !> Cost of an evaluation within this method over one within the explicit pair.
    real(wp), parameter :: implicit_cost = 3.0_wp
 
@@ -87,7 +90,7 @@ contains
       class(dde_problem_type), intent(in) :: problem
       !> Name of the method
       character(len=*), intent(in) :: name
-      !> Relative or absolute tolerance, the larger
+      !> Level of the tolerance
       real(wp), intent(in) :: level
       integer :: stages
 
@@ -288,6 +291,10 @@ contains
                   *self%asked_over_inside
          ! below 1 its power is smaller still
          if (inside > min(error, 1.0_wp)) error = max(error, inside**((s + 1.0_wp)/s))
+         if (error > 1.0_wp) return
+         inside = least_hidden*self%method%bulge*self%asked_over_inside &
+                  *min(scaled_norm(size(self%scale), self%raw, self%scale), hopeless)
+         if (inside > 1.0_wp) error = inside
       end associate
    end subroutine find_error_inside
 

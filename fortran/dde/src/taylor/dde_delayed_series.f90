@@ -217,6 +217,7 @@ contains
             end do
          end do
          do k = 1, size(z, 2)
+            if (.not. self%skipped(k) > 0.0_wp) cycle
             actual = agreement*tolerance%of_component(component(k), z(0, k))
             if (self%skipped(k) > actual*h) h = 0.0_wp
          end do

@@ -1,118 +1,81 @@
-!> Whether the series that a problem gives are those of its right-hand side and its history, seen at
-!> the start of a run. Only gross differences are errors: values may differ by rounding.
+!> Whether the series of a step solves the equations of the problem: its slope is compared with the
+!> right-hand side within the step.
 module dde_series_check
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_errors, only: error_type, raise, text
    use dde_interpolant, only: series_value
-   use dde_slow_series, only: series_reach
    use dde_step_context, only: step_context
+   use dde_taylor_series, only: taylor_series
+   use dde_time, only: elapsed, instant
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: check_coefficients, check_past
+   public :: check_residual
 
-   !> Relative difference of a wrong value.
-   real(wp), parameter :: gross = 1.0e-3_wp
-   !> Relative change of state and delayed values. It changes the right-hand side by more than
-   !> rounding does.
-   real(wp), parameter :: change = 1.0e-10_wp
-   !> Places of the history that are compared, as shares of the time for which its series is valid
-   !> or of the unit of its powers.
-   real(wp), parameter :: of_reach = 0.1_wp, of_unit = 0.01_wp
-   !> Largest departure from proportional differences.
-   real(wp), parameter :: proportional = 0.1_wp
+   !> Places of the step. The ratio of the residuals there tells the first wrong coefficient.
+   real(wp), parameter :: places(2) = [0.25_wp, 0.5_wp]
+   !> A slope may be off by this many times the change that the tolerance of state and delayed
+   !> values makes, and by this share of itself.
+   real(wp), parameter :: allowance = 100.0_wp, rounding = 1.0e-8_wp
 
 contains
 
-   !> Refuse coefficients 1 that are not those of the right-hand side.
-   pure subroutine check_coefficients(context, t, unit, y, z, slope, coefficients, error)
-      !> The context of the first step
-      type(step_context), intent(in) :: context
-      !> Time, unit of time of the powers, state, delayed values and right-hand side
-      real(wp), intent(in) :: t, unit, y(:), z(:), slope(:)
-      !> Coefficients 1
-      real(wp), intent(in) :: coefficients(:)
-      !> The first that is wrong
+   !> Refuse a series whose slope is not the right-hand side, by the component and the coefficient
+   !> that are wrong.
+   pure subroutine check_residual(context, series, h, scale, error)
+      !> The context of a step along the series
+      type(step_context), intent(inout) :: context
+      type(taylor_series), intent(in) :: series
+      !> Length of the step
+      real(wp), intent(in) :: h
+      !> Tolerance of each component
+      real(wp), contiguous, intent(in) :: scale(:)
+      !> What is wrong
       type(error_type), allocatable, intent(out) :: error
-      real(wp), allocatable :: slope_beside(:), y_beside(:), z_beside(:)
-      real(wp) :: allowed
-      integer :: i
+      real(wp), allocatable :: allowed(:), beside(:), found(:, :), given(:, :), residual(:, :), &
+                               slope(:, :), y(:), z(:, :)
+      character(len=:), allocatable :: name
+      integer :: i, j, k
 
-      allocate (slope_beside(size(y)), y_beside(size(y)), z_beside(size(z)))
-      ! changes of different sizes do not cancel
-      do i = 1, size(y)
-         y_beside(i) = y(i)*(1.0_wp - change*sin(real(i, wp))**2)
-      end do
-      do i = 1, size(z)
-         z_beside(i) = z(i)*(1.0_wp - change*cos(real(i, wp))**2)
-      end do
-      call context%problem%rhs(t, y_beside, z_beside, slope_beside)
-      do i = 1, size(y)
-         allowed = abs(slope_beside(i) - slope(i)) + context%tolerance%of_component(i, y(i))/unit
-         if (.not. differ(coefficients(i)/unit, slope(i), allowed)) cycle
-         call raise(error, "integrate: series: coefficient 1 of component "//text(i) &
-                    //" over unit is "//text(coefficients(i)/unit)//" at t = "//text(t) &
-                    //", rhs gives "//text(slope(i))//"; the same expected")
-         return
-      end do
-   end subroutine check_coefficients
-
-   !> Refuse series of the past that are not those of the history. They are compared at their start
-   !> and at two later times. There a difference is an error if it is proportional to time: that
-   !> of a jump is not.
-   pure subroutine check_past(context, unit, coefficients, error)
-      !> The context of the first step
-      type(step_context), intent(in) :: context
-      !> Unit of time of the powers
-      real(wp), intent(in) :: unit
-      !> Coefficients of the delayed values
-      real(wp), contiguous, intent(in) :: coefficients(0:, :)
-      !> The first that is wrong
-      type(error_type), allocatable, intent(out) :: error
-      real(wp) :: difference(3), found(3), known(3), reach, span(3), t(3), tolerance
-      integer :: i, k, place
-
-      do k = 1, size(coefficients, 2)
-         associate (degree => ubound(coefficients, 1), component => context%problem%component(k))
-            t = context%cursor%time_before(context%past, context%problem%lag(k), 0.0_wp)
-            known(1) = context%problem%history(t(1), component)
-            found(1) = coefficients(0, k)
-            tolerance = context%tolerance%of_component(component, known(1))
-            place = merge(1, 0, differ(found(1), known(1), tolerance))
-            if (place == 0 .and. ieee_is_finite(known(1)) &
-                .and. all(ieee_is_finite(coefficients(:, k)))) then
-               call series_reach(degree, coefficients(:, k:k), [tolerance], reach)
-               t(2:) = t(1) + min(of_reach*reach, of_unit)*unit*[1.0_wp/3, 1.0_wp]
-               span = t - t(1)
-               do i = 2, 3
-                  known(i) = context%problem%history(t(i), component)
-                  found(i) = series_value(degree, coefficients(:, k), span(i)/unit)
-               end do
-               difference = (found - found(1)) - (known - known(1))
-               if (differ(found(3) - found(1), known(3) - known(1), &
-                          tolerance + change*abs(known(1))) .and. span(2) > 0.0_wp &
-                   .and. abs(difference(3)*span(2) - difference(2)*span(3)) &
-                   <= proportional*abs(difference(3))*span(2)) place = 3
-            end if
-            if (place == 0) cycle
-            call raise(error, "integrate: past_series: component "//text(component)//" from t = " &
-                       //text(t(1))//" on is "//text(found(place))//" at t = "//text(t(place)) &
-                       //", history gives "//text(known(place))//"; the same expected")
-            return
-         end associate
-      end do
-   end subroutine check_past
-
-   !> Whether two numbers differ grossly; a known one that is not finite is no error here.
-   pure logical function differ(found, known, allowed) result(value)
-      real(wp), intent(in) :: found, known
-      !> Absolute difference that is allowed
-      real(wp), intent(in) :: allowed
-
-      value = .false.
-      if (.not. (ieee_is_finite(known) .and. ieee_is_finite(allowed))) return
-      value = .not. ieee_is_finite(found)
-      if (value) return
-      value = abs(found - known) > allowed + gross*max(abs(found), abs(known))
-   end function differ
+      associate (n => size(scale), delays => size(context%problem%lag), &
+                 degree => series%degree, t => context%cursor%t + h*places)
+         allocate (allowed(n), beside(n), found(n, 2), residual(n, 2), slope(n, 2), y(n), &
+                   given(delays, 2), z(delays, 2))
+         call context%delayed_values(h*places, z)
+         do j = 1, 2
+            call series%state(h*places(j), y)
+            call context%problem%rhs(t(j), y, z(:, j), slope(:, j))
+            found(:, j) = series%slope(h*places(j))
+            residual(:, j) = abs(found(:, j) - slope(:, j))
+            given(:, j) = [(series_value(degree, series%delayed%coefficients(:, k), &
+                                         h*places(j)/series%unit), k=1, delays)]
+         end do
+         ! changes of different sizes do not cancel
+         call context%problem%rhs(t(2), y + scale*[(sin(real(i, wp)), i=1, n)], z(:, 2) &
+                                  + scale(context%problem%component) &
+                                  *[(cos(real(k, wp)), k=1, delays)], beside)
+         allowed = allowance*(abs(beside - slope(:, 2)) + degree*scale/h) &
+                   + rounding*abs(slope(:, 2))
+         if (.not. (all(ieee_is_finite(residual)) .and. all(ieee_is_finite(allowed)))) return
+         if (all(residual(:, 2) <= allowed)) return
+         i = maxloc(residual(:, 2)/allowed, dim=1)
+         k = 1 + max(0, min(degree - 1, nint(log(residual(i, 2)/max(residual(i, 1), tiny(1.0_wp))) &
+                                             /log(places(2)/places(1)))))
+         name = merge("slow_series", "series     ", series%slow%holds)
+         do j = 1, delays
+            associate (component => context%problem%component(j), &
+                       time => t(2) - context%problem%lag(j))
+               if (elapsed(instant(time), context%past%origin) <= 0.0_wp) cycle
+               if (abs(given(j, 2) - z(j, 2)) <= allowance*scale(component)) cycle
+               call raise(error, "integrate: past_series: component "//text(component)//" is " &
+                          //text(given(j, 2))//" at t = "//text(time)//", history gives " &
+                          //text(z(j, 2))//"; the same expected, or a jump in break_at")
+               return
+            end associate
+         end do
+         call raise(error, "integrate: "//trim(name)//": the slope of component "//text(i)//" is " &
+                    //text(found(i, 2))//" at t = "//text(t(2))//", rhs gives "//text(slope(i, 2)) &
+                    //"; the same expected (wrong from about coefficient "//text(k)//" on)")
+      end associate
+   end subroutine check_residual
 end module dde_series_check

@@ -8,7 +8,7 @@ module dde_taylor_step
    use dde_method_constants, only: method_constants
    use dde_orders, only: taylor_degree
    use dde_problem, only: dde_problem_type
-   use dde_series_check, only: check_coefficients, check_past
+   use dde_series_check, only: check_residual
    use dde_step, only: step_type
    use dde_step_context, only: step_context
    use dde_taylor_series, only: taylor_series
@@ -50,7 +50,7 @@ contains
       class(taylor_step_type), intent(out) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> Relative or absolute tolerance, the larger
+      !> Level of the tolerance
       real(wp), intent(in) :: tolerance
       integer :: degree
 
@@ -63,25 +63,13 @@ contains
       self%series = taylor_series(problem, degree)
    end subroutine set_up
 
-   !> Refuse a series of the problem that is not that of its solution, or of its history, at the
-   !> start of a run.
-   pure subroutine check_series(self, context, h, error)
+   !> Refuse a series that does not solve the equations of the problem.
+   pure subroutine check_series(self, context, error)
       class(taylor_step_type), intent(inout) :: self
       type(step_context), intent(inout) :: context
-      real(wp), intent(in) :: h
       type(error_type), allocatable, intent(out) :: error
 
-      if (.not. h > 0.0_wp) return
-      associate (series => self%series, t => context%cursor%inside(context%cursor%t))
-         series%unit = h
-         call series%delayed%read_past(context, .false., series%unit)
-         call check_past(context, series%unit, series%delayed%coefficients, error)
-         if (allocated(error)) return
-         call context%delayed_values([0.0_wp], self%z)
-         call series%expand_state(context, t, context%problem%relaxation_rate(t, self%y), self%y)
-         call check_coefficients(context, t, series%unit, self%y, self%z(:, 1), self%slope, &
-                                 series%coefficients(1, :), error)
-      end associate
+      call check_residual(context, self%series, self%h, self%scale, error)
    end subroutine check_series
 
    !> The series of the step gives its slope.

@@ -26,6 +26,7 @@ contains
       testsuite = [new_unittest("a pulse", test_pulse), &
                    new_unittest("a history that jumps", test_history), &
                    new_unittest("a changed state", test_changed_state), &
+                   new_unittest("many doses", test_doses), &
                    new_unittest("many delays", test_many_delays)]
    end subroutine collect_dde_breaks
 
@@ -55,6 +56,22 @@ contains
          call expect_close(error, outcome%y, [10.0_wp, 39.5_wp], 1.0e-10_wp, methods(i))
       end do
    end subroutine test_pulse
+
+   !> A hundred thousand points at which the right-hand side may jump. Where each cost a look at all
+   !> others this took minutes.
+   subroutine test_doses(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(integration_options) :: options
+      type(integration_result) :: outcome
+      integer, parameter :: doses = 100000
+      integer :: i
+
+      options = at_tolerance(1.0e-3_wp, "bs5")
+      options%break_at = [(i*1.0e-3_wp, i=1, doses)]
+      call run(error, linear(), 0.0_wp, doses*1.0e-3_wp, options, outcome)
+      if (allocated(error)) return
+      call expect(error, outcome%breaking_points >= doses - 1, "a step ends at each")
+   end subroutine test_doses
 
    !> A jump inside the history comes back as a kink.
    subroutine test_history(error)

@@ -325,6 +325,10 @@ contains
 
       problem = linear(n=n, lag=spread(1.0_wp, 1, n), component=[(i, i=1, n)], &
                        past=spread(1.0_wp, 1, n), first=spread(1.0_wp, 1, n))
+      ! of 2000 delays of one component one past is kept
+      needed = memory_needed(linear(lag=[(real(i, wp), i=1, 2000)], component=spread(1, 1, 2000)), &
+                             at_tolerance(1.0e-6_wp))
+      call expect(error, needed < 1.0e7_wp, text(needed)//" bytes for one component")
       do i = 1, size(pairs)
          options = at_tolerance(1.0e-6_wp, pairs(i))
          needed = memory_needed(problem, options)

@@ -101,8 +101,8 @@ contains
             call step%set_up(problem, names(i), tight(stages(i)))
             call take_step(problem, 0.0_wp, h, step, estimate, tight(stages(i)), tight(stages(i)))
             of_estimate(j) = norm2(step%error_vector/step%scale)
-            call expect_close(error, estimate, maxval(abs(step%error_vector)/step%scale), &
-                              1.0e-12_wp*estimate, "the estimate")
+            call expect(error, estimate >= maxval(abs(step%error_vector)/step%scale), &
+                        "the estimate is the embedded error, or more in a step far too long")
             misfit(j) = norm2(step%y_new - [cos(h), -sin(h)])
             inside(j) = maxval([(norm2(interpolated(step, places(k)) &
                                        - [cos(h*places(k)), -sin(h*places(k))]), &

@@ -11,6 +11,7 @@ module test_dde_refusals
    use published_problems, only: enzyme, infection
    use solving, only: at_tolerance, run
    use test_problems, only: linear, sine, wille_baker
+   use undelayed_problems, only: swing, undelayed
    implicit none (type, external)
    private
    public :: collect_dde_refusals
@@ -37,10 +38,14 @@ contains
    subroutine test_good(error)
       type(error_type), allocatable, intent(out) :: error
       type(integration_result) :: outcome
+      type(undelayed) :: alone
 
       call run(error, wille_baker(), 1.0_wp, 2.0_wp, integration_options(), outcome)
       call run(error, wille_baker(), 1.0_wp, 2.0_wp, &
                integration_options("explicit", relative=0.0_wp), outcome)
+      alone = swing()
+      deallocate (alone%lag, alone%component)
+      call run(error, alone, 0.0_wp, 1.0_wp, integration_options(), outcome)
    end subroutine test_good
 
    !> At least one equation; delays that are positive numbers, each of one component.
@@ -57,10 +62,10 @@ contains
       end do
       problem = wille_baker()
       deallocate (problem%lag)
-      call refuse(error, "not allocated", problem)
+      call refuse(error, "lag is not allocated", problem)
       problem = wille_baker()
       deallocate (problem%component)
-      call refuse(error, "not allocated", problem)
+      call refuse(error, "component is not allocated", problem)
       call refuse(error, "3 delays for 2 delayed components", &
                   wille_baker(lag=[1.0_wp, 0.2_wp, 0.5_wp]))
       lags = [0.0_wp, -1.5_wp, not_a_number(), infinity(), 1.0e-150_wp]

@@ -2,9 +2,11 @@
 !> that rounding errors and jumps are not.
 module test_dde_series_check
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use dde, only: integrate, integration_result, refused
+   use dde, only: continuation_type, integrate, integration_options, integration_result, refused, &
+                  value_not_finite
    use dde_errors, only: failure_type => error_type
    use expectations, only: expect, expect_failure
+   use fast_problems, only: follower
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use solving, only: at_tolerance, run
@@ -15,7 +17,8 @@ module test_dde_series_check
 
    !> What is wrong with the series.
    enum, bind(c)
-      enumerator :: nothing, no_unit, other_value, no_past_unit, no_past
+      enumerator :: nothing, no_unit, other_value, no_past_unit, no_past, later_term, &
+         later_past_term
    end enum
 
    !> y' = -rate (y - z), y = past exp(growth t) for t < 0, and 1 more from a time on.
@@ -29,12 +32,20 @@ module test_dde_series_check
       procedure :: past_series => series_of_exponential
    end type misprint
 
+   !> A slow series that does not solve the equations.
+   type, extends(follower) :: off_balance
+   contains
+      procedure :: slow_series => wrong_slow_series
+   end type off_balance
+
 contains
 
    subroutine collect_dde_series_check(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("wrong series", test_wrong), &
+                   new_unittest("continued runs", test_continued), &
+                   new_unittest("wrong slow series", test_slow), &
                    new_unittest("rounding errors", test_rounding), &
                    new_unittest("jumps of the history", test_jumps)]
    end subroutine collect_dde_series_check
@@ -50,14 +61,55 @@ contains
       call run(error, delayed(nothing), 0.0_wp, 3.0_wp, at_tolerance(1.0e-9_wp, "taylor"), outcome)
       call run(error, delayed(no_unit), 0.0_wp, 3.0_wp, at_tolerance(1.0e-9_wp, "radau9"), outcome)
       do i = 1, size(methods)
-         call refuse(error, no_unit, methods(i), "series: coefficient 1 of component 1 over unit")
-         call refuse(error, no_unit, methods(i), "at t = 0.0, rhs gives 1.0; the same expected")
-         call refuse(error, other_value, methods(i), "past_series: component 1 from t = -1.0 on " &
-                     //"is 6.0 at t = -1.0, history gives 3.0; the same expected")
-         call refuse(error, no_past_unit, methods(i), "past_series: component 1 from t = -1.0 on")
-         call refuse(error, no_past, methods(i), "is NaN at t = -1.0, history gives 3.0")
+         call refuse(error, no_unit, methods(i), "series: the slope of component 1 is ")
+         call refuse(error, no_unit, methods(i), "(wrong from about coefficient 1 on)")
+         call refuse(error, later_term, methods(i), "(wrong from about coefficient 3 on)")
+         call refuse(error, other_value, methods(i), "past_series: component 1 is ")
+         call refuse(error, other_value, methods(i), ", history gives ")
+         call refuse(error, no_past_unit, methods(i), "past_series: component 1 is ")
+         call refuse(error, later_past_term, methods(i), "past_series: component 1 is ")
       end do
+      call refuse(error, no_past, "taylor", "not finite", value_not_finite)
    end subroutine test_wrong
+
+   !> A run that goes on looks again: at the series of what it stored, too.
+   subroutine test_continued(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(continuation_type) :: continuation
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+
+      call run(error, delayed(nothing), 0.0_wp, 1.5_wp, at_tolerance(1.0e-9_wp, "taylor"), &
+               outcome, continuation=continuation)
+      if (allocated(error)) return
+      call integrate(delayed(later_term), 1.5_wp, 3.0_wp, at_tolerance(1.0e-9_wp, "taylor"), &
+                     outcome, failure, continuation=continuation)
+      call expect_failure(error, failure, "series: the slope of component 1 is ")
+   end subroutine test_continued
+
+   !> A slow series that is not that of the equations is refused by its name.
+   subroutine test_slow(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      type(off_balance) :: problem
+
+      problem%follower = follower(1.0e6_wp, 0.0_wp)
+      call integrate(problem, 0.0_wp, 3.0_wp, at_tolerance(1.0e-9_wp, "taylor"), outcome, failure)
+      call expect_failure(error, failure, "slow_series: the slope of component 2 is ")
+   end subroutine test_slow
+
+   !> The series of the follower, the second component off from coefficient 2 on.
+   pure subroutine wrong_slow_series(self, t, unit, degree, z, y)
+      class(off_balance), intent(in) :: self
+      real(wp), intent(in) :: t, unit
+      integer, intent(in) :: degree
+      real(wp), intent(in) :: z(0:degree, size(self%lag))
+      real(wp), intent(inout) :: y(0:degree, self%n)
+
+      call self%follower%slow_series(t, unit, degree, z, y)
+      y(2, 2) = 1.1_wp*y(2, 2) + 1.0e-3_wp*unit**2
+   end subroutine wrong_slow_series
 
    !> With rate 1e12 the right-hand side of 0.3 and 0.1 + 0.2 is a rounding error: the series has
    !> another one.
@@ -75,9 +127,12 @@ contains
       call run(error, problem, 0.0_wp, 0.5_wp, at_tolerance(1.0e-9_wp, "auto"), outcome)
    end subroutine test_rounding
 
-   !> A jump shortly after the first delayed time, which the series does not have.
+   !> A jump shortly after the first delayed time, which the series does not have: the run lands on
+   !> it where it is declared, and is refused where not.
    subroutine test_jumps(error)
       type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_options) :: options
       type(integration_result) :: outcome
       type(misprint) :: problem
       integer :: digits
@@ -85,8 +140,12 @@ contains
       do digits = 1, 10
          problem = delayed(nothing)
          problem%jump_at = -1.0_wp + 10.0_wp**(-digits)
-         call run(error, problem, 0.0_wp, 0.5_wp, at_tolerance(1.0e-9_wp, "taylor"), outcome)
+         options = at_tolerance(1.0e-9_wp, "taylor")
+         options%break_at = [problem%jump_at]
+         call run(error, problem, 0.0_wp, 0.5_wp, options, outcome)
       end do
+      call integrate(problem, 0.0_wp, 0.5_wp, at_tolerance(1.0e-9_wp, "taylor"), outcome, failure)
+      call expect_failure(error, failure, "the same expected, or a jump in break_at")
    end subroutine test_jumps
 
    !> The problem with delay 1, from y = 2, z = 3, which grows.
@@ -100,17 +159,23 @@ contains
    end function delayed
 
    !> A run is refused in these words.
-   subroutine refuse(error, wrong, method, words)
+   subroutine refuse(error, wrong, method, words, reason)
       type(error_type), allocatable, intent(inout) :: error
       integer, intent(in) :: wrong
       character(len=*), intent(in) :: method, words
+      !> `refused` if not given
+      integer, intent(in), optional :: reason
       type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
 
       call integrate(delayed(wrong), 0.0_wp, 3.0_wp, at_tolerance(1.0e-9_wp, method), outcome, &
                      failure)
       call expect_failure(error, failure, words)
-      call expect(error, outcome%reason == refused, "the reason is `refused`")
+      if (present(reason)) then
+         call expect(error, outcome%reason == reason, "the reason")
+      else
+         call expect(error, outcome%reason == refused, "the reason is `refused`")
+      end if
    end subroutine refuse
 
    pure function exponential(self, t, component) result(value)
@@ -135,6 +200,8 @@ contains
       do k = 1, ubound(y, 1)
          y(k) = merge(1.0_wp, unit, self%wrong == no_past_unit)*self%growth/k*y(k - 1)
       end do
+      if (t >= self%jump_at) y(0) = y(0) + 1.0_wp
+      if (self%wrong == later_past_term) y(2) = 1.1_wp*y(2)
    end subroutine series_of_exponential
 
    pure subroutine relaxation(self, t, y, z, dydt)
@@ -156,6 +223,7 @@ contains
       do k = 0, degree - 1
          y(k + 1, 1) = merge(1.0_wp, unit, self%wrong == no_unit)/(k + 1) &
                        *(self%rate*z(k, 1) - self%rate*y(k, 1))
+         if (self%wrong == later_term .and. k == 2) y(3, 1) = 1.1_wp*y(3, 1)
       end do
    end subroutine series_of_relaxation
 end module test_dde_series_check

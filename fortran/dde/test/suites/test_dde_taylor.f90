@@ -125,7 +125,6 @@ contains
       call step%propose(context, length)
       context%cursor%h = h
       call step%attempt(context, estimate)
-      call step%extend(context)
    end subroutine take_step
 
    !> y = sin t by one method after the other, each on the past that the one before has left.

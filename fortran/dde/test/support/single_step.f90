@@ -54,7 +54,6 @@ contains
       call step%restart(context)
       call step%attempt(context, estimate)
       call step%complete(context)
-      call step%extend(context)
    end subroutine take_step
 
    !> Whether a step from the start is held back.
