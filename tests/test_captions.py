@@ -15,8 +15,8 @@ from scripts.claims.claims_results import VERDICTS
 from scripts.claims.ledger import paper_claims
 from scripts.figures import figure_4, plane, stability, work_precision
 from scripts.figures.wording import as_formulas, count, joined, short, shortened
-from scripts.figures.write_captions import caption_of as caption_from
 from scripts.figures.write_captions import ENVIRONMENT, render
+from scripts.figures.write_captions import caption_of as caption_from
 from scripts.files.tsv import write_table
 from scripts.page import captions
 from scripts.plans.registry import FIGURES, OF_USERS, caption_of, template_of
@@ -68,7 +68,7 @@ def test_plane_without_a_curve_has_a_figure_and_a_caption(smoke):
     curves = xr.load_dataset(smoke.folder / "results" / "hopf" / "tau_of_epsilon.nc")
     empty = curves.isel(point=slice(0), special=slice(0))
     figure = plane.draw(empty, {})
-    window = (0.0, pytest.approx(1.5)), (0.0, pytest.approx(30.0))
+    window = (0.0, pytest.approx(1.5)), (0.0, pytest.approx(20.0))
     assert (figure.axes[0].get_xlim(), figure.axes[0].get_ylim()) == window
     plt.close(figure)
     text = (ROOT / template_of("planes/mine")).read_text()
