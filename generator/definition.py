@@ -265,6 +265,8 @@ class _Reader:
                     name,
                     "a letter, then letters, digits or _, no name of the generated code",
                 )
+            if re.search(r"_delayed_\d+\Z|_difference\Z", low):
+                self.refuse("name", name, "no name of a delayed state or a difference")
             if low in seen:
                 self.refuse("name", name, "each name once, whatever its case")
             seen.add(low)

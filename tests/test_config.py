@@ -139,7 +139,10 @@ REFUSED = [
     (("routes", "sweeps", 0), "left", "one of: up, down"),
     ((*FAMILY, "tau"), [], "at least one finite number >= 0"),
     (("pathvars", "results"), "results/$(touch X)", "folder of the results"),
-    (("pathvars", "results"), "../outside/", "folder of the results"),
+    *(
+        (("pathvars", "results"), path, "folder of the results")
+        for path in ("../outside/", "../outside", ".", ".git", "results/../..", "-x")
+    ),
     # windows
     ((*ROUTE, "window"), [0.5], "two ascending"),
     ((*ROUTE, "window"), 0.5, "two ascending"),

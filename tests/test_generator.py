@@ -46,6 +46,10 @@ def block(law: str = PAPER) -> dict:
         ({"parameters": {"unit": {}}}, r"name: 'unit'; expected .* no name of the generated code"),
         ({"parameters": {"p": {"most": 1}}}, r"parameter p: .*; expected keys of above, at_least"),
         ({"parameters": {"p": {"above": "0"}}}, r"above of parameter p: '0'; expected a number"),
+        (
+            {"parameters": {"w_delayed_1": {}}},
+            r"name: 'w_delayed_1'; expected no name of a delayed",
+        ),
         ({"auxiliary": {"v": "w**2"}}, r"auxiliary v: 'w\*\*2'; expected exp\(STATE\)"),
         ({"definitions": {"b": "c", "c": "b"}, "of_a": "b"}, r"definition: 'b > c > b'"),
         ({"of_a": "a +"}, r"equation of a: 'a \+'; expected an expression such as"),

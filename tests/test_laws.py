@@ -70,6 +70,12 @@ def test_law_without_inertia_has_one_parameter_more(with_law):
         ),
         (("laws", "slip_cut_off"), MINE, "laws slip_cut_off: the project has a law of this name"),
         (("laws", "quasistatic_a"), MINE, "laws quasistatic_a: quasistatic_NAME is the law NAME"),
+        (
+            ("laws", "mine", "parameters"),
+            {"tau": {}, "speed": {"default": 1.0}},
+            "laws mine: parameters tau: keys of all that has a law have these names",
+        ),
+        (("laws", "mine", "parameters"), {"t_end": {}}, "laws mine: parameters t_end: keys of"),
         (("laws", "mine", "colour"), 1, "laws mine: unknown key ['colour']"),
     ],
 )

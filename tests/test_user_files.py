@@ -142,7 +142,7 @@ def test_one_key_of_a_scene_can_be_changed(tmp_path):
         (None, "mine.yaml: cannot be read: No such file or directory"),
         ("spectra: { segments: 4 }", "the file adds no scene, plane, route"),
         ("scenes: { mine: { tau: 1 } }", "scene 'mine': key"),
-        ("pathvars: { results: 'results/$(touch X)' }", "pathvars: results = 'results/$(touch X)'"),
+        ("pathvars: { results: other }", "pathvars: expected none; the file names its folder"),
     ],
 )
 def test_bad_file_is_refused(tmp_path, text, words):
@@ -201,6 +201,12 @@ def test_paper_can_be_run_with_other_settings_in_another_folder(smoke, tmp_path)
     assert "moved/figures/figure_6.svg" in run.stdout
     assert {"trajectory", "spectrum", "figure_6"} <= rules_in(run.stdout)
     assert "results/" not in re.sub("/results/", "", run.stdout).replace("scripts/results", "")
+
+
+@pytest.mark.parametrize("folder", ["scripts", "docs/mine", "README.md"])
+def test_results_lie_in_no_folder_of_sources(folder):
+    with pytest.raises(ConfigError, match=f"results = '{folder}': .* expected a new folder"):
+        read_plan({"pathvars": {"results": folder}})
 
 
 def test_new_file_overwrites_none(tmp_path):

@@ -17,6 +17,15 @@ def with_own_parameters(schema: dict, config: dict) -> dict:
         for name, entry in _entries(law)
     }
     whole = copy.deepcopy(schema)
+    taken = {key for place in _with_law(whole) for key in place}
+    for law, entry in users.items():
+        if meant := taken & {
+            str(name) for name, _ in _entries(entry if isinstance(entry, dict) else {})
+        }:
+            raise ConfigError(
+                f"config laws {law}: parameters {', '.join(sorted(meant))}: keys of all that has a "
+                "law have these names; expected others"
+            )
     for place in _with_law(whole):
         place |= {name: entry for name, entry in own.items() if name not in place}
     return whole

@@ -118,11 +118,30 @@ def read_plan(overlay: dict) -> Plan:
     user_file = overlay.pop("user_file", None)
     whole = merge(read(CONFIG), overlay)
     if user_file is None:
-        return plan_of_paper(checked(whole), whole["pathvars"]["results"])
+        config = checked(whole)
+        return plan_of_paper(config, checked_folder(whole["pathvars"]["results"]))
     if "pathvars" in overlay:
         raise ConfigError("pathvars: expected none with user_file, which names the folder")
     said = read(user_file)
+    if "pathvars" in said:
+        raise ConfigError(f"{user_file}: pathvars: expected none; the file names its folder")
     return plan_of_user(merge(whole, said), added(said, whole), f"{RESULTS}/{name_of(user_file)}")
+
+
+def checked_folder(results: str) -> str:
+    """The folder of the results, which lies in none of the project's own."""
+    project = CONFIG.parents[1]
+    first = results.split("/")[0]
+    if (
+        first != RESULTS
+        and (project / first).exists()
+        and not (project / results / "logs").is_dir()
+    ):
+        raise ConfigError(
+            f"config pathvars: results = {results!r}: {first} is there, without results; expected "
+            f"a new folder, or one in {RESULTS}/"
+        )
+    return results
 
 
 def plan_of_paper(config: dict, folder: str) -> Plan:
