@@ -86,19 +86,16 @@ contains
       description = description_of(self%code%description, self%sizes)
    end function describe
 
-   !> Delays of a block with these parameters, and the states that are delayed.
-   pure subroutine delays(self, parameters, lag, state)
+   !> Delays of a block with these parameters, some of them 0.
+   pure function delays(self, parameters) result(lag)
       class(model_type), intent(in) :: self
       !> Parameters, in the order of the definition
       real(wp), intent(in) :: parameters(:)
-      !> Delays, some of them 0
-      real(wp), allocatable, intent(out) :: lag(:)
-      !> Numbers of the states
-      integer(c_int), allocatable, intent(out) :: state(:)
+      real(wp) :: lag(self%sizes%delayed)
+      integer(c_int) :: state(self%sizes%delayed)
 
-      allocate (lag(self%sizes%delayed), state(self%sizes%delayed))
       call self%code%delayed(parameters, lag, state)
-   end subroutine delays
+   end function delays
 
    !> Give a model its parameters and its past. A delay of 0 is none unless it is kept. A chain has
    !> its neighbours before.
@@ -110,8 +107,8 @@ contains
       real(wp), intent(in) :: past(:)
       !> Whether delays of 0 are delayed values, too; .false. unless given
       logical, intent(in), optional :: keep_delays
-      integer(c_int), allocatable :: component(:)
-      real(wp), allocatable :: lag(:)
+      integer(c_int) :: component(self%sizes%delayed)
+      real(wp) :: lag(self%sizes%delayed)
       logical, allocatable :: kept(:)
       integer :: block, k, states
 
@@ -120,7 +117,7 @@ contains
       self%analytic_tangents = .true.
       self%numbers = parameters
       self%past = past
-      call self%delays(parameters, lag, component)
+      call self%code%delayed(parameters, lag, component)
       kept = lag > 0.0_wp
       if (present(keep_delays)) kept = kept .or. keep_delays
       self%place = merge([(count(kept(:k)), k=1, size(lag))], 0, kept)

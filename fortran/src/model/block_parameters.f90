@@ -2,7 +2,6 @@
 !> those of the law's definition. All quantities are nondimensional; the defaults are steady sliding
 !> by the paper's law.
 module block_parameters
-   use, intrinsic :: iso_c_binding, only: c_int
    use chain, only: chain_ends, ends_length => word_length
    use dde_errors, only: error_type, text
    use dde_kinds, only: wp
@@ -159,7 +158,6 @@ contains
       character(len=*), intent(in) :: place
       type(error_type), allocatable, intent(inout) :: error
       real(wp), allocatable :: lag(:), vector(:)
-      integer(c_int), allocatable :: state(:)
       type(model_type) :: model
       type(description_type) :: law
       integer :: i
@@ -181,7 +179,7 @@ contains
          end associate
       end do
       if (.not. allocated(error)) then
-         call model%delays(vector(:size(law%parameters)), lag, state)
+         lag = model%delays(vector(:size(law%parameters)))
          do i = 1, size(lag)
             call check_number(error, place//": law "//trim(self%law), "delay "//text(i), lag(i), &
                               at_least=0.0_wp)

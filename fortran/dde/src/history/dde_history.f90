@@ -94,6 +94,7 @@ contains
 
    !> The delayed components, ascending, each once.
    pure function kept_components(problem) result(kept)
+      !> The problem
       class(dde_problem_type), intent(in) :: problem
       integer, allocatable :: kept(:)
       logical, allocatable :: delayed(:)

@@ -34,6 +34,7 @@ contains
 
    !> Whether a kink and the next one are the same point.
    pure logical function coincide(kink, next, origin) result(value)
+      !> A kink, and one that is not before it
       type(kink_type), intent(in) :: kink, next
       !> What their rounding is measured from
       type(instant), intent(in) :: origin

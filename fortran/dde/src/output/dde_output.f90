@@ -17,11 +17,15 @@ contains
 
    !> Whether a step up to `step_end` is read between its ends: as the past, at samples, by events.
    logical function is_read(run, h, step_end, sampler, watcher) result(value)
+      !> The run at the start of the step
       class(run_type), intent(in) :: run
       !> Length of the step
       real(wp), intent(in) :: h
+      !> End of the step
       type(instant), intent(in) :: step_end
+      !> Receiver of samples
       class(sampler_type), intent(inout), optional :: sampler
+      !> Receiver of events
       class(event_watcher_type), intent(in), optional :: watcher
 
       value = size(run%context%problem%lag) > 0 .or. present(watcher)

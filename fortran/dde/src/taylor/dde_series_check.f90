@@ -25,6 +25,7 @@ contains
    pure subroutine check_residual(context, series, h, scale, error)
       !> The context of a step along the series
       type(step_context), intent(inout) :: context
+      !> The series, with those of its delayed values
       type(taylor_series), intent(in) :: series
       !> Length of the step
       real(wp), intent(in) :: h
