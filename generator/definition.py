@@ -397,8 +397,8 @@ class _Expression:
                     self.refuse(node, "a power with a constant exponent; write exp(b*log(a))")
                 if right.is_number and abs(right) > LARGEST_POWER:
                     self.refuse(node, f"an exponent of size <= {LARGEST_POWER}")
-                digits = abs(right) * sympy.log(abs(left)) if left.is_number and left != 0 else 0
-                if right.is_number and abs(sympy.N(digits)) > LARGEST_LOGARITHM:
+                size = abs(right) * sympy.log(abs(left)) if left.is_number and left != 0 else 0
+                if right.is_number and abs(sympy.N(size)) > LARGEST_LOGARITHM:
                     self.refuse(node, f"a power below exp({LARGEST_LOGARITHM})")
                 return left**right
         self.refuse(node, "+ - * / **")
