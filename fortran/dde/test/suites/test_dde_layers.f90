@@ -79,7 +79,7 @@ contains
    subroutine test_population(error)
       type(error_type), allocatable, intent(out) :: error
       type(integration_result) :: outcome
-      type(stages) :: problem
+      type(layer) :: problem
       real(wp), parameter :: t_end = 2.9_wp
       real(wp) :: rate
       integer :: digits, i, j

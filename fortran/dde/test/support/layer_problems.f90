@@ -1,5 +1,5 @@
-!> Problems with a component that decays within a step and returns after the delay, with exact
-!> solutions: what is wrong between the ends of the step shows in the other components.
+!> A component that decays within a step and returns after the delay, with exact solutions: what is
+!> wrong between the ends of the step shows in the other component.
 module layer_problems
    use dde_kinds, only: wp
    use test_problems, only: constant_past, fill
@@ -7,10 +7,12 @@ module layer_problems
    private
    public :: layer, stages
 
-   !> u1' = -r u1 + back u2(t - 1), u2' = r u1(t - 1), u1(0) = 1, else 0 up to t = 0.
+   !> u1' = -r u1 + back u2(t - 1), u2' = share r u1(t - 1) - death u2, with u1(0) = 1 and else 0 up
+   !> to t = 0.
    type, extends(constant_past) :: layer
-      !> Share of the pulse that returns
-      real(wp) :: back = 0.0_wp
+      !> Share of the pulse that returns, share of it that the second component takes, rate at which
+      !> that dies
+      real(wp) :: back = 0.0_wp, share = 1.0_wp, death = 0.0_wp
    contains
       procedure :: rhs => layer_rhs
       procedure :: series => layer_series
@@ -20,23 +22,6 @@ module layer_problems
    interface layer
       module procedure :: new_layer
    end interface layer
-
-   !> A population: eggs hatch at the rate r, larvae live for one unit of time, a share of them
-   !> become adults, which die at the rate 1: u1' = -r u1, u2' = share r u1(t - 1) - u2, one egg at
-   !> the start.
-   type, extends(constant_past) :: stages
-   contains
-      procedure :: rhs => stages_rhs
-      procedure :: series => stages_series
-      procedure :: exact => stages_exact
-   end type stages
-
-   interface stages
-      module procedure :: new_stages
-   end interface stages
-
-   !> Share of larvae that become adults.
-   real(wp), parameter :: share = 0.3_wp
 
 contains
 
@@ -51,13 +36,23 @@ contains
       if (present(back)) problem%back = back
    end function new_layer
 
+   !> A population: eggs hatch at the rate r, larvae live for one unit of time, a share of them
+   !> become adults, which die at the rate 1.
+   pure type(layer) function stages(rate) result(problem)
+      real(wp), intent(in) :: rate
+
+      problem = layer(rate)
+      problem%share = 0.3_wp
+      problem%death = 1.0_wp
+   end function stages
+
    !> The equations.
    pure subroutine layer_rhs(self, t, y, z, dydt)
       class(layer), intent(in) :: self
       real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
 
-      dydt = [-self%rate*y(1) + self%back*z(2), self%rate*z(1)]
+      dydt = [-self%rate*y(1) + self%back*z(2), self%share*self%rate*z(1) - self%death*y(2)]
    end subroutine layer_rhs
 
    !> Term by term.
@@ -71,64 +66,27 @@ contains
 
       do k = 0, degree - 1
          y(k + 1, 1) = unit/(k + 1)*(-self%rate*y(k, 1) + self%back*z(k, 2))
-         y(k + 1, 2) = unit/(k + 1)*self%rate*z(k, 1)
+         y(k + 1, 2) = unit/(k + 1)*(self%share*self%rate*z(k, 1) - self%death*y(k, 2))
       end do
    end subroutine layer_series
 
-   !> u2 at a time from 1 to 4.
+   !> u2 at a time from 1 to 4: of a population, with a rate other than that of death, or of a layer
+   !> whose pulse may return.
    pure real(wp) function layer_exact(self, t) result(u2)
       class(layer), intent(in) :: self
       real(wp), intent(in) :: t
       real(wp) :: s
 
-      u2 = 1.0_wp - decay(self%rate*(t - 1.0_wp))
-      s = max(0.0_wp, t - 3.0_wp)
-      u2 = u2 + self%back*(s*(1.0_wp + decay(self%rate*s)) &
-                           - 2.0_wp/self%rate*(1.0_wp - decay(self%rate*s)))
-   end function layer_exact
-
-   !> The population.
-   pure type(stages) function new_stages(rate) result(problem)
-      real(wp), intent(in) :: rate
-
-      call fill(problem, 2, [0.0_wp, 0.0_wp], [1.0_wp, 0.0_wp], [1.0_wp], [1])
-      problem%analytic = .true.
-      problem%rate = rate
-   end function new_stages
-
-   !> The equations.
-   pure subroutine stages_rhs(self, t, y, z, dydt)
-      class(stages), intent(in) :: self
-      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
-      real(wp), intent(out) :: dydt(self%n)
-
-      dydt = [-self%rate*y(1), share*self%rate*z(1) - y(2)]
-   end subroutine stages_rhs
-
-   !> Term by term.
-   pure subroutine stages_series(self, t, unit, degree, z, y)
-      class(stages), intent(in) :: self
-      real(wp), intent(in) :: t, unit
-      integer, intent(in) :: degree
-      real(wp), intent(in) :: z(0:degree, size(self%lag))
-      real(wp), intent(inout) :: y(0:degree, self%n)
-      integer :: k
-
-      do k = 0, degree - 1
-         y(k + 1, 1) = -unit/(k + 1)*self%rate*y(k, 1)
-         y(k + 1, 2) = unit/(k + 1)*(share*self%rate*z(k, 1) - y(k, 2))
-      end do
-   end subroutine stages_series
-
-   !> Adults at a time from 1 on, for a rate other than 1.
-   pure real(wp) function stages_exact(self, t) result(adults)
-      class(stages), intent(in) :: self
-      real(wp), intent(in) :: t
-
       associate (r => self%rate, x => t - 1.0_wp)
-         adults = share*r/(r - 1.0_wp)*(decay(x) - decay(r*x))
+         if (self%death > 0.0_wp) then
+            u2 = self%share*r/(r - self%death)*(decay(self%death*x) - decay(r*x))
+            return
+         end if
+         s = max(0.0_wp, t - 3.0_wp)
+         u2 = 1.0_wp - decay(r*x) + self%back*(s*(1.0_wp + decay(r*s)) &
+                                               - 2.0_wp/r*(1.0_wp - decay(r*s)))
       end associate
-   end function stages_exact
+   end function layer_exact
 
    !> exp(-x) for x >= 0, without underflow.
    pure real(wp) function decay(x) result(value)
