@@ -12,6 +12,7 @@ from conftest import ROOT, Project, rules_in, write_script
 from dry_runs import jobs_in
 
 from scripts.files.read_config import ConfigError, merge, parse, read
+from scripts.namelists.study_cases import measured_study
 from scripts.workflow.plan import CONFIG, added, name_of, read_plan
 
 SMALL = """
@@ -201,6 +202,12 @@ def test_paper_can_be_run_with_other_settings_in_another_folder(smoke, tmp_path)
     assert "moved/figures/figure_6.svg" in run.stdout
     assert {"trajectory", "spectrum", "figure_6"} <= rules_in(run.stdout)
     assert "results/" not in re.sub("/results/", "", run.stdout).replace("scripts/results", "")
+
+
+def test_scene_of_the_paper_can_be_measured_alone(tmp_path):
+    (tmp_path / "mine.yaml").write_text("work_precision: { scenes: { torus: { t_end: 20.0 } } }")
+    config = read_plan({"user_file": str(tmp_path / "mine.yaml")}).config
+    assert list(measured_study(config)["cases"]) == ["torus"]
 
 
 @pytest.mark.parametrize("folder", ["scripts", "docs/mine", "README.md"])

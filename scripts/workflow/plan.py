@@ -211,12 +211,14 @@ def added(said: dict, whole: dict) -> dict[str, list[str]]:
 def restrict(config: dict, *groups: dict[str, list[str]]) -> dict:
     """The configuration with the entries of these names alone.
 
-    The attractors of all its scenes are looked for. Planes of Hopf curves in planes of the atlas
-    stay, since the atlas draws them.
+    Scenes whose runs are measured stay. The attractors of all scenes are looked for. Planes of Hopf
+    curves in planes of the atlas stay, since the atlas draws them.
     """
     kept = copy.deepcopy(config)
     for section, (first, *rest) in SECTIONS.items():
         names = {name for group in groups for name in group.get(section, [])}
+        if section == "scenes":
+            names |= {name for group in groups for name in group.get("measured_scenes", [])}
         if section == "planes":
             names |= {Path(path).stem for path in paths.curves_of_atlas(kept)}
         inside = {k: v for k, v in _inside(config, (first, *rest)).items() if k in names}
