@@ -1,7 +1,7 @@
 """Write the Fortran module of a model, or compile it, or write the module of the interface.
 
-    python -m generator DEFINITION ... MODULE.f90
-    python -m generator DEFINITION ... FOLDER/OBJECT.so
+    python -m generator DEFINITION.yaml ... MODULE.f90
+    python -m generator DEFINITION.yaml ... FOLDER/OBJECT.so ...
     python -m generator INTERFACE.f90
 
 Several definitions are one model: later files add to earlier ones. An object is in quadruple
@@ -27,22 +27,23 @@ def main() -> None:
     parser.add_argument("--name", help="name of the model, in place of that of the definition")
     parser.add_argument("--compiler", default=COMPILER, help="Fortran compiler of an object")
     parser.add_argument("--flags", default=FLAGS, help="its flags")
-    parser.add_argument("sources", nargs="*", type=Path, help="files of one definition")
-    parser.add_argument("made", type=Path, help="file to write")
+    parser.add_argument(
+        "files", nargs="+", type=Path, help="files of one definition, then those to write"
+    )
     arguments = parser.parse_args()
+    made = [path for path in arguments.files if path.suffix in (".f90", ".so")]
+    sources = [path for path in arguments.files if path not in made]
     try:
-        if arguments.sources:
-            text = write_module(read_files(arguments.sources, arguments.name))
-        else:
-            text = write_interface()
-        if arguments.made.suffix == ".so":
-            compile_module(text, arguments.made, arguments.compiler, arguments.flags)
-            return
-        unfinished = arguments.made.with_suffix(".unfinished")
-        unfinished.write_text(text, encoding="utf-8")
+        text = write_module(read_files(sources, arguments.name)) if sources else write_interface()
+        for path in made:
+            if path.suffix == ".so":
+                compile_module(text, path, arguments.compiler, arguments.flags)
+            else:
+                unfinished = path.with_suffix(".unfinished")
+                unfinished.write_text(text, encoding="utf-8")
+                unfinished.replace(path)
     except (CompileError, ModelError, OSError) as problem:
         sys.exit(f"error: {problem}")
-    unfinished.replace(arguments.made)
 
 
 if __name__ == "__main__":

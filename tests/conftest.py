@@ -84,7 +84,9 @@ class Project:
         snakemake = Path(sys.executable).parent / "snakemake"
         # another process of the test run may be at work in the same folder
         with locked(self.folder.with_name(f"{self.folder.name}.lock")):
-            return self.run(snakemake, "--cores", "2", *arguments)
+            # one second, not the three of the profile: Snakemake may end so much later
+            looks = ("--max-jobs-per-timespan", "1000/1s")
+            return self.run(snakemake, "--cores", "2", *looks, *arguments)
 
     def use_packages_at_hand(self) -> None:
         """Let ./reproduce find everything set up."""

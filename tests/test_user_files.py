@@ -293,9 +293,8 @@ def test_changed_law_is_compiled_and_its_results_made_anew_and_no_others(scratch
     made = {path.name for path in scratch.folder.glob("build/users/laws/models/*.so")}
     assert made == {"mine.so", "yours.so"}
     path.write_text(TWO_LAWS.replace("1e-3", "3e-3"))
-    again = scratch.snakemake(*targets, "--config", "user_file=laws.yaml")
+    again = scratch.snakemake("--dry-run", *targets, "--config", "user_file=laws.yaml")
     assert again.returncode == 0, again.stdout
+    assert rules_in(again.stdout) == {"law", "model", "trajectory"}
     (made_anew,) = [job.made for job in jobs_in(again.stdout) if job.rule == "trajectory"]
     assert targets[0] in made_anew
-    nothing = scratch.snakemake("--dry-run", *targets, "--config", "user_file=laws.yaml")
-    assert "Nothing to be done" in nothing.stdout
