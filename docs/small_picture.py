@@ -3,8 +3,9 @@
     python docs/small_picture.py FIGURE.png PICTURE.png
 
 draws docs/work-precision.png from results/figures/work_precision.png, docs/atlas.png from
-results/figures/atlas.png, docs/chain.png from results/figures/chain.png, and docs/event-sizes.png
-from results/figures/event_sizes.png. For docs/page.png, after `setup/setup.sh tests/browser`:
+results/figures/atlas.png, docs/chain.png from results/figures/chain.png, docs/event-sizes.png
+from results/figures/event_sizes.png, and docs/dense-output.png from results/tables/dense-output.png
+of `benchmarks/run dense`. For docs/page.png, after `setup/setup.sh tests/browser`:
 
     tests/browser/.venv/bin/python docs/page_picture.py results/index.html build/page.png
     python docs/small_picture.py build/page.png docs/page.png

@@ -8,6 +8,7 @@ import sys
 import chains
 import compare
 import cycles
+import dense
 import numpy as np
 import pytest
 import solvers
@@ -133,6 +134,24 @@ def test_chain_is_the_same_for_both_solvers(blocks):
     np.testing.assert_array_equal(past[:, :2].T, [histories["theta"], histories["u"]])
     np.testing.assert_allclose(np.exp(past[:, 2]), histories["v"])
     assert np.unique(past).size == 3 * blocks
+
+
+def test_error_of_dense_output_counts_by_the_run_where_it_is_worst():
+    """Over the error at steps, or the tolerance if that is larger; a run that failed is counted."""
+    errors = np.array([[1e-3, 1e-2], [1e-9, 1e-5], [2e-6, 4e-5], [math.nan, math.nan]])
+    row = dense.worst(errors, 1e-6, np.array([1.0, 2.0, 3.0, 4.0]))
+    assert list(row.values()) == pytest.approx([4, 1, 20.0, 3.0, 2e-6, 4e-5])
+
+
+@pytest.mark.parametrize("layer", ["decay", "switch"])
+def test_error_of_scipy_is_that_of_its_solution(layer):
+    """BDF follows layers without delay."""
+    assert max(dense.their_errors("BDF", layer, 1e-9, 10.0)) < 1e-7
+
+
+def test_run_of_scipy_that_stalls_fails(monkeypatch):
+    monkeypatch.setattr(dense, "MOST_EVALUATIONS", 10)
+    assert np.isnan(dense.their_errors("BDF", "decay", 1e-9, 10.0)).all()
 
 
 def test_answer_of_biftool_is_read():

@@ -1,10 +1,10 @@
 !> Layers: dense output where a component decays within a step, and the unit of the state.
 module test_dde_layers
    use dde, only: integration_options, integration_result
-   use dde_errors, only: text
+   use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
-   use expectations, only: expect, expect_between, expect_close
-   use layer_problems, only: layer, stages
+   use expectations, only: expect, expect_between, expect_close, expect_success
+   use layer_problems, only: layer, measure_errors, relaxation, stages
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use published_problems, only: enzyme
    use solving, only: at_tolerance, run
@@ -16,8 +16,8 @@ module test_dde_layers
    !> the rate.
    character(len=8), parameter :: methods(6) = &
       [character(len=8) :: "auto", "dop853", "bs5", "radau5", "radau9", "radau13"]
-   real(wp), parameter :: largest(6) = [1.0e6_wp, 1.0e3_wp, 1.0e3_wp, 1.0e6_wp, 1.0e6_wp, &
-                                        1.0e6_wp]
+   real(wp), parameter :: largest_rate(6) = [1.0e6_wp, 1.0e3_wp, 1.0e3_wp, 1.0e6_wp, 1.0e6_wp, &
+                                             1.0e6_wp]
 
 contains
 
@@ -25,6 +25,7 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("a pulse, and one that returns", test_pulses), &
+                   new_unittest("a decay without delay", test_decay), &
                    new_unittest("a population", test_population), &
                    new_unittest("the unit of the state", test_unit), &
                    new_unittest("one loose component", test_loose)]
@@ -47,7 +48,7 @@ contains
             tolerance = 10.0_wp**(-digits)
             do j = 0, 18
                rate = 1.01_wp*10.0_wp**(j/3.0_wp)
-               if (rate > largest(i)) exit
+               if (rate > largest_rate(i)) exit
                do k = 1, 2
                   problem = layer(rate, merge(0.0_wp, 0.5_wp, k == 1))
                   problem%analytic = modulo(j, 2) == 0
@@ -56,7 +57,7 @@ contains
                      if (strict == 1) options%absolute = tolerance/rate
                      call run(error, problem, 0.0_wp, t_end(k), options, outcome)
                      if (allocated(error)) return
-                     call expect_close(error, outcome%y(2), problem%exact(t_end(k)), &
+                     call expect_close(error, outcome%y, problem%exact(t_end(k)), &
                                        tolerance*merge(100.0_wp + rate, 10.0_wp, strict == 0), &
                                        trim(methods(i))//" at "//text(tolerance)//", rate " &
                                        //text(rate))
@@ -71,8 +72,33 @@ contains
       options%absolute = options%relative/problem%rate
       call run(error, problem, 0.0_wp, 3.7_wp, options, outcome)
       if (allocated(error)) return
-      call expect_close(error, outcome%y(2), problem%exact(3.7_wp), 1.0e-5_wp, "by chance")
+      call expect_close(error, outcome%y, problem%exact(3.7_wp), 1.0e-5_wp, "by chance")
    end subroutine test_pulses
+
+   !> Samples between the ends of steps; `dop853` was wrong by up to 471 tolerances.
+   subroutine test_decay(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      real(wp), allocatable :: largest(:)
+      real(wp) :: rate, tolerance
+      integer :: digits, i, j
+
+      do i = 1, size(methods)
+         do digits = 3, 12, 3
+            tolerance = 10.0_wp**(-digits)
+            do j = 0, 72, 2
+               rate = 1.01_wp*10.0_wp**(j/12.0_wp)
+               if (rate > largest_rate(i)) exit
+               call measure_errors(relaxation(rate), 3.7_wp, at_tolerance(tolerance, methods(i)), &
+                                   1.0_wp/16, largest, failure)
+               call expect_success(error, failure)
+               if (allocated(error)) return
+               call expect_between(error, largest(1)/tolerance, 0.0_wp, 100.0_wp, &
+                                   trim(methods(i))//" at "//text(tolerance)//", rate "//text(rate))
+            end do
+         end do
+      end do
+   end subroutine test_decay
 
    !> Of 648 runs without series none is wrong by more than 1e-4: a rate of 40 at 1e-6 by `auto`
    !> gave 0.033 for 0.124, one of 1122 at 1e-9 by `dop853` 620 for 0.123.
@@ -93,7 +119,7 @@ contains
                call run(error, problem, 0.0_wp, t_end, &
                         at_tolerance(10.0_wp**(-digits), methods(i)), outcome)
                if (allocated(error)) return
-               call expect_close(error, outcome%y(2), problem%exact(t_end), 1.0e-4_wp, &
+               call expect_close(error, outcome%y, problem%exact(t_end), 1.0e-4_wp, &
                                  trim(methods(i))//" at 1e-"//text(digits)//", rate "//text(rate))
             end do
          end do
