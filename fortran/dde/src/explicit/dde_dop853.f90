@@ -17,7 +17,7 @@ module dde_dop853
    !> Error of the dense output over the last term of its polynomial and tolerance**(1/8), the ratio
    !> of terms that follow each other where the pair's error is the tolerance. The term is at most
    !> (4/7)**4 (3/7)**3 = 0.0084 times its coefficient.
-   real(wp), parameter :: share_of_last = 0.1_wp*4.0_wp**4*3.0_wp**3/7.0_wp**7
+   real(wp), parameter :: share_of_last = 0.5_wp*4.0_wp**4*3.0_wp**3/7.0_wp**7
 
    !> The pair. Slope 13 is that at the end, slopes 14 to 16 serve the dense output.
    type, extends(explicit_pair) :: dop853
