@@ -378,8 +378,7 @@ contains
    end function tau_at
 
    !> The other frequency at which |P| = |Q|, or omega again where epsilon is least. |P|^2 - |Q|^2
-   !> is a polynomial in omega^2 of degree 3: its other roots are a pair whose product is known to be
-   !> negative.
+   !> is a polynomial in omega^2 of degree 3: its other roots are a pair whose product is negative.
    pure real(wp) function partner_omega(self, omega, epsilon, xi, gamma) result(partner)
       class(hopf_condition_type), intent(in) :: self
       !> Frequency of a pair, > 0; its epsilon; spring constant; frequency of the block
