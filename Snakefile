@@ -16,10 +16,14 @@ sys.path.insert(0, str(workflow.basedir))
 from scripts.files.read_config import ConfigError
 from scripts.results import manifest, run_times
 from scripts.workflow.check_run import problem_of
+from scripts.workflow.failed_run import make_page
 from scripts.workflow.plan import read_plan
 
+given = dict(config)
+# of a run that failed, whose page is to be made: reasons by path, and all that is missing
+failed, unmade = config.pop("failed", {}), config.pop("unmade", [])
 try:
-    plan = read_plan(config)
+    plan = read_plan(config).without(unmade)
 except ConfigError as problem:
     sys.exit(f"error: {problem}")
 config = plan.config
@@ -65,3 +69,5 @@ onsuccess:
 
 onerror:
     manifest.record_run(plan.results)
+    if not failed:
+        make_page(workflow, plan.results, given)

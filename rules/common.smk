@@ -97,6 +97,11 @@ def fill_in(value):
     return value.replace("<results>", plan.results) if isinstance(value, str) else value
 
 
+def made(path):
+    """A file for the page; none if it could not be made."""
+    return [] if fill_in(path) in unmade else path
+
+
 def namelist_of(run):
     """The text of a run's namelist, by the wildcards."""
 

@@ -38,7 +38,7 @@ rule captions:
             for figure in plan.figures
             for path in registry.files_of(figure, config)
         ],
-        claims=[] if plan.is_users else "<results>/tables/claims.json",
+        claims="<results>/tables/claims.json" if plan.claims else [],
     output:
         [registry.caption_of(figure) for figure in plan.figures],
     log:

@@ -1,5 +1,5 @@
 # The page, and the data of the view in which a reader moves the parameters.
-from scripts.page import page_assets
+from scripts.page import findings, page_assets
 from scripts.workflow.git_commit import commit_of
 
 
@@ -49,19 +49,18 @@ rule first_page:
 rule page:
     """The page with figures, claims and verdicts: index.html in the folder of results."""
     input:
+        **{
+            name: made(f"<results>/tables/{name.replace('_', '-')}.tsv")
+            for name in findings.TABLES
+            if not plan.is_users
+        },
         figures=expand("<results>/figures/{figure}.svg", figure=plan.figures),
         captions=expand("<results>/figures/{figure}.rst", figure=plan.figures),
         claims="<results>/tables/claims.json" if plan.claims else [],
-        attractors="<results>/tables/attractors.tsv" if config["scenes"] else [],
-        chain_motions=[] if plan.is_users else "<results>/tables/chain-motions.tsv",
-        event_sizes=[] if plan.is_users else "<results>/tables/event-sizes.tsv",
-        fault_limit=[] if plan.is_users else "<results>/tables/fault-limit.tsv",
-        friction_laws=[] if plan.is_users else "<results>/tables/friction-laws.tsv",
-        hopf_points=[] if plan.is_users else "<results>/tables/hopf-points.tsv",
-        stability=[] if plan.is_users else "<results>/tables/stability.tsv",
-        tables=plan.tables() if plan.is_users else [],
+        attractors=made("<results>/tables/attractors.tsv") if config["scenes"] else [],
+        tables=[path for path in plan.tables() if plan.is_users and made(path)],
         trajectories=plan.trajectories(),
-        play="<results>/page/play-data.js" if config["atlas"]["planes"] else [],
+        play=made("<results>/page/play-data.js") if config["atlas"]["planes"] else [],
         library=[path for path in page_assets.ASSETS.values() if path.startswith("/")],
     output:
         page="<results>/index.html",
@@ -73,6 +72,8 @@ rule page:
     params:
         figures=figures_on_page(),
         is_users=plan.is_users,
+        failed=failed,
+        unmade=unmade,
         history=config["atlas"]["history"],
         commit=commit_of(Path.cwd()),
         code=code_of("page/write_page.py", *page_assets.list_files()),

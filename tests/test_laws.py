@@ -6,6 +6,9 @@ import numpy as np
 import pytest
 from conftest import torus
 
+from generator.compile import compile_module
+from generator.definition import read_files
+from generator.module import write_module
 from scripts.config.check_config import checked
 from scripts.files.inputs import read
 from scripts.files.read_config import ConfigError
@@ -105,6 +108,20 @@ def test_results_say_which_law_they_have(programs, filled_config):
     assert attributes["law"] == "slip_cut_off (c = 0.25)"
     assert attributes["law_c"] == 0.25
     assert "log((1 + c)*v(t - tau)/(1 + c*v(t - tau)))" in attributes["law_equations"]
+
+
+@pytest.mark.parametrize("delayed", ["theta + (1 + epsilon)*w(t - 2*tau)", "theta(t - tau) + w"])
+def test_hopf_curves_of_no_other_form_are_drawn(programs, good_groups, monkeypatch, delayed):
+    """Another delay is not taken for tau; one line names the law and the form."""
+    path = programs.folder / "odd.yaml"
+    path.write_text(f'definitions: {{ evolution: "-v*({delayed})" }}')
+    compile_module(write_module(read_files([laws.BLOCK, path], "odd")), path.with_suffix(".so"))
+    monkeypatch.setenv("MODELS", str(programs.folder))
+    good_groups["hopf"]["hopf_curves"]["law"] = "odd"
+    run = programs.run_groups("hopf", good_groups["hopf"])
+    assert run.returncode == 1
+    assert "error: Hopf points of the law 'odd': its linear part is not of their form" in run.stderr
+    assert not programs.output.exists()
 
 
 EXPONENTS = {

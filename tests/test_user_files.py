@@ -298,3 +298,36 @@ def test_changed_law_is_compiled_and_its_results_made_anew_and_no_others(scratch
     assert rules_in(again.stdout) == {"law", "model", "trajectory"}
     (made_anew,) = [job.made for job in jobs_in(again.stdout) if job.rule == "trajectory"]
     assert targets[0] in made_anew
+
+
+HALF_WRONG = """
+laws:
+  late: { evolution: "-v*(theta(t - tau) + (1 + epsilon)*log(v))" }
+scenes:
+  good: { law: late, tau: 0.1, epsilon: 0.1, xi: 0.8, gamma: 0.8, t_end: 60 }
+  wrong: { law: late, tau: 1, epsilon: 0.5, xi: 0.8, gamma: 0.8, t_end: 300 }
+"""
+
+
+def test_run_that_fails_in_part_has_a_page_of_the_rest(scratch):
+    """It names what failed and why, and shows nothing of it, nor of an earlier run. Of a law with a
+    delayed theta stability changes are not computed, which the table says."""
+    (scratch.folder / "half.yaml").write_text(HALF_WRONG)
+    results = scratch.folder / "results" / "half"
+    stale = results / "figures" / "scenes" / "wrong.svg"
+    stale.parent.mkdir(parents=True)
+    stale.touch()
+    run = scratch.reproduce("half.yaml")
+    assert run.returncode != 0
+    reason = "error: integrate: stopped at t = "
+    assert f"\nresults/half/trajectories/wrong.nc failed: {reason}" in run.stdout
+    assert "Traceback" not in run.stdout
+    page = (results / "index.html").read_text()
+    assert re.findall(r'<img src="([^"]*)"', page) == ["figures/scenes/good.svg"]
+    assert f"<code>results/half/trajectories/wrong.nc</code>: {reason}" in page
+    (unmade,) = re.findall(r"<p>Not made for lack of these: (.*)\.</p>", page)
+    assert unmade == "results/half/figures/scenes/wrong.svg"
+    with open(results / "tables" / "linear-stability.tsv", newline="") as file:
+        cells = {row["tau_of_changes"] for row in csv.DictReader(file, delimiter="\t")}
+    words = "not computed: Hopf points of the law 'late': its linear part is not of their form"
+    assert [cell.partition(";")[0] for cell in cells] == [words]

@@ -22,7 +22,7 @@ contains
       character(len=*), intent(in) :: namelist_path
       !> Path of the file to write
       character(len=*), intent(in) :: output_path
-      type(error_type), allocatable :: error
+      type(error_type), allocatable :: error, unknown
       type(linear_stability_settings_type) :: settings
       type(block_parameters_type) :: without_delay
       complex(wp), allocatable :: roots(:)
@@ -33,16 +33,19 @@ contains
       call stop_on(error)
       call roots_of_block(settings%parameters, settings%root_bound, roots, error)
       call stop_on(error)
-      call changes_with_tau(settings%parameters, settings%tau_most, with_tau, error)
-      call stop_on(error)
-      call changes_with_epsilon(settings%parameters, settings%epsilon_most, with_epsilon, error)
-      call stop_on(error)
+      call changes_with_tau(settings%parameters, settings%tau_most, with_tau, unknown)
+      if (allocated(unknown)) then
+         with_epsilon = with_tau(:0)
+      else
+         call changes_with_epsilon(settings%parameters, settings%epsilon_most, with_epsilon, &
+                                   unknown)
+      end if
       without_delay = settings%parameters
       without_delay%tau = 0.0_wp
       pairs = [roots_right_of(block_characteristic(settings%parameters), 0.0_wp), &
                roots_right_of(block_characteristic(without_delay), 0.0_wp)]/2
       call write_linear_stability(output_path, settings, roots, pairs, with_tau, with_epsilon, &
-                                  error)
+                                  unknown, error)
       call stop_on(error)
    end subroutine run_linear_stability
 end module linear_stability_command

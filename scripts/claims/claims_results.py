@@ -150,6 +150,8 @@ def _data_about(data: dict[str, Dataset], folder: str, scene: str) -> Dataset:
 
 def changes(cell: str | float) -> list[tuple[float, int, int]]:
     """Places at which a pair crosses the axis, with the unstable pairs before and after."""
+    if str(cell).startswith("not computed"):
+        raise ValueError(f"linear-stability.tsv: changes of stability {cell}")
     found = re.findall(r"(\S+) \((\d+) -> (\d+)\)", cell if isinstance(cell, str) else "")
     return [(float(place), int(before), int(after)) for place, before, after in found]
 

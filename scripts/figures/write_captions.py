@@ -23,7 +23,7 @@ ENVIRONMENT = Environment(
 ENVIRONMENT.filters |= FILTERS
 
 
-def caption_of(figure: str, inputs: dict, params: dict, claims: list[dict]) -> str:
+def caption_of(figure: str, inputs: dict, params: dict, claims: list[dict] | None) -> str:
     """The caption of a figure; in the template `paper` says whether it is one of the paper's."""
     text = (registry.PROJECT / registry.template_of(figure)).read_text(encoding="utf-8")
     numbers_of = getattr(drawing_of(registry.module_name(figure)), "numbers", lambda: {})
@@ -31,17 +31,19 @@ def caption_of(figure: str, inputs: dict, params: dict, claims: list[dict]) -> s
     return render(text, paper=figure in registry.FIGURES, claims=claims, **numbers)
 
 
-def render(text: str, claims: list[dict], **numbers) -> str:
+def render(text: str, claims: list[dict] | None, **numbers) -> str:
     """A template filled in; a number or a claim that is missing is an error."""
-    verdicts = {claim["id"]: IN_WORDS[claim["verdict"]] for claim in claims}
-    return ENVIRONMENT.from_string(text).render(verdict=verdicts.__getitem__, **numbers)
+    verdicts = {claim["id"]: IN_WORDS[claim["verdict"]] for claim in claims or []}
+    # a run that failed may have no ledger of claims
+    verdict = "**was not tested in this run**".format if claims is None else verdicts.__getitem__
+    return ENVIRONMENT.from_string(text).render(verdict=verdict, **numbers)
 
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         # a user's file may have no claims, and its figures say nothing of them
         path = snakemake.input.claims
-        ledger = json.loads(Path(path).read_text()) if path else []
+        ledger = json.loads(Path(path).read_text()) if path else None
         for figure, target in zip(snakemake.params.figures, snakemake.output, strict=True):
             caption = caption_of(figure["name"], figure["inputs"], figure["params"], ledger)
             with written(target) as file:

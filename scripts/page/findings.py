@@ -11,6 +11,11 @@ from scripts.tables.fault_limit_table import FAULTS, PAPER
 from scripts.tables.friction_laws_table import shares_of
 from scripts.tables.motion_rows import class_in_words, own_rows
 
+TABLES = (
+    *("chain_motions", "event_sizes", "fault_limit", "friction_laws", "hopf_points"),
+    "stability",
+)
+"""Tables that findings read beside that of the attractors."""
 TORUS, TRUE_TORUS = "torus", "true_torus"
 """The scene that the paper calls a torus, and one that has a longer delay."""
 MAIN_CLAIMS = ("delay_alone_makes_chaos", "quasiperiodic_route")

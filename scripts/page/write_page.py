@@ -49,6 +49,8 @@ def content(given, params, folder: Path) -> dict:
     data = {path for figure in params.figures for path in figure["data"] if path.endswith(".nc")}
     return {
         "name": folder.name.replace("_", " "),
+        "failed": params.failed,
+        "unmade": [path for path in params.unmade if path.endswith((".svg", ".tsv"))],
         "paper": paper,
         "sections": sections,
         "appendices": groups if paper else {},
@@ -57,7 +59,7 @@ def content(given, params, folder: Path) -> dict:
         "unplaced": [one for one in others if not page_content.figure_of(one, figures)],
         "tables": [str(Path(path).relative_to(folder)) for path in given.tables],
         "trajectories": trajectories(given),
-        "atlas": groups["Atlas"][0]["name"] if given.play else "",
+        "atlas": groups["Atlas"][0]["name"] if given.play and "Atlas" in groups else "",
         "history": params.history,
         "colours": COLOURS,
         "commit": params.commit,
@@ -69,17 +71,15 @@ def content(given, params, folder: Path) -> dict:
 
 def content_of_paper(given, claims: list[dict]) -> dict:
     """What only the page of the paper has: opening, equations, findings and how to cite."""
-    names = (
-        *("attractors", "chain_motions", "event_sizes", "fault_limit", "friction_laws"),
-        *("hopf_points", "stability"),
-    )
+    names = ("attractors", *findings.TABLES)
+    # a run that failed lacks some
+    complete = claims and all(given[name] for name in names)
+    tables = {name: read_table(given[name]) for name in names if complete}
     by_id = {claim["id"]: claim for claim in claims}
     return {
         **page_content.set_equations(TEMPLATES / "equations.yaml", claims),
         "opening": page_content.opening((PROJECT / "README.md").read_text()),
-        "findings": findings.list_findings(
-            claims, {name: read_table(given[name]) for name in names}
-        ),
+        "findings": findings.list_findings(claims, tables) if tables else [],
         "main_claims": [by_id[name] for name in findings.MAIN_CLAIMS if name in by_id],
         "cited": page_provenance.citation(PROJECT / "CITATION.cff"),
     }

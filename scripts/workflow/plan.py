@@ -4,7 +4,7 @@ import copy
 import json
 import re
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from scripts.claims.ledger import check_user_claims, names_in, paper_claims
@@ -54,6 +54,14 @@ class Plan:
     claims: dict[str, dict]
     """Claims by name."""
 
+    def without(self, unmade: list[str]) -> "Plan":
+        """The plan without those figures and claims that a run could not make."""
+        drawn = [
+            name for name in self.figures if f"{self.results}/figures/{name}.svg" not in unmade
+        ]
+        claims = {} if f"{self.results}/tables/claims.json" in unmade else self.claims
+        return replace(self, figures=drawn, claims=claims)
+
     def targets(self) -> list[str]:
         """All results but what figures and tables need on the way."""
         kinds = ("pdf", "png", "svg")
@@ -66,7 +74,7 @@ class Plan:
         ledger = Path(self.results, "tables", "claims.json")
         page = Path(self.results, "index.html")
         lines = []
-        if ledger.exists():
+        if self.claims and ledger.exists():
             claims = json.loads(ledger.read_text())
             counts = Counter(claim["verdict"] for claim in claims).most_common()
             words = ", ".join(f"{number} {verdict}" for verdict, number in counts)

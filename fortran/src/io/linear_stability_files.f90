@@ -44,7 +44,8 @@ contains
    end subroutine read_linear_stability
 
    !> Write roots and changes of stability.
-   subroutine write_linear_stability(path, settings, roots, pairs, with_tau, with_epsilon, error)
+   subroutine write_linear_stability(path, settings, roots, pairs, with_tau, with_epsilon, &
+                                     unknown, error)
       !> Path of the file
       character(len=*), intent(in) :: path
       !> What was asked for
@@ -57,6 +58,8 @@ contains
       type(stability_change_type), intent(in) :: with_tau(:)
       !> Changes as epsilon grows
       type(stability_change_type), intent(in) :: with_epsilon(:)
+      !> Why changes are not known, if they are not
+      type(error_type), allocatable, intent(in) :: unknown
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
@@ -69,6 +72,7 @@ contains
       call file%attribute("epsilon_most", settings%epsilon_most)
       call file%attribute("unstable_pairs", int(pairs(1), int64))
       call file%attribute("unstable_pairs_without_delay", int(pairs(2), int64))
+      if (allocated(unknown)) call file%attribute("changes", "not computed: "//unknown%message)
       rows = file%dimension("root", size(roots))
       call file%column(rows, "root_real", real(roots), "real part of a characteristic root")
       call file%column(rows, "root_imag", aimag(roots), "its imaginary part")
