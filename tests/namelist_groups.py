@@ -121,5 +121,6 @@ EXPONENTS = {
     "interval": 1.0,
     "blocks": 2,
     "zero_level": 1e-3,
+    "longest_bar": 1e-3,
     "check_tolerances": [1e-7],
 }

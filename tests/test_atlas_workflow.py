@@ -66,16 +66,16 @@ def test_number_of_parts_does_not_matter(programs, tiny):
 
 def test_points_not_computed_reach_table_figure_and_page(programs, tiny):
     """All of them, with class and without exponents; the page has words for the others."""
-    (path,) = made_parts(programs, tiny, 1, refinements=2, epsilon_count=11, tau_count=9)
+    (path,) = made_parts(programs, tiny, 1, refinements=1, epsilon_count=13, tau_count=13)
     table = programs.folder / "atlas.tsv"
     write_table(table, attractor_tables.atlas_rows(xr.load_dataset(path)))
     rows = read_table(table)
     taken = [row for row in rows if row["computed"] == "no"]
-    assert 0 < len(taken) < len(rows) == 99
+    assert 0 < len(taken) < len(rows) == 169
     assert all(row["class"] in ("fixed point", "cycle", "torus", "chaos") for row in taken)
     assert all(np.isnan(row[key]) for row in taken for key in ("exponent_1", "time", "reason"))
     figure = atlas.draw(rows, [], [], {})
-    assert f"99 points, {99 - len(taken)} computed, " in title_of(figure.axes[0])
+    assert f"169 points, {169 - len(taken)} computed, " in title_of(figure.axes[0])
     known = np.array([row["class"] != "undecided" for row in rows])
     exponents = figure.axes[1].collections[0].get_array().filled(np.nan).ravel()
     assert np.isfinite(exponents[known]).all()

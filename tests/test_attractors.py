@@ -123,8 +123,20 @@ def a_run(classes: list[str], **given) -> xr.Dataset:
     for key, value in exponents.items():
         first = np.broadcast_to(value, size)
         data[key] = (("point", "exponent"), np.stack([first, first - 1], axis=1))
+    data["sign"] = (("point", "exponent"), np.sign(data["lyapunov_exponent"][1]))
     data["problem"] = ("point", words.astype(object))
     return xr.Dataset(data)
+
+
+@pytest.mark.parametrize(
+    ("columns", "lines", "refinements"),
+    [(9, 7, 0), (1, 40, 0), (12, 40, 0), (13, 40, 1), (37, 25, 2), (200, 200, 2)],
+)
+def test_first_lines_of_a_small_atlas_are_not_too_far_apart(full, columns, lines, refinements):
+    """At least six distances in each direction, and never more refinements than asked for."""
+    full["atlas"] |= {"epsilon_count": columns, "tau_count": lines, "parts": 1, "refinements": 2}
+    points = attractor_surveys.atlas_groups(full, "fault", 1)["points"]
+    assert points["refinements"] == refinements
 
 
 def test_points_that_were_not_computed_have_class_and_period_only():
@@ -154,6 +166,18 @@ def test_rows_say_what_the_file_holds():
     assert first["time"] == 900.0
     assert math.isnan(second["period"])
     assert (first["problem"], second["problem"]) == ("", "it stopped")
+
+
+def test_signs_are_counted_as_the_file_has_them():
+    """Two are unclear, which are not zero; of a run that failed nothing is counted."""
+    run = a_run(["chaos", "undecided"])
+    signs = [[1, 0, -1, 2, 2], [math.nan] * 5]
+    run = run.drop_dims("exponent").assign(sign=(("point", "exponent"), signs))
+    run["lyapunov_exponent"] = run["lyapunov_error"] = run.sign
+    first, second = attractor_tables.rows_of(run)
+    counts = [f"{word}_exponents" for word in ("positive", "zero", "unclear")]
+    assert [first[key] for key in counts] == [1, 1, 2]
+    assert all(math.isnan(second[key]) for key in counts)
 
 
 @pytest.mark.parametrize(("fastest", "tame"), [(1.9, "yes"), (2.1, "no")])

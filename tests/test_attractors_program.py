@@ -69,7 +69,7 @@ def test_fixed_point_has_the_roots_and_no_more(programs, groups):
         np.testing.assert_allclose(exponents[:3], np.sort(roots.real)[::-1], atol=1e-12)
     assert found.lyapunov_error[:, :3].values.tolist() == [[0.0] * 3] * 2
     assert np.isnan(found.lyapunov_exponent[:, 3]).all()
-    assert found.sign_bound[:, :3].values.tolist() == [[found.zero_level] * 3] * 2
+    assert found.sign[:, :3].values.tolist() == [[-1.0] * 3] * 2
     assert found.period.values.tolist() == found.base_1.values.tolist() == [0, 0]
     # the approach ends where the block is close to rest: with the first history soon
     kept = np.isfinite(found.maximum).sum("kept").values

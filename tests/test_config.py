@@ -164,7 +164,6 @@ REFUSED = [
     ((*ROUTE, "epsilon"), 0.5, "epsilon = 0.5; expected no value, it is along epsilon"),
     (("cycles", "lines", "torus_in_tau", "starts"), [17.0], "expected a number in [0.05, 16.0]"),
     (("atlas", "parts"), 26, "parts = 26; expected a whole number >= 1 and <= tau_count = 25"),
-    (("atlas", "epsilon_count"), 1, "refinements = 2; expected 0 for one line, epsilon_count = 1"),
     (("routes", "observation", "kept"), 0, "kept = 0; expected a "),
     (("work_precision", "scenes", "mine"), {"t_end": 1.0}, "'mine'; expected one of: fixed_point"),
     (("work_precision", "cases", "chaos"), SCENE, "'chaos'; expected a name that no scene has"),

@@ -6,12 +6,12 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import xarray as xr
-from figure_contents import points_in
+from figure_contents import assert_on_page, points_in
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 
 from scripts.drawing import trajectories
-from scripts.drawing.style import METADATA, logged, save
+from scripts.drawing.style import METADATA, STYLE, break_titles, logged, save
 from scripts.figures import figure_6
 
 
@@ -127,3 +127,20 @@ def test_saved_figures_have_the_same_bytes_each_time(tmp_path):
         first = (tmp_path / f"first.{ending}").read_bytes()
         assert first == (tmp_path / f"second.{ending}").read_bytes()
         assert not re.search(rb"Date|dc:date", first)
+
+
+def test_long_titles_are_broken_on_the_page():
+    """Between words; formulas stay whole, and look as before."""
+    with plt.style.context(STYLE):
+        figure, panels = plt.subplots(1, 2)
+        formula = r"$\lambda = -0.01997 \pm 0.6527\,i$"
+        title = f"a scene {'with a long name ' * 5}and {formula}"
+        panels[0].set_title(title)
+        figure.suptitle(title + title)
+        panels[1].set_title(formula)
+        (whole,) = panels[1].findobj(lambda part: getattr(part, "get_text", str)() == formula)
+        before = whole.get_window_extent().width
+        break_titles(figure)
+        assert_on_page(figure)
+        assert whole.get_window_extent().width == before
+        assert formula.replace(" ", "") in figure.get_suptitle()

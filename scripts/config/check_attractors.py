@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 
 from scripts.config.ranges import range_of
-from scripts.namelists.attractor_surveys import part_of
+from scripts.namelists.attractor_surveys import part_of, refinements_of
 from scripts.namelists.laws import definitions, own_parameters
 from scripts.namelists.study_cases import PARAMETERS
 
@@ -54,15 +54,12 @@ def _check_atlas(place: str, atlas: dict) -> Iterator[str]:
         inside = f"{place} planes {name}"
         yield from window(inside, "tau_window", plane["tau_window"], **range_of("tau"))
     delays, parts = atlas["tau_count"], atlas["parts"]
-    refinements, columns = atlas["refinements"], atlas["epsilon_count"]
     if parts > delays:
         yield wrong(place, atlas, "parts", f"a whole number >= 1 and <= tau_count = {delays}")
         return
-    if refinements > 0 and min(delays, columns) == 1:
-        counts = f"epsilon_count = {columns}, tau_count = {delays}"
-        yield wrong(place, atlas, "refinements", f"0 for one line, {counts}")
-    ends = (part_of(delays, parts, part, 2**refinements) for part in range(1, parts + 1))
-    points = columns * max(last - first + 1 for first, last in ends)
+    distance = 2 ** refinements_of(atlas)
+    ends = (part_of(delays, parts, part, distance) for part in range(1, parts + 1))
+    points = atlas["epsilon_count"] * max(last - first + 1 for first, last in ends)
     if points > MOST_POINTS:
         yield f"{place}: parts = {parts} of {points} points; expected at most {MOST_POINTS} in each"
 

@@ -2,6 +2,7 @@
 
 import contextlib
 import io
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -11,6 +12,7 @@ matplotlib.use("agg")
 
 import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 
 from scripts.files import outputs
 
@@ -24,8 +26,20 @@ METADATA = {"pdf": {"CreationDate": None}, "png": None, "svg": {"Date": None}}
 """For each ending that a figure is saved with: what keeps its bytes the same each time."""
 
 
+def break_titles(figure: Figure) -> None:
+    """Break titles wider than the page between words: formulas, parted by dollars, lose blanks."""
+    titles = {axes.get_title("left") for axes in figure.axes}
+    titles |= {part.get_suptitle() for part in (figure, *figure.subfigs)}
+    for text in figure.findobj(Text):
+        if text.get_text() in titles:
+            parts = text.get_text().split("$")
+            parts[1::2] = [re.sub(" (?=[A-Za-z])", "{}", x).replace(" ", "") for x in parts[1::2]]
+            text.set(text="$".join(parts), wrap=True)
+
+
 def save(figure: Figure, output) -> None:
     """Write a figure for print, as picture and for the page; `output` names the three files."""
+    break_titles(figure)
     # the layout once for all three: without an engine none of them draws twice
     figure.draw_without_rendering()
     with plt.rc_context({"figure.constrained_layout.use": False}):

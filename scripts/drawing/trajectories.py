@@ -14,6 +14,8 @@ MOST_TURNS = 150
 """Oscillations that a panel shows one by one; of more it shows the envelope."""
 MOST_LOOPS = 60
 """Loops of the transient in a phase portrait."""
+MOST_LINEAR = 100.0
+"""Largest v on a linear axis: beside a larger one steady sliding, v = 1, looks like rest."""
 RESOLUTION = 1000
 """Oscillations smaller than this part of the panel's height are not counted."""
 
@@ -42,7 +44,8 @@ def share_missed(trajectory: xr.Dataset) -> float:
 def draw_velocity(axes: Axes, trajectory: xr.Dataset, start: float, end: float) -> bool:
     """v from one time to another; whether it is drawn as its envelope."""
     shown = trajectory.sel(t=slice(start, end))
-    oscillations = len(turns(shown.v.values)) // 2
+    seen = scale_velocity(axes, shown.v)
+    oscillations = len(turns(seen.values)) // 2
     axes.set(xlabel="time $t$", ylabel="velocity $v$", xlim=(start, end))
     if oscillations <= MOST_TURNS:
         axes.plot(shown.t, shown.v, color="C0", lw=0.7)
@@ -54,6 +57,14 @@ def draw_velocity(axes: Axes, trajectory: xr.Dataset, start: float, end: float) 
     axes.fill_between(at, least, most, facecolor="C0", alpha=0.3, lw=0)
     axes.plot(at, least, at, most, color="C0", lw=0.7)
     return True
+
+
+def scale_velocity(axes: Axes, v: xr.DataArray) -> xr.DataArray:
+    """Make the axis of v logarithmic where peaks would hide all else; v, or ln v, as it is seen."""
+    if float(v.max()) <= MOST_LINEAR:
+        return v
+    axes.set_yscale("log")
+    return np.log(v.clip(min=1e-300))
 
 
 def turns(values: np.ndarray) -> np.ndarray:
@@ -83,6 +94,7 @@ def draw_portrait(axes: Axes, trajectory: xr.Dataset, shown: float) -> None:
     attractor = trajectory.sel(t=slice(start, end))
     axes.plot(transient.u, transient.v, color=FAINT, lw=0.2, label="transient", rasterized=True)
     axes.plot(attractor.u, attractor.v, color="C1", lw=0.35, label="attractor", rasterized=True)
+    scale_velocity(axes, trajectory.v)
     axes.plot(0, 1, "+", color=INK, ms=5, mew=0.7, ls="", label="steady sliding")
     extent = transient.v.max() - transient.v.min()
     if attractor.v.max() - attractor.v.min() < 0.01 * extent:

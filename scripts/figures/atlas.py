@@ -153,4 +153,4 @@ def numbers(table: list[dict]) -> dict:
                 "at": place_in_words(most, "xi", "gamma") if most else "",
             }
         )
-    return {"planes": planes}
+    return {"planes": planes, "taken": sum(not is_computed(row) for row in table)}

@@ -1,5 +1,7 @@
 """The drawing of plans/exponents.py, and the numbers of its caption."""
 
+from collections import Counter
+
 import numpy as np
 import xarray as xr
 from matplotlib import pyplot as plt
@@ -10,6 +12,7 @@ from matplotlib.ticker import MaxNLocator
 
 from scripts.drawing.style import FAINT
 from scripts.figures.wording import with_error
+from scripts.tables.exponents_table import count_in_words
 
 LEAST_SCALE = 1e-3
 """Exponents closer to zero than this are drawn on a linear scale."""
@@ -30,7 +33,7 @@ def draw(runs: list[xr.Dataset], table: list[dict]) -> Figure:
         draw_tolerances(middle, run.isel(run=np.isnan(run.longest_step)))
         draw_resolutions(right, run.isel(run=run.tolerance == run.tolerance[0]))
         scene = run.attrs["scene"]
-        words = count_in_words(rows_at_own_step(table, scene))
+        words = spectrum_in_words(rows_at_own_step(table, scene))
         left.set_title(f"$\\bf{{{letter}}}$  scene {scene.replace('_', ' ')}: {words}")
     handles = legend_of(max(run.sizes["exponent"] for run in runs))
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
@@ -54,17 +57,14 @@ def rows_at_own_step(table: list[dict], scene: str) -> list[dict]:
     return [row for row in rows if row["mean_step"] == rows[0]["mean_step"]]
 
 
-def count_in_words(rows: list[dict]) -> str:
+def spectrum_in_words(rows: list[dict]) -> str:
     """How many exponents are positive and zero, and the dimension."""
-    signs = [row["sign"] for row in rows]
+    signs = Counter(row["sign"] for row in rows)
     value, error = rows[0]["dimension"], rows[0]["dimension_error"]
     dimension = f"{value:.2f} ± {error:.2f}" if error != 0 else f"{value:g}"
     if np.isnan(value):
         dimension = "not reached by these exponents"
-    return (
-        f"{signs.count('positive')} positive, {signs.count('zero')} zero;"
-        f" Kaplan-Yorke dimension {dimension}"
-    )
+    return f"{count_in_words(signs)}; Kaplan-Yorke dimension {dimension}"
 
 
 def draw_times(axes: Axes, run: xr.Dataset) -> None:
@@ -131,6 +131,7 @@ def numbers(runs: list[xr.Dataset], table: list[dict]) -> dict:
                 "name": scene.replace("_", " "),
                 "positive": signs.count("positive"),
                 "zero": signs.count("zero"),
+                "unclear": signs.count("unclear"),
                 "largest": values[0],
                 "all": values,
                 "dimension": with_error(rows[0]["dimension"], rows[0]["dimension_error"]),

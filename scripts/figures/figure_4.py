@@ -64,10 +64,14 @@ def numbers(trajectories: list[xr.Dataset], table: list[dict], settings: dict) -
 
 
 def end_in_words(v: xr.DataArray, motion: dict) -> str:
-    """Values between which v stays, and the period of a cycle; `motion` is a row of attractors."""
+    """Maxima of v and the period of a cycle by `motion`, a row of attractors, or else v(t)."""
     if motion["class"] == "fixed point":
-        return f"{short(abs(v - 1).max(), 2)} or less from steady sliding, :math:`v = 1`"
-    words = f"between {short(v.min())} and {short(v.max())}"
+        far = short(abs(v - 1).max(), 2)
+        return f"at the end v is {far} or less from steady sliding, :math:`v = 1`"
+    least, most = (short(motion.get(f"{end}_maximum", math.nan)) for end in ("smallest", "largest"))
+    if most == "nan":
+        return f"at the end v is between {short(v.min())} and {short(v.max())}"
+    words = f"maxima of v are {most if least == most else f'between {least} and {most}'}"
     frequency = motion.get("f1", math.nan)
     if motion["class"] == "cycle" and not math.isnan(frequency):
         words += f" with a period of {short(1 / frequency)}"

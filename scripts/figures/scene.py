@@ -1,5 +1,6 @@
 """The drawing of plans/scene.py, and the numbers of its caption."""
 
+import math
 import warnings
 
 import numpy as np
@@ -14,19 +15,26 @@ from scripts.drawing.style import FAINT
 from scripts.drawing.trajectories import MOST_MISSED, draw_portrait, draw_velocity, share_missed
 from scripts.figures.figure_4 import end_in_words
 from scripts.figures.wording import as_formulas, place_in_words, short, with_error
-from scripts.tables.attractor_tables import rows_of
+from scripts.tables.attractor_tables import SAME_MAXIMUM, rows_of
+from scripts.tables.exponents_table import SIGNS, count_in_words
 from scripts.tables.motion_rows import UNDECIDED, class_in_words, has_problem, kind_of
 
-PERIODS = 12
-"""Periods of the first fundamental frequency that v(t) shows at the end."""
+RECURRENCES = 12
+"""Rises of v through 1 that v(t) shows at the end."""
 SHARE = 0.1
-"""Share of the run that it shows where there is no fundamental frequency."""
+"""Share of the run that it shows where there are none."""
+SPECTRA = {"cycle": "periodic", "torus": "quasiperiodic", "3-torus": "", "chaos": "continuum"}
+"""What resolved spectra are, by the class of the motion."""
+LINES = 4
+"""Width of a line of the Hann window, in bins."""
 ATTRACTOR = 3000.0
 """Last time after the transient that the portrait shows."""
 POWER = 0.999
 """Share of the power below the end of the frequency axis, which is half as far again."""
 HARMONICS = 7
 """Harmonics of the first fundamental frequency that the axis shows at least."""
+MOST_MISSING = 2.0
+"""By this factor a run may miss the largest v of a torus or of chaos."""
 LEAST_SCALE = 1e-3
 """Exponents closer to zero than this are drawn on a linear scale."""
 LEAST_SPREAD = 0.05
@@ -47,16 +55,17 @@ def draw(
     above, middle, below = figure.subfigures(3, 1, height_ratios=[1.1, 1.2, 1.1])
     start, end = above.subplots(1, 2, sharey=True)
     portrait, section, exponents = middle.subplots(1, 3)
+    row = rows_of(attractors)[0]
     powers = below.subplots()
     last = float(trajectory.t[-1])
     envelope = draw_velocity(start, trajectory, 0.0, last)
     # as lines, long runs would make the page slow
     for line in start.lines:
         line.set_rasterized(True)
-    draw_velocity(end, trajectory, max(0.0, last - end_shown(spectrum, last)), last)
+    draw_velocity(end, trajectory, max(0.0, last - end_shown(row, last)), last)
     end.set(ylabel="")
     draw_portrait(portrait, trajectory, ATTRACTOR)
-    draw_section(section, attractors)
+    draw_section(section, attractors, row)
     draw_exponents(exponents, attractors)
     draw_spectrum(powers, spectrum)
     titles = {
@@ -65,23 +74,44 @@ def draw(
         "phase portrait": portrait,
         "section": section,
         "Lyapunov exponents": exponents,
-        f"spectrum: {lines_in_words(spectrum)}": powers,
+        f"spectrum: {spectrum_in_words(spectrum, row)}": powers,
     }
     for letter, (title, axes) in zip("abcdef", titles.items(), strict=True):
         axes.set_title(f"$\\bf{{{letter}}}$  {title}")
     name = trajectory.attrs["scene"].replace("_", " ")
     above.suptitle(
-        f"scene {name} ({parameters.in_words(trajectory.attrs)}): {class_and_signs(attractors)}\n"
+        f"scene {name} ({parameters.in_words(trajectory.attrs)}): {class_and_signs(row)}\n"
         f"steady sliding: {roots_in_words(roots)}",
         fontsize=8,
     )
     return figure
 
 
-def end_shown(spectrum: xr.Dataset, last: float) -> float:
+def end_shown(row: dict, last: float) -> float:
     """Length of the second time axis."""
-    bases = spectrum.base_frequency.values
-    return PERIODS / float(bases[0]) if bases.size else SHARE * last
+    between = row["recurrence_time"]
+    return SHARE * last if math.isnan(between) else RECURRENCES * between
+
+
+def unsettled(trajectory: xr.Dataset, row: dict) -> str:
+    """The largest v drawn, of a cycle in a first period, if it is not that of the attractor."""
+    end = float(trajectory.t[-1])
+    start = max(trajectory.attrs["t_transient"], end - ATTRACTOR)
+    cycle, rest = row["class"] == "cycle", row["class"] == "fixed point"
+    shown = trajectory.v.sel(t=slice(start, min(end, start + 1 / row["f1"]) if cycle else end))
+    largest, most = float(shown.max()), 1.0 if rest else row["largest_maximum"]
+    factor = 1 + SAME_MAXIMUM if cycle or rest else MOST_MISSING
+    return short(largest) if abs(math.log(largest / most)) > math.log(factor) else ""
+
+
+def spectrum_in_words(spectrum: xr.Dataset, row: dict) -> str:
+    """What the spectrum shows, if it is resolved: the class rests on longer runs."""
+    kind, motion = spectrum.attrs["spectrum_kind"], row["class"]
+    if motion == "fixed point":
+        return "what is left of the approach to steady sliding"
+    wide = LINES * float(spectrum.frequency[1]) * row["recurrence_time"] > 1
+    unlike = kind not in ("undecided", SPECTRA.get(motion, kind))
+    return "not resolved, the run is too short" if wide or unlike else lines_in_words(spectrum)
 
 
 def frequency_shown(spectrum: xr.Dataset) -> float:
@@ -96,13 +126,15 @@ def frequency_shown(spectrum: xr.Dataset) -> float:
     return min(max(end, least), float(frequency[-1]))
 
 
-def draw_section(axes: Axes, attractors: xr.Dataset) -> None:
-    """Points where v rises through 1, from the scene's own history."""
+def draw_section(axes: Axes, attractors: xr.Dataset, row: dict) -> None:
+    """Points where v rises through 1, from the scene's own history; of a cycle its last period."""
     own = attractors.isel(point=0)
     theta, u = own.section_theta.values, own.section_u.values
-    there = np.isfinite(theta) & np.isfinite(u) & ((theta != 0) | (u != 0))
+    there = np.flatnonzero(np.isfinite(theta) & np.isfinite(u) & ((theta != 0) | (u != 0)))
+    if row["class"] == "cycle" and row["period"] > 0:
+        there = there[-int(row["period"]) :]
     axes.plot(theta[there], u[there], **DOTS)
-    if there.any():
+    if there.size:
         widen(axes.set_xlim, theta[there])
         widen(axes.set_ylim, u[there])
     else:
@@ -143,9 +175,8 @@ def draw_spectrum(axes: Axes, spectrum: xr.Dataset) -> None:
         label_peaks(axes, spectrum, end, LETTER)
 
 
-def class_and_signs(attractors: xr.Dataset) -> str:
+def class_and_signs(row: dict) -> str:
     """Class of the motion from the scene's own history, and the signs of its exponents."""
-    row = rows_of(attractors)[0]
     if row["problem"]:
         return f"no class: {row['problem']}"
     kind = kind_of(row)
@@ -153,12 +184,8 @@ def class_and_signs(attractors: xr.Dataset) -> str:
         return f"class undecided ({row['reason']})"
     if kind != row["class"]:
         kind = f"cycle with {row['period']:g} loops"
-    own = attractors.isel(point=0)
-    values, bounds = own.lyapunov_exponent.values, own.sign_bound.values
-    zero = np.abs(values) <= bounds
-    counts = {"positive": int((~zero & (values > 0)).sum()), "zero": int(zero.sum())}
-    signs = ", ".join(f"{count} {sign}" for sign, count in counts.items())
-    return f"{kind}; exponents: {signs}" if np.isfinite(values).any() else kind
+    signs = {word: row.get(f"{word}_exponents") for word in SIGNS.values()}
+    return kind if math.isnan(signs["zero"]) else f"{kind}; exponents: {count_in_words(signs)}"
 
 
 def roots_in_words(roots: xr.Dataset) -> str:
@@ -180,7 +207,7 @@ def numbers(
     """Class, end of v, exponents, spectrum and the roots of steady sliding."""
     row = rows_of(attractors)[0]
     last = float(trajectory.t[-1])
-    v = trajectory.v.sel(t=slice(max(0.0, last - end_shown(spectrum, last)), None))
+    v = trajectory.v.sel(t=slice(max(0.0, last - end_shown(row, last)), None))
     order = range(1, attractors.sizes["exponent"] + 1)
     exponents = [with_error(row[f"exponent_{i}"], row[f"error_{i}"]) for i in order]
     missed = share_missed(trajectory)
@@ -188,9 +215,10 @@ def numbers(
         "place": place_in_words(trajectory.attrs),
         "motion": motion_in_words(row),
         "end": end_in_words(v, row),
+        "unsettled": unsettled(trajectory, row),
         "missed": short(100 * missed, 2) if missed > MOST_MISSED else "",
         "exponents": [value for value in exponents if value != "not measured"],
-        "lines": as_formulas(lines_in_words(spectrum)),
+        "lines": as_formulas(spectrum_in_words(spectrum, row)),
         "roots": as_formulas(roots_in_words(roots)),
     }
 

@@ -13,7 +13,6 @@ from scripts.drawing.spectra import label_peaks, lines_in_words
 from scripts.drawing.trajectories import draw_velocity
 from scripts.figures.figure_6 import peaks_in_words
 from scripts.figures.wording import count, short, with_error
-from scripts.tables.exponents_table import sign
 from scripts.tables.motion_rows import class_in_words, own_rows
 
 EXPONENTS = (1, 2, 3)
@@ -48,9 +47,8 @@ def draw(
         velocity, spectrum = panels[2 * i : 2 * i + 2]
         last = float(trajectory.t[-1])
         draw_velocity(velocity, trajectory, max(0.0, last - settings["end_shown"]), last)
-        row, bounds = known[shown["scene"]], attractor.sign_bound.values[0]
         place = parameters.in_words(trajectory.attrs)
-        velocity.set_title(f"$\\bf{{{label}}}$  {title_of(row, bounds, place)}")
+        velocity.set_title(f"$\\bf{{{label}}}$  {title_of(known[shown['scene']], place)}")
         draw_spectrum(spectrum, powers, settings["frequency_shown"])
         draw_section(section, attractor, label)
         for panel, first in ((velocity, panels[0]), (spectrum, panels[1])):
@@ -62,18 +60,14 @@ def draw(
     return figure
 
 
-def title_of(row: dict, bounds: np.ndarray, place: str) -> str:
-    """Scene, class, parameters, and the leading exponents with their standard errors.
-
-    An exponent with an absolute value up to its bound is zero.
-    """
+def title_of(row: dict, place: str) -> str:
+    """Scene, class, parameters, and the leading exponents with their standard errors."""
     pairs = {i: (row[f"exponent_{i}"], row[f"error_{i}"]) for i in EXPONENTS}
     there = {i: pair for i, pair in pairs.items() if not math.isnan(pair[0])}
-    zeros = sum(sign(value, bounds[i - 1]) == "zero" for i, (value, _) in there.items())
     each = [f"$\\lambda_{i}$ = {in_power_of_ten(*pair)}" for i, pair in there.items()]
     name = row["scene"].replace("_", " ")
     return (
-        f"scene {name}: {row['class']}, {count(zeros, 'zero exponent')}"
+        f"scene {name}: {row['class']}, {count(int(row['zero_exponents']), 'zero exponent')}"
         f"\n{place}\n{', '.join(each[:2])}\n{', '.join(each[2:])}"
     )
 

@@ -7,6 +7,10 @@ import numpy as np
 from scripts.namelists.laws import law_group
 from scripts.namelists.study_cases import HISTORY, PARAMETERS
 
+LEAST_DISTANCES = 6
+"""Distances between the lines of a plane that are computed in full: those of the default grid, of
+which it is known how many points get another class than if computed."""
+
 
 def drawn_histories(count: int, ranges: dict) -> list[dict]:
     """Histories drawn evenly from the ranges, the same for the same seed."""
@@ -53,6 +57,12 @@ def axis_of(given: float | dict) -> dict:
     return {"part": [1, axis["count"]], **axis}
 
 
+def refinements_of(atlas: dict) -> int:
+    """The refinements of the file, or as many as leave enough distances of its first lines."""
+    fewest = min(atlas["epsilon_count"], atlas["tau_count"]) - 1
+    return min(atlas["refinements"], max(0, (fewest // LEAST_DISTANCES).bit_length() - 1))
+
+
 def part_of(count: int, parts: int, part: int, distance: int = 1) -> list[int]:
     """First and last of `count` lines in part 1..parts, all about as large.
 
@@ -78,7 +88,7 @@ def atlas_groups(config: dict, plane: str, part: int) -> dict:
     A part is refined by itself, from every 2**refinements-th of its delays and from the last.
     """
     atlas = config["atlas"]
-    settings, refinements = atlas["planes"][plane], atlas["refinements"]
+    settings, refinements = atlas["planes"][plane], refinements_of(atlas)
     delays = part_of(atlas["tau_count"], atlas["parts"], part, 2**refinements)
     columns = {"window": atlas["epsilon_window"], "count": atlas["epsilon_count"]}
     lines = {"window": settings["tau_window"], "count": atlas["tau_count"], "part": delays}

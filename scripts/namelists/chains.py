@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from scripts.namelists.laws import law_group
-from scripts.namelists.study_cases import HISTORY, place_of, with_parameters
+from scripts.namelists.study_cases import HISTORY, place_of, with_parameters, zero_of
 
 CHAIN = ["blocks", "kappa", "ends"]
 """Keys of a chain beside those of a block."""
@@ -70,9 +70,10 @@ def motion_groups(config: dict, motion: str) -> dict[str, dict]:
 
 def motion_exponents_groups(config: dict, motion: str) -> dict[str, dict]:
     """A chain of a scene for its exponents, a few more than it has blocks."""
-    shared, study = config["exponents"], config["chain_motions"]
+    study = config["chain_motions"]
     exponents = {
-        **{key: shared[key] for key in ("blocks", "zero_level")},
+        "blocks": config["exponents"]["blocks"],
+        **zero_of(config),
         **{key: study[key] for key in ("t_end", "t_turning", "interval")},
         "count": motion_chains(config)[motion]["blocks"] + MORE_EXPONENTS,
     }

@@ -14,6 +14,7 @@ from scripts.namelists.study_cases import (
     measured_study,
     place_of,
     with_parameters,
+    zero_of,
 )
 
 LAW = ["mu0", "a", "b", "dc", "v0", "b_state"]
@@ -37,7 +38,7 @@ def scene_groups(config: dict, scene: str) -> dict[str, dict]:
 
 def exponents_groups(config: dict, scene: str) -> dict[str, dict]:
     """A scene and how its exponents are measured, by default up to its own end."""
-    settings, shared = config["scenes"][scene], dict(config["exponents"])
+    settings, shared = config["scenes"][scene], config["exponents"] | zero_of(config)
     default = {"count": shared.pop("count"), "t_end": settings["t_end"]}
     exponents = {**default, **settings.get("exponents", {}), **shared}
     return {**scene_groups(config, scene), "exponents": exponents}

@@ -59,3 +59,8 @@ def case_of(name: str, settings: dict) -> dict:
     """One case up to its t_end."""
     own = {key: value for key, value in settings.items() if key != "history"}
     return {"name": name, **settings["history"], **own}
+
+
+def zero_of(config: dict) -> dict[str, float]:
+    """What counts as a zero exponent, for all measurements that of the class."""
+    return {key: config["attractors"]["observation"][key] for key in ("zero_level", "longest_bar")}

@@ -20,8 +20,6 @@ TORUS, TRUE_TORUS = "torus", "true_torus"
 """The scene that the paper calls a torus, and one that has a longer delay."""
 MAIN_CLAIMS = ("delay_alone_makes_chaos", "quasiperiodic_route")
 """Claims of the abstract that stand below the findings."""
-ZERO = 3
-"""Standard errors within which an exponent is zero."""
 
 
 def list_findings(claims: list[dict], tables: dict[str, list[dict]]) -> list[dict]:
@@ -139,11 +137,9 @@ def describe_chains(tables: dict[str, list[dict]]) -> dict:
 
 def describe_motion(row: dict) -> str:
     """How many exponents are zero, and the fundamental frequencies."""
-    pairs = [(row[f"exponent_{i}"], row[f"error_{i}"]) for i in (1, 2, 3)]
-    zeros = sum(abs(value) <= ZERO * error for value, error in pairs)
     bases = [f"$f{i} = {short(row[f'f{i}'])}$" for i in (1, 2) if row[f"f{i}"] > 0]
     frequency = "fundamental frequency" if len(bases) == 1 else "fundamental frequencies"
-    found = count(zeros, "zero Lyapunov exponent")
+    found = count(int(row["zero_exponents"]), "zero Lyapunov exponent")
     return f"{found} and the {frequency} {' and '.join(bases)}" if bases else found
 
 

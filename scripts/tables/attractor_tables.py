@@ -9,6 +9,7 @@ from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
 from scripts.namelists.laws import law_of
 from scripts.namelists.study_cases import HISTORY, PARAMETERS
+from scripts.tables.exponents_table import SIGNS
 from scripts.tables.motion_rows import AXES_FIRST, has_problem
 
 SAME_MAXIMUM = 0.02
@@ -27,6 +28,7 @@ NOT_COMPUTED = {*PARAMETERS, "law", *HISTORY, "computed", "class", "period"}
 
 def rows_of(run: Dataset, **flags: list[str]) -> list[dict]:
     """Rows of a file, with columns of further flags before the class; values not found are NaN."""
+    measured = run.sign.notnull().any("exponent")
     columns = {
         **{key: numbers(run[key]) for key in AXES_FIRST},
         "law": [law_of(run.attrs)] * run.sizes["point"],
@@ -41,6 +43,10 @@ def rows_of(run: Dataset, **flags: list[str]) -> list[dict]:
             f"{key}_{i + 1}": numbers(run[variable].isel(exponent=i))
             for i in range(run.sizes["exponent"])
             for key, variable in (("exponent", "lyapunov_exponent"), ("error", "lyapunov_error"))
+        },
+        **{
+            f"{word}_exponents": numbers((run.sign == sign).sum("exponent").where(measured))
+            for sign, word in SIGNS.items()
         },
         "f1": positive(run.base_1),
         "f2": positive(run.base_2),

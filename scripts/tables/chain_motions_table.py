@@ -10,19 +10,14 @@ from scripts.files.tsv import write_table
 from scripts.namelists.laws import law_of
 from scripts.namelists.study_cases import PARAMETERS
 from scripts.tables.chain_motions import moves_alike, rests, strongest_mode
-from scripts.tables.exponents_table import sign
-
-COUNTS = ("positive", "zero", "negative")
+from scripts.tables.exponents_table import SIGNS
 
 
 def motion_row(trajectory: xr.Dataset, exponents: xr.Dataset) -> dict:
     """The motion of a chain; all its exponents in one cell, the largest first."""
     run = exponents.isel(run=0)
     values, errors = run.value.values, run.error.values
-    signs = [
-        sign(float(value), float(bound))
-        for value, bound in zip(values, run.sign_bound.values, strict=True)
-    ]
+    signs = [SIGNS[int(sign)] for sign in run.sign.values]
     alike = moves_alike(trajectory)
     mode, share = (math.nan, 0.0) if alike else strongest_mode(trajectory)
     return {
@@ -32,7 +27,7 @@ def motion_row(trajectory: xr.Dataset, exponents: xr.Dataset) -> dict:
         "motion": motion_of(rests(trajectory), alike, signs),
         "mode": mode,
         "share": share,
-        **{f"{word}_exponents": signs.count(word) for word in COUNTS},
+        **{f"{word}_exponents": signs.count(word) for word in SIGNS.values()},
         "largest": float(values[0]),
         "largest_error": float(errors[0]),
         "exponents": " ".join(f"{value:.5f}" for value in values),

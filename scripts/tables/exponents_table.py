@@ -7,6 +7,9 @@ from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
 from scripts.namelists.laws import law_of
 
+SIGNS = {1: "positive", 0: "zero", -1: "negative", 2: "unclear"}
+"""Of exponents in files, with their words; unclear are those that may be zero."""
+
 
 def rows_of(run: xr.Dataset) -> list[dict]:
     """Rows of a scene, those by its own tolerance alone first."""
@@ -17,7 +20,7 @@ def rows_of(run: xr.Dataset) -> list[dict]:
             "i": i + 1,
             "exponent": float(at.value[i]),
             "error": float(at.error[i]),
-            "sign": sign(float(at.value[i]), float(at.sign_bound[i])),
+            "sign": SIGNS[int(at.sign[i])],
             "dimension": float(at.dimension),
             "dimension_error": float(at.dimension_error),
             "t": run.attrs["t_end"] - run.attrs["t_begin"],
@@ -30,11 +33,10 @@ def rows_of(run: xr.Dataset) -> list[dict]:
     ]
 
 
-def sign(value: float, bound: float) -> str:
-    """The sign of an exponent; zero if its modulus is at most `bound`."""
-    if abs(value) <= bound:
-        return "zero"
-    return "positive" if value > 0 else "negative"
+def count_in_words(counts: dict[str, float]) -> str:
+    """How many exponents are positive and zero, and of how many the sign is unclear, if any."""
+    said = [word for word in ("positive", "zero", "unclear") if counts[word] or word != "unclear"]
+    return ", ".join(f"{counts[word]:g} {word}" for word in said)
 
 
 if __name__ == "__main__":

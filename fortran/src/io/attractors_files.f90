@@ -9,7 +9,7 @@ module attractors_files
    use dde, only: integration_options
    use dde_errors, only: error_type, text
    use dde_kinds, only: int64, wp
-   use exponent_averages, only: sign_bound
+   use exponent_averages, only: sign_of
    use motion_classes, only: class_names, cycle_motion, fixed_point, reason_names
    use namelist_input, only: namelist_file_type, word_length
    use netcdf_output, only: output_file_type
@@ -168,24 +168,24 @@ contains
       !> Exponents and their errors.
       subroutine put_exponents()
          real(wp), dimension(max(most_with_zeros, settings%exponents), size(findings)) :: &
-            bars, bounds, values
+            bars, signs, values
          integer :: dimensions(2), k, n
 
          values = ieee_value(1.0_wp, ieee_quiet_nan)
          bars = values
-         bounds = values
+         signs = values
          do k = 1, size(findings)
             if (.not. allocated(findings(k)%attractor%exponents)) cycle
             n = size(findings(k)%attractor%exponents)
             values(:n, k) = findings(k)%attractor%exponents%value
             bars(:n, k) = findings(k)%attractor%exponents%error
-            bounds(:n, k) = sign_bound(findings(k)%attractor%exponents, settings%zero_level)
+            signs(:n, k) = sign_of(findings(k)%attractor%exponents, settings%zero_level, &
+                                   settings%longest_bar)
          end do
          dimensions = [file%dimension("exponent", size(values, 1)), rows]
          call file%table(dimensions, "lyapunov_exponent", values, "Lyapunov exponents, descending")
          call file%table(dimensions, "lyapunov_error", bars, "standard errors of the exponents")
-         call file%table(dimensions, "sign_bound", bounds, &
-                         "absolute value up to which an exponent has no sign")
+         call file%table(dimensions, "sign", signs, "sign of the exponent, 2: unclear")
       end subroutine put_exponents
    end subroutine write_attractors
 

@@ -7,7 +7,7 @@ module exponents_files
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
    use exponent_averages, only: average_growth, dimension_of, exponent_type, running_averages, &
-                                sign_bound, without_sign
+                                sign_of, zero
    use lyapunov_spectrum, only: growth_type
    use namelist_input, only: elements, namelist_file_type
    use netcdf_output, only: output_file_type
@@ -29,8 +29,8 @@ module exponents_files
       real(wp) :: interval = missing
       !> Number of blocks
       integer :: blocks = missing_count
-      !> An exponent this close to zero has no sign
-      real(wp) :: zero_level = missing
+      !> Greatest absolute value of a zero exponent, longest error bar of one
+      real(wp) :: zero_level = missing, longest_bar = missing
       !> Tolerances at which all is measured once more
       real(wp) :: check_tolerances(8) = absent
       !> Longest steps with which all is measured once more
@@ -99,10 +99,10 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(exponent_type), allocatable :: exponents(:)
       type(output_file_type) :: file
-      real(wp), dimension(settings%count, size(options)) :: bars, bounds, values
+      real(wp), dimension(settings%count, size(options)) :: bars, values
       real(wp), dimension(size(options)) :: dimension, dimension_error
       real(wp), allocatable :: averages(:, :), blocks(:, :), time(:)
-      integer :: i, ids(4)
+      integer :: i, ids(4), signs(settings%count, size(options))
       logical :: flow
 
       allocate (blocks(settings%count, settings%blocks))
@@ -111,7 +111,7 @@ contains
          exponents = average_growth(measured(i)%growth, measured(i)%length, settings%blocks, flow)
          values(:, i) = exponents%value
          bars(:, i) = exponents%error
-         bounds(:, i) = sign_bound(exponents, settings%zero_level)
+         signs(:, i) = sign_of(exponents, settings%zero_level, settings%longest_bar)
          call dimension_of(exponents, settings%zero_level, dimension(i), dimension_error(i))
       end do
       do i = 1, settings%count
@@ -137,8 +137,7 @@ contains
          call file%column(ids(3), "t", first%t_begin + time, "time")
          call file%table(ids([1, 2]), "value", values, "exponent")
          call file%table(ids([1, 2]), "error", bars, "standard error from blocks")
-         call file%table(ids([1, 2]), "sign_bound", bounds, &
-                         "absolute value up to which an exponent has no sign")
+         call file%table(ids([1, 2]), "sign", real(signs, wp), "sign of the exponent, 2: unclear")
          call file%table(ids([1, 4]), "block_value", blocks, "exponent in each block")
          call file%table(ids([1, 3]), "running_average", averages, "plain average up to a time")
          call put_scene(file, scene, histories)
@@ -148,8 +147,8 @@ contains
          call file%attribute("t_turning", settings%t_turning)
          call file%attribute("interval", first%interval)
          call file%attribute("zero_level", settings%zero_level)
-         call file%attribute("zero_exponents", &
-                             int(count(without_sign(exponents, settings%zero_level)), int64))
+         call file%attribute("longest_bar", settings%longest_bar)
+         call file%attribute("zero_exponents", int(count(signs(:, 1) == zero), int64))
          call file%attribute("least_share", first%least_share)
          call file%attribute("steps_accepted", first%steps)
          call file%attribute("steps_implicit", first%implicit_steps)

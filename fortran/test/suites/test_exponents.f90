@@ -7,7 +7,8 @@ module test_exponents
    use block_roots, only: roots_of_block
    use exponent_runs, only: solve => find_exponents
    use expectations, only: expect, expect_between, expect_close, expect_success
-   use exponent_averages, only: average_growth, dimension_of, exponent_type, without_sign
+   use exponent_averages, only: average_growth, dimension_of, exponent_type, sign_of, unclear, &
+                                without_sign, zero
    use dde_kinds, only: wp
    use lyapunov_spectrum, only: growth_settings_type, growth_type
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
@@ -301,6 +302,11 @@ contains
       call expect(error, without_sign(exponents(1), 1.0e-5_wp), "within three error bars")
       exponents(1)%error = 0.03_wp
       call expect(error, .not. without_sign(exponents(1), 1.0e-5_wp), "beyond them")
+      exponents%value = [1.0e-6_wp, 1.0e-6_wp, -2.0e-5_wp]
+      exponents%error = [1.0e-4_wp, 1.0e-3_wp, 1.0e-5_wp]
+      call expect(error, all(sign_of(exponents, 1.0e-5_wp, 1.0e-3_wp) &
+                              == [zero, unclear, unclear]), &
+                  "zero within the level and a short bar alone")
 
    contains
 

@@ -7,7 +7,13 @@ module exponent_averages
    implicit none (type, external)
    private
    public :: average_growth, dimension_of, error_bars, exponent_type, running_averages, &
-             sign_bound, without_sign
+             sign_of, without_sign
+   public :: zero, positive, unclear
+
+   !> Signs of an exponent; `unclear` is neither zero nor more than its error bars from it.
+   enum, bind(c)
+      enumerator :: negative = -1, zero, positive, unclear
+   end enum
 
    !> An exponent this many error bars from zero, or closer, has no sign.
    real(wp), parameter :: error_bars = 3.0_wp
@@ -154,25 +160,30 @@ contains
       end do
    end subroutine running_averages
 
-   !> Whether an exponent is zero within its error.
+   !> Whether an exponent is zero within its error: zero or of an unclear sign.
    elemental logical function without_sign(exponent, zero_level) result(value)
       !> The exponent
       type(exponent_type), intent(in) :: exponent
       !> Absolute value up to which an exponent is zero, whatever the error bar
       real(wp), intent(in) :: zero_level
 
-      value = abs(exponent%value) <= sign_bound(exponent, zero_level)
+      value = abs(exponent%value) <= max(zero_level, error_bars*exponent%error)
    end function without_sign
 
-   !> Absolute value up to which an exponent has no sign.
-   elemental real(wp) function sign_bound(exponent, zero_level) result(value)
+   !> The sign of an exponent, on which its class, all counts and all tables rest.
+   elemental integer function sign_of(exponent, zero_level, longest_bar) result(found)
       !> The exponent
       type(exponent_type), intent(in) :: exponent
-      !> Absolute value up to which an exponent is zero, whatever the error bar
+      !> Greatest absolute value of a zero exponent
       real(wp), intent(in) :: zero_level
+      !> Longest error bar (of three standard errors) of a zero exponent
+      real(wp), intent(in) :: longest_bar
 
-      value = max(zero_level, error_bars*exponent%error)
-   end function sign_bound
+      found = merge(positive, negative, exponent%value > 0.0_wp)
+      if (.not. without_sign(exponent, zero_level)) return
+      found = merge(zero, unclear, abs(exponent%value) <= zero_level &
+                    .and. error_bars*exponent%error <= longest_bar)
+   end function sign_of
 
    !> Dimension of Kaplan and Yorke, k + (lambda_1 + ... + lambda_k)/|lambda_(k+1)|, k the most
    !> exponents whose sum is not negative; those without sign count as 0. Not a number where more

@@ -1,6 +1,6 @@
 !> The classes of motion, and the class by Lyapunov exponents.
 module motion_classes
-   use exponent_averages, only: error_bars, exponent_type, without_sign
+   use exponent_averages, only: error_bars, exponent_type, positive, sign_of, unclear, zero
    use dde_kinds, only: wp
    implicit none (type, external)
    private
@@ -52,19 +52,14 @@ contains
       real(wp), intent(in) :: zero_level
       !> Longest error bar (of three standard errors) of a zero exponent
       real(wp), intent(in) :: longest_bar
-      logical :: signless(size(exponents)), zero(size(exponents))
-      integer :: positive, zeros
+      integer :: signs(size(exponents))
 
-      signless = without_sign(exponents, zero_level)
-      zero = abs(exponents%value) <= zero_level &
-             .and. error_bars*exponents%error <= longest_bar
-      positive = count(exponents%value > 0.0_wp .and. .not. signless)
-      zeros = count(zero)
+      signs = sign_of(exponents, zero_level, longest_bar)
       found = undecided
-      if (positive > 0) then
-         if (any(signless) .or. positive == size(exponents)) found = chaos
-      else if (zeros < size(exponents) .and. all(zero .eqv. signless)) then
-         select case (zeros)
+      if (any(signs == positive)) then
+         if (any(signs == zero .or. signs == unclear) .or. all(signs == positive)) found = chaos
+      else if (any(signs /= zero) .and. all(signs /= unclear)) then
+         select case (count(signs == zero))
          case (0)
             found = fixed_point
          case (1)
