@@ -40,6 +40,7 @@ contains
                    new_unittest("vectors lost give a bound or an error", test_lost), &
                    new_unittest("a vector that shrinks fast", test_fast), &
                    new_unittest("slips at gamma = 1e8", test_slips), &
+                   new_unittest("no vector goes on as noise of any size", test_noise), &
                    new_unittest("an observer", test_observed), &
                    new_unittest("refusals", test_refusals), &
                    new_unittest("progress", test_progress)]
@@ -175,6 +176,26 @@ contains
       end do
       call expect(error, measured(1)%steps < measured(2)%steps, "more steps than radau9")
    end subroutine test_slips
+
+   !> Without delay at gamma = 1e4, rounding left vectors of size 1e13 and more, until one was
+   !> infinite. What is left has the size of the others and is orthogonal to them.
+   subroutine test_noise(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(growth_type) :: measured
+
+      call measure_growth(build_block(tau=0.0_wp, epsilon=0.8_wp, xi=0.5_wp, gamma=1.0e4_wp, &
+                                      v=1.1_wp), &
+                          growth_settings_type(exponents=3, t_begin=1000.0_wp, t_end=1100.0_wp, &
+                                               interval=20.0_wp, bounds=.true., across_flow=.true.), &
+                          at_tolerance(1.0e-8_wp, "auto"), measured, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      associate (vectors => reshape(measured%continuation%y(4:), [3, 2]))
+         call expect(error, all(norm2(vectors, dim=1) < 1.0_wp), "a vector is large")
+      end associate
+      call expect(error, all(measured%growth(2, :) < -1.0e4_wp*measured%length), "no bound")
+   end subroutine test_noise
 
    !> An observer sees the whole time once, also where intervals are halved, and changes nothing.
    subroutine test_observed(error)

@@ -273,6 +273,7 @@ contains
       type(continuation_type) :: before
       type(integration_result) :: outcome
       real(wp) :: first_half(size(growth)), lost, norm(size(growth)), share
+      real(wp), allocatable :: slope(:)
 
       growth = 0.0_wp
       lost = noise*max(options%relative, epsilon(1.0_wp))/vector_size
@@ -289,6 +290,7 @@ contains
       measured%time = measured%time + (time - before%time(1))
       measured%steps = measured%steps + outcome%accepted
       measured%implicit_steps = measured%implicit_steps + outcome%implicit_steps
+      slope = measured%continuation%slope
       call orthonormalise(tangent, vector_size, settings%across_flow, &
                           measured%continuation, norm, share)
       if (share > lost) then
@@ -297,6 +299,10 @@ contains
          if (present(observer)) call observer%keep_interval()
       else if (halvings == 0 .and. settings%bounds) then
          growth = log(max(norm, tiny(1.0_wp))/vector_size)
+         ! noise need not be orthogonal to the others, nor of this size
+         measured%continuation%slope = slope
+         call orthonormalise(tangent, vector_size, settings%across_flow, &
+                             measured%continuation, norm, share)
          if (present(observer)) call observer%keep_interval()
       else if (outcome%accepted <= 1 .and. .not. settings%bounds) then
          ! lost within a step
