@@ -22,8 +22,8 @@ rule docs:
             ]
         ),
     shell:
-        "(setup/setup.sh docs"
+        "said=$( (setup/setup.sh docs"
         " && docs/.venv/bin/ford --quiet docs/ford.md"
         " && docs/.venv/bin/python docs/offline_pages.py {output:q})"
-        " > {log:q} 2>&1 || {{ cat {log:q} >&2; exit 1; }};"
+        ' 2>&1 | tee {log:q}) || {{ echo "$said" >&2; exit 1; }};'
         " ! grep -i warning {log:q} >&2"

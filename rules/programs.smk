@@ -35,10 +35,10 @@ rule program:
         digest=digest_of_program(),
     # two builds must not write one build folder at the same time
     shell:
-        "(flock 9"
+        "said=$( (flock 9"
         " && cmake --preset release -S fortran"
         " && cmake --build build/release --parallel {threads} --target spring_block{wildcards.quad:q})"
-        " > {log:q} 2>&1 9> build/lock || {{ cat {log:q} >&2; exit 1; }}"
+        ' 2>&1 9> build/lock | tee {log:q}) || {{ echo "$said" >&2; exit 1; }}'
 
 
 rule model:
@@ -56,8 +56,8 @@ rule model:
     params:
         digest=lambda wildcards: digest_of_model(wildcards.model),
     shell:
-        "python -P -m generator --name {wildcards.model:q} {input:q} {output:q}"
-        " > {log:q} 2>&1 || {{ cat {log:q} >&2; exit 1; }}"
+        "said=$(python -P -m generator --name {wildcards.model:q} {input:q} {output:q}"
+        ' 2>&1 | tee {log:q}) || {{ echo "$said" >&2; exit 1; }}'
 
 
 for run in RUNS:

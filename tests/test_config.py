@@ -154,7 +154,13 @@ REFUSED = [
     (("atlas", "planes", "xi_05", "tau_window"), [-0.1, 5.0], ">= 0.0"),
     # values that contradict others: the range is what the other value leaves
     (("scenes", "torus", "t_transient"), 8000.0, "a finite number >= 0 and < t_end = 8000.0"),
-    (("scenes", "torus", "sample_interval"), 8000.5, "> 0 and <= t_end = 8000.0"),
+    (("scenes", "torus", "sample_interval"), 8000.5, " and <= t_end = 8000.0"),
+    (("scenes", "torus", "sample_interval"), 1e-7, ">= 8e-05 (100000000 samples) and <= t_end = "),
+    (
+        ("scenes", "torus", "t_end"),
+        1e12,
+        "sample_interval = 0.05; expected a finite number >= 10000.0 (",
+    ),
     (("scenes", "torus", "exponents", "t_end"), 2000.0, "> t_transient = 2000.0 and > tau = 10.0"),
     (("scenes", "fixed_point", "exponents"), {"count": 4}, ">= 2 and <= 3 without delay"),
     (("figures", "true_torus", "rows", "a", "scene"), "no_delay", "with the key attractors"),
@@ -312,8 +318,8 @@ def test_samples_of_an_observation_suffice_for_a_spectrum(config, section):
     checked(copy.deepcopy(config))
     for interval, words in (
         (100.0 / (4.5 * FEWEST_SAMPLES - 2), f"at least {FEWEST_SAMPLES} samples"),
-        (1e-7, "at most 100000000 samples"),
-        (1e-310, "at most 100000000 samples"),
+        (1e-7, "(100000000 samples)"),
+        (1e-310, "(100000000 samples)"),
         (100.1, "<= t_observed = 100.0"),
     ):
         given["sample_interval"] = interval

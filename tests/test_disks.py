@@ -32,7 +32,7 @@ def test_program_on_such_a_disk(programs, good_groups, program, disk, reason):
 
 def test_disk_that_fills_up_ends_a_trajectory(programs, good_inputs):
     """At once: all of it would take minutes."""
-    values = {**good_inputs["trajectory"], "t_end": 1e8}
+    values = {**good_inputs["trajectory"], "t_end": 1e8, "sample_interval": 1.0}
     programs.write({"scene": values})
     command = programs.command("trajectory")
     begun = time.monotonic()
@@ -56,6 +56,17 @@ def test_script_on_a_full_disk(scratch):
     )
     assert 'figure_1.py", line' not in run.stderr
     assert run.stdout == ""
+
+
+def test_reason_reaches_the_screen_where_the_log_has_no_room(scratch, tmp_path):
+    """Log and result fill the same disk."""
+    settings = tmp_path / "full.yaml"
+    settings.write_text("{ pathvars: { results: full/run }, scenes: { torus: { t_end: 8000.0 } } }")
+    target = "full/run/trajectories/torus.nc"
+    command = [SNAKEMAKE, "--cores", "1", target, *SMOKE, settings]
+    run = on_disk(FULL.replace("4k", "200k"), "full", scratch.folder, *command)
+    assert run.returncode != 0
+    assert f"error: {target}: cannot write: No space left on device{REMEDY}" in run.stderr
 
 
 def test_home_that_cannot_be_written_is_not_needed(scratch, monkeypatch):

@@ -92,6 +92,24 @@ def test_result_is_on_the_disk_before_it_has_its_name(programs, good_groups, pro
     assert folder == "fsync "
 
 
+@pytest.mark.parametrize(
+    ("program", "group", "key", "value", "words"),
+    [
+        ("trajectory", "scene", "sample_interval", 1e-8, "scene 'torus': sample_interval = 1.0E-"),
+        ("trajectory", "scene", "t_end", 1e12, "scene 'torus': sample_interval = 0.25; expected "),
+        ("exponents", "exponents", "t_end", 1e12, "exponents%interval = "),
+        ("measure", "cases", "t_end", [1e12, 1e12], "case 'decay': sample_interval = 0.5; "),
+    ],
+)
+def test_too_many_samples_are_refused(programs, good_groups, program, group, key, value, words):
+    """Before the run: their number would overflow, and their file fill the disk."""
+    groups = good_groups[program]
+    groups[group] = {**groups[group], key: value}
+    line = refusal(programs, programs.run_groups(program, groups))
+    assert line.startswith(f"error: input.nml: {words}")
+    assert "expected a finite number >= " in line
+
+
 @every_program
 def test_bad_input_is_refused(programs, good_groups, program):
     """The line names the file, and group, key and range where they are wrong."""

@@ -1,4 +1,4 @@
-"""Progress: nothing when short, otherwise a line every 5 per cent."""
+"""Progress: nothing when short, otherwise a line after a second and one every 5 per cent."""
 
 import re
 import signal
@@ -9,7 +9,10 @@ from typing import IO
 import pytest
 from conftest import Programs
 
-TOLD = re.compile(r"trajectory of torus: (\d+) %, (\d+) of (\d+), (?:\d+ min )?\d+ s (left|in all)")
+TOLD = re.compile(
+    r"trajectory of torus \(about 33 MB before compression\): "
+    r"(\d+) %, (\d+) of (\d+), (?:\d+ (?:h|min) )?\d+ (?:min|s) (left|in all)"
+)
 """A line of progress: per cent, samples done, samples in all."""
 
 
@@ -49,6 +52,17 @@ def test_log_gets_a_line_every_five_per_cent(long_run):
     assert all(percent == 100 * done // total for percent, done, total in told)
     assert {total for *_, total in told} == {2000001}
     assert [line.endswith(" in all") for line in lines] == [False] * (len(lines) - 1) + [True]
+
+
+def test_forecast_comes_at_once(programs, good_inputs):
+    """Of a run of hours, long before its first 5 per cent."""
+    endless = {**good_inputs["trajectory"], "t_end": 1e9, "sample_interval": 500.0}
+    programs.write({"scene": {**endless, "variables": ["v"]}})
+    with programs.begin("trajectory", stderr=subprocess.PIPE, text=True) as run:
+        (told,) = numbers_in([run.stderr.readline().rstrip("\n")])
+        run.kill()
+    assert told[0] == 0
+    assert told[2] == 2000001
 
 
 def test_standard_error_that_takes_nothing_does_not_stop_the_work(long_run):

@@ -13,6 +13,7 @@ from dry_runs import jobs_in
 
 from scripts.files.read_config import ConfigError, merge, parse, read
 from scripts.namelists.study_cases import measured_study
+from scripts.workflow import plan as plans
 from scripts.workflow.plan import CONFIG, added, name_of, read_plan
 
 SMALL = """
@@ -214,6 +215,22 @@ def test_scene_of_the_paper_can_be_measured_alone(tmp_path):
 def test_results_lie_in_no_folder_of_sources(folder):
     with pytest.raises(ConfigError, match=f"results = '{folder}': .* expected a new folder"):
         read_plan({"pathvars": {"results": folder}})
+
+
+def test_results_lie_beside_others(tmp_path, monkeypatch):
+    """In one folder, but neither in other results nor where anything else lies."""
+    monkeypatch.setattr(plans, "CONFIG", tmp_path / "config" / "config.yaml")
+    (tmp_path / "other" / "one" / "logs").mkdir(parents=True)
+    (tmp_path / "other" / "one" / "index.html").touch()
+    (tmp_path / "mixed" / "one" / "logs").mkdir(parents=True)
+    (tmp_path / "mixed" / "deeper").mkdir()
+    (tmp_path / "mixed" / "deeper" / "script.py").touch()
+    (tmp_path / "linked").symlink_to(tmp_path / "other")
+    for folder in ("new", "new/one", "other/two", "other/two/three", "other/one"):
+        assert plans.checked_folder(folder) == folder
+    for folder in ("other", "other/one/two", "mixed/two", "mixed/deeper/two", "linked/two"):
+        with pytest.raises(ConfigError, match="expected a new folder, one beside other results"):
+            plans.checked_folder(folder)
 
 
 def test_new_file_overwrites_none(tmp_path):

@@ -13,7 +13,7 @@ LEAST_LN_V, LARGEST_LN_V = -700.0, 700.0
 MOST_POINTS = 1_000_000
 """Points that one run of the program takes."""
 MOST_SAMPLES = 100_000_000
-"""Samples that it takes at a point."""
+"""Samples of a run, or at a point: their spectrum takes 3 GB of memory."""
 FEWEST_SAMPLES = 16
 """Samples of a segment of a spectrum."""
 
@@ -21,6 +21,14 @@ FEWEST_SAMPLES = 16
 def wrong(place: str, values: dict, key: str, expected: str) -> str:
     """A problem of one value as a line."""
     return f"{place}: {key} = {values[key]!r}; expected {expected}"
+
+
+def check_samples(place: str, run: dict, series: int = 1, length: str = "t_end") -> Iterator[str]:
+    """Samples farther apart than the run is long, or too many where several series are held."""
+    end, most = run[length], MOST_SAMPLES // series
+    if not end / most <= run["sample_interval"] <= end:
+        expected = f"a finite number >= {end / most} ({most} samples) and <= {length} = {end}"
+        yield wrong(place, run, "sample_interval", expected)
 
 
 def contradictions(config: dict) -> Iterator[str]:
@@ -121,17 +129,12 @@ def window(
 def _check_samples(place: str, observation: dict, spectra: dict) -> Iterator[str]:
     """Samples between the beginning and the end, enough for a spectrum and not too many."""
     interval, length = observation["sample_interval"], observation["t_observed"]
-    samples = length / interval
     segments = 1 + (spectra["segments"] - 1) * (1 - spectra["overlap"])
-    if interval > length:
-        expected = f"a finite number > 0 and <= t_observed = {length}"
-    elif not samples <= MOST_SAMPLES:
-        expected = f"at most {MOST_SAMPLES} samples in t_observed = {length}"
-    elif math.floor((math.floor(samples) + 1) / segments) < FEWEST_SAMPLES:
+    problems = list(check_samples(place, observation, length="t_observed"))
+    if not problems and (math.floor(length / interval) + 1) / segments < FEWEST_SAMPLES:
         expected = (
             f"at least {FEWEST_SAMPLES} samples in each of {spectra['segments']} segments of"
             f" t_observed = {length}"
         )
-    else:
-        return
-    yield wrong(place, observation, "sample_interval", expected)
+        problems = [wrong(place, observation, "sample_interval", expected)]
+    yield from problems

@@ -56,6 +56,7 @@ def _contradictions_of_motions(config: dict):
             yield f"{place} chains: {name!r}; expected one of: {', '.join(config['chains'])}"
     for blocks in study["blocks"]:
         yield from _contradictions_of_ends(place, {**study, "blocks": blocks})
+    yield from check_attractors.check_samples(place, study, max(study["blocks"]))
     begin = study["t_transient"] + study["t_turning"]
     if begin >= study["t_end"]:
         expected = f"a finite number > t_transient + t_turning = {begin}"
@@ -77,8 +78,7 @@ def _contradictions_of_chain(place: str, chain: dict):
         yield wrong(f"{place} disturbance", chain["disturbance"], "block", expected)
     if chain["t_transient"] >= t_end:
         yield wrong(place, chain, "t_transient", f"a finite number >= 0 and < t_end = {t_end}")
-    if chain["sample_interval"] > t_end:
-        yield wrong(place, chain, "sample_interval", f"a finite number > 0 and <= t_end = {t_end}")
+    yield from check_attractors.check_samples(place, chain, blocks)
     if chain["law"].startswith(PREFIX):
         yield wrong(place, chain, "law", "a law with inertia, which chains have")
 

@@ -168,8 +168,7 @@ def _contradictions_of_scene(place: str, scene: dict):
     transient, t_end, wanted = scene["t_transient"], scene["t_end"], scene.get("exponents")
     if transient >= t_end:
         yield wrong(place, scene, "t_transient", f"a finite number >= 0 and < t_end = {t_end}")
-    if scene["sample_interval"] > t_end:
-        yield wrong(place, scene, "sample_interval", f"a finite number > 0 and <= t_end = {t_end}")
+    yield from check_attractors.check_samples(place, scene)
     if wanted and scene["tau"] == 0 and wanted["count"] > EQUATIONS:
         expected = f"a whole number >= 2 and <= {EQUATIONS} without delay"
         yield wrong(f"{place} exponents", wanted, "count", expected)
@@ -196,7 +195,7 @@ def _contradictions_of_family(config: dict, name: str, family: dict):
 
 
 def _contradictions_of_measured(study: dict, scenes: dict):
-    """Names that mean nothing or two things, and samples farther apart than the run is long."""
+    """Names that mean nothing or two things, and samples too far apart or too many."""
     place = "config work_precision"
     for name in study["scenes"]:
         if name not in scenes:
@@ -210,8 +209,7 @@ def _contradictions_of_measured(study: dict, scenes: dict):
                 f"{place} cases: {name!r}; expected a name that no scene has (or the scene under"
                 " work_precision scenes)"
             )
+    runs = len(study["methods"]) * len(study["tolerances"])
     for kind in ("scenes", "cases"):
         for name, case in study[kind].items():
-            if case["sample_interval"] > case["t_end"]:
-                expected = f"a finite number > 0 and <= t_end = {case['t_end']}"
-                yield wrong(f"{place} {kind} {name}", case, "sample_interval", expected)
+            yield from check_attractors.check_samples(f"{place} {kind} {name}", case, runs)

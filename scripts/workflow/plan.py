@@ -138,18 +138,22 @@ def read_plan(overlay: dict) -> Plan:
 
 def checked_folder(results: str) -> str:
     """The folder of the results, which lies in none of the project's own."""
-    project = CONFIG.parents[1]
-    first = results.split("/")[0]
-    if (
-        first != RESULTS
-        and (project / first).exists()
-        and not (project / results / "logs").is_dir()
-    ):
+    folder, first = CONFIG.parents[1] / results, results.split("/")[0]
+    above = filter(Path.exists, folder.parents[: results.count("/")])
+    is_new = not folder.exists() and all(map(holds_results_alone, above))
+    if first != RESULTS and not is_new and not (folder / "logs").is_dir():
         raise ConfigError(
             f"config pathvars: results = {results!r}: {first} is there, without results; expected "
-            f"a new folder, or one in {RESULTS}/"
+            f"a new folder, one beside other results, or one in {RESULTS}/"
         )
     return results
+
+
+def holds_results_alone(folder: Path) -> bool:
+    """Whether nothing is in a folder but folders of results, at any depth."""
+    if folder.is_symlink() or not folder.is_dir():
+        return False
+    return all((part / "logs").is_dir() or holds_results_alone(part) for part in folder.iterdir())
 
 
 def plan_of_paper(config: dict, folder: str) -> Plan:

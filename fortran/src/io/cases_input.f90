@@ -3,7 +3,7 @@ module cases_input
    use block_parameters, only: missing_history, missing_parameters
    use dde_errors, only: error_type
    use measured_case, only: case_type
-   use value_checks, only: missing
+   use value_checks, only: check_number, missing, most_samples
    implicit none (type, external)
    private
    public :: check_cases, missing_case, most_cases
@@ -29,6 +29,8 @@ contains
       do i = 1, size(cases)
          call cases(i)%parameters%check(path//": case '"//trim(cases(i)%name)//"'", error)
          call cases(i)%history%check(path//": case '"//trim(cases(i)%name)//"'", error)
+         call check_number(error, path//": case '"//trim(cases(i)%name)//"'", "sample_interval", &
+                           cases(i)%sample_interval, at_least=cases(i)%t_end/most_samples)
       end do
    end subroutine check_cases
 end module cases_input

@@ -12,7 +12,7 @@ module exponents_files
    use namelist_input, only: elements, namelist_file_type
    use netcdf_output, only: output_file_type
    use scene_input, only: check_scene, scene_type
-   use value_checks, only: absent, check_count, missing, missing_count
+   use value_checks, only: absent, check_count, check_number, missing, missing_count, most_samples
    implicit none (type, external)
    private
    public :: exponents_settings_type, read_exponents, write_exponents
@@ -79,6 +79,8 @@ contains
       call file%close(error)
       call check_scene(path, scene, error)
       call check_count(error, path, "exponents%blocks", exponents%blocks, at_least=2)
+      call check_number(error, path, "exponents%interval", exponents%interval, &
+                        at_least=exponents%t_end/most_samples*exponents%count)
    end subroutine read_exponents
 
    !> Write the exponents of a scene: the first run has its own settings, the others are checks.

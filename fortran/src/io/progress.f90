@@ -1,4 +1,5 @@
-!> Progress of a long program on standard error: a line every 5 %. Short programs write nothing.
+!> Progress of a long program on standard error: a line after a second, with a forecast, and one
+!> every 5 %. Short programs write nothing.
 module progress
    use, intrinsic :: iso_fortran_env, only: error_unit
    use dde_errors, only: text
@@ -9,10 +10,10 @@ module progress
    public :: progress_type
 
    !> Seconds before the first line.
-   integer, parameter :: patience = 2
+   integer, parameter :: patience = 1
    !> Per cent between two lines.
    integer, parameter :: step = 5
-   !> Looks at the clock in one part of the work.
+   !> Looks at the clock in one part of the work, at least.
    integer, parameter :: looks = 1000
 
    !> Progress of work in one part, or in several of about the same length. Programs with several
@@ -31,8 +32,8 @@ module progress
       integer(int64) :: ticks = 1
       !> Pieces done when the clock is looked at next
       integer :: next = 0
-      !> Per cent in the last line
-      integer :: percent = 0
+      !> Per cent in the last line, -`step` before the first
+      integer :: percent = -step
    contains
       procedure :: advance, begin_part
    end type progress_type
@@ -79,7 +80,8 @@ contains
       real(wp) :: taken
 
       if (self%silent .or. (done < self%next .and. done < total)) return
-      self%next = done + max(1, total/looks)
+      ! the first pieces may take long
+      self%next = done + max(1, min(done, total/looks))
       call system_clock(now)
       ! as if all parts had as many pieces as this one
       pieces = (self%part - 1)*int(total, int64) + done

@@ -6,7 +6,7 @@ module scene_input
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use namelist_input, only: element_length, namelist_file_type, word_length
-   use value_checks, only: missing
+   use value_checks, only: check_number, missing, most_samples
    implicit none (type, external)
    private
    public :: check_scene, read_histories, read_scene, scene_type
@@ -54,6 +54,9 @@ contains
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
       call check_scene(path, scene, error)
+      call check_number(error, path//": scene '"//trim(scene%name)//"'", "sample_interval", &
+                        scene%sample_interval, &
+                        at_least=scene%t_end/most_samples*scene%parameters%blocks)
    end subroutine read_scene
 
    !> Read and check the values for t <= 0 of each block: of a chain they are lists in the group

@@ -7,7 +7,7 @@ module trajectory_output
    use block_parameters, only: block_history_type
    use chain, only: blocks_in_order
    use dde, only: integration_result, sampler_type
-   use dde_errors, only: error_type
+   use dde_errors, only: error_type, text
    use dde_kinds, only: int64, wp
    use netcdf_output, only: output_file_type
    use program_arguments, only: stop_on
@@ -105,7 +105,9 @@ contains
                             block=1, blocks), i=1, variables)]
       end associate
       writer%next = 0.0_wp
-      writer%progress = progress_type("trajectory of "//trim(scene%name))
+      writer%progress = progress_type("trajectory of "//trim(scene%name)//" (about "//text( &
+                                      ceiling(8.0e-6_wp*writer%times*(1 + size(writer%wanted)))) &
+                                      //" MB before compression)")
    end function new_writer
 
    !> Define a variable over time, or over time and block.

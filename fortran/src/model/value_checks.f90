@@ -6,7 +6,7 @@ module value_checks
    use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: absent, check_choice, check_count, check_number, missing, missing_count
+   public :: absent, check_choice, check_count, check_number, missing, missing_count, most_samples
 
    !> Default of a number that must be given: not a number.
    real(wp), parameter :: missing = transfer([-1_int64, -1_int64], 1.0_wp)
@@ -14,6 +14,8 @@ module value_checks
    integer, parameter :: missing_count = -huge(1)
    !> Default of a number that may be left out, as the last of a list.
    real(wp), parameter :: absent = huge(1.0_wp)
+   !> Most samples of a run: their spectrum takes 3 GB of memory, and default integers count them.
+   integer, parameter :: most_samples = 100000000
 
 contains
 

@@ -187,7 +187,8 @@ contains
       call measure_growth(build_block(tau=0.0_wp, epsilon=0.8_wp, xi=0.5_wp, gamma=1.0e4_wp, &
                                       v=1.1_wp), &
                           growth_settings_type(exponents=3, t_begin=1000.0_wp, t_end=1100.0_wp, &
-                                               interval=20.0_wp, bounds=.true., across_flow=.true.), &
+                                               interval=20.0_wp, bounds=.true., &
+                                               across_flow=.true.), &
                           at_tolerance(1.0e-8_wp, "auto"), measured, failure)
       call expect_success(error, failure)
       if (allocated(error)) return

@@ -245,11 +245,13 @@ contains
       integer, intent(in) :: n
       integer, allocatable :: components(:)
       type(event_table) :: plain
-      integer :: i
+      logical :: looked_at(n)
 
       components = all_components(self, n)
       if (.not. same_type_as(self, plain)) return
-      components = pack(components, [(any(self%component == i), i=1, n)])
+      looked_at = .false.
+      looked_at(self%component) = .true.
+      components = pack(components, looked_at)
    end function components_of_table
 
    !> The component of a function of the table, or of an extension all that it reads.

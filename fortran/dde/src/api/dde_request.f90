@@ -11,7 +11,7 @@ module dde_request
    use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: causes, check, implicit_methods, integration_options, methods
+   public :: causes, check, check_problem, implicit_methods, integration_options, methods
 
    !> Methods. `taylor` is for problems that give their series. `auto` changes between it (the
    !> explicit pair for other problems) and an implicit method.
@@ -104,17 +104,21 @@ contains
 
    !> Refuse a problem that is not one.
    pure subroutine check_problem(problem, error)
+      !> The problem
       class(dde_problem_type), intent(in) :: problem
+      !> What is wrong
       type(error_type), allocatable, intent(out) :: error
       integer :: k
 
       if (problem%n < 1) then
          call raise(error, "integrate: n = "//text(problem%n)//" equations; at least 1 expected")
-      else if (.not. (allocated(problem%lag) .and. allocated(problem%component))) then
+      else if (allocated(problem%lag) .neqv. allocated(problem%component)) then
          call raise(error, "integrate: "//trim(merge("component", "lag      ", &
                                                      allocated(problem%lag)))//" is not allocated" &
                     //"; lag and component expected, or none of them (no delays)")
-      else if (size(problem%lag) /= size(problem%component)) then
+      end if
+      if (allocated(error) .or. .not. allocated(problem%lag)) return
+      if (size(problem%lag) /= size(problem%component)) then
          call raise(error, "integrate: "//text(size(problem%lag))//" delays for " &
                     //text(size(problem%component))//" delayed components; " &
                     //text(size(problem%component))//" expected")

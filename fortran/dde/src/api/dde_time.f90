@@ -4,7 +4,7 @@ module dde_time
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: instant, elapsed, later, too_short
+   public :: ascending, instant, elapsed, later, too_short
 
    !> Steps up to this share of the time no longer move a time.
    real(wp), parameter :: least_step = 1.0e-140_wp
@@ -18,6 +18,29 @@ module dde_time
    end type instant
 
 contains
+
+   !> Numbers of times in ascending order; equal times keep their order. Halves are merged.
+   pure recursive function ascending(times) result(order)
+      !> Times from one start
+      real(wp), intent(in) :: times(:)
+      integer :: order(size(times))
+      integer, allocatable :: numbers(:)
+      integer :: half, i, j, k
+      logical :: first
+
+      order = 1
+      half = size(times)/2
+      if (half == 0) return
+      numbers = [ascending(times(:half)), half + ascending(times(half + 1:))]
+      i = 1
+      do k = 1, size(times)
+         j = half + 1 + k - i
+         first = times(numbers(min(i, half))) <= times(numbers(min(j, size(times))))
+         first = (first .or. j > size(times)) .and. i <= half
+         order(k) = numbers(merge(i, j, first))
+         if (first) i = i + 1
+      end do
+   end function ascending
 
    !> Length up to which a step is too short, between the start and the end of a run. The end may
    !> be far beyond the time that the run reaches.

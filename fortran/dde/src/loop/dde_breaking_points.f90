@@ -9,7 +9,7 @@
 !> estimate covers the kink then: if the step is accepted, the kink is below the tolerance, and so
 !> are the smoother kinks that it would cause.
 module dde_breaking_points
-   use dde_kinks, only: coincide, kink_type, merged, same_point, sorted
+   use dde_kinks, only: coincide, each_once, kink_type, same_point, sorted
    use dde_time, only: elapsed, instant, later
    use dde_kinds, only: wp
    implicit none (type, external)
@@ -92,7 +92,7 @@ contains
       class(breaking_points), intent(inout) :: self
       type(kink_type), intent(in) :: kink
 
-      self%met = merged(self%met, [kink], self%origin)
+      self%met = each_once([self%met, kink], self%origin)
       call self%add_returns(kink, kink%at)
       call self%find_due()
    end subroutine add

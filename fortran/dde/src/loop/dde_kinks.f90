@@ -1,10 +1,10 @@
 !> Kinks, and ascending lists of them.
 module dde_kinks
-   use dde_time, only: elapsed, instant
+   use dde_time, only: ascending, elapsed, instant
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: coincide, kink_type, merged, same_point, sorted
+   public :: coincide, each_once, kink_type, same_point, sorted
 
    !> Points are one if their distance is below this share of their distance from the first kink.
    real(wp), parameter :: same_point = 16.0_wp*epsilon(1.0_wp)
@@ -42,60 +42,38 @@ contains
       value = elapsed(kink%at, next%at) <= same_point*abs(elapsed(origin, next%at))
    end function coincide
 
-   !> Two ascending lists as one. Points that coincide become one, with the fewest passages.
-   pure function merged(one, other, origin) result(points)
+   !> An ascending list in which points that coincide become one, with the fewest passages.
+   pure function each_once(ordered, origin) result(points)
       !> Ascending points
-      type(kink_type), intent(in) :: one(:)
-      !> More of them
-      type(kink_type), intent(in) :: other(:)
+      type(kink_type), intent(in) :: ordered(:)
       !> What their rounding is measured from
       type(instant), intent(in) :: origin
       type(kink_type), allocatable :: points(:)
-      type(kink_type) :: point
-      integer :: count, i, j
-      logical :: first
+      integer :: count, i
 
-      allocate (points(size(one) + size(other)))
+      points = ordered
       count = 0
-      i = 1
-      j = 1
-      do while (i <= size(one) .or. j <= size(other))
-         first = j > size(other)
-         if (.not. first .and. i <= size(one)) first = elapsed(one(i)%at, other(j)%at) > 0.0_wp
-         if (first) then
-            point = one(i)
-            i = i + 1
-         else
-            point = other(j)
-            j = j + 1
-         end if
+      do i = 1, size(ordered)
          if (count > 0) then
-            if (coincide(points(count), point, origin)) then
-               call points(count)%take_in(point)
+            if (coincide(points(count), ordered(i), origin)) then
+               call points(count)%take_in(ordered(i))
                cycle
             end if
          end if
          count = count + 1
-         points(count) = point
+         points(count) = ordered(i)
       end do
-      if (count < size(points)) points = points(:count)
-   end function merged
+      points = points(:count)
+   end function each_once
 
-   !> Points in ascending order, each once.
-   pure recursive function sorted(points, origin) result(ascending)
+   !> Points in any order as an ascending list, each once.
+   pure function sorted(points, origin) result(list)
       !> Points in any order
       type(kink_type), intent(in) :: points(:)
       !> What their rounding is measured from
       type(instant), intent(in) :: origin
-      type(kink_type), allocatable :: ascending(:)
+      type(kink_type), allocatable :: list(:)
 
-      if (size(points) < 2) then
-         ascending = points
-      else
-         associate (half => size(points)/2)
-            ascending = merged(sorted(points(:half), origin), sorted(points(half + 1:), origin), &
-                               origin)
-         end associate
-      end if
+      list = each_once(points(ascending(elapsed(origin, points%at))), origin)
    end function sorted
 end module dde_kinks

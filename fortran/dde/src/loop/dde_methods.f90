@@ -1,5 +1,6 @@
 !> The methods: how a step of each is made, how one follows another, and how long steps may be.
 module dde_methods
+   use dde_errors, only: error_type
    use dde_explicit_step, only: explicit_step_type
    use dde_implicit_step, only: implicit_cost, implicit_step_type, stages_of
    use dde_history, only: kept_components, memory_of_past
@@ -7,7 +8,7 @@ module dde_methods
    use dde_memory, only: bytes_of, lacks
    use dde_orders, only: explicit_method, radau_method, taylor_degree
    use dde_problem, only: dde_problem_type
-   use dde_request, only: implicit_methods, integration_options
+   use dde_request, only: check_problem, implicit_methods, integration_options
    use dde_step, only: step_type
    use dde_switch, only: least_trial
    use dde_taylor_step, only: taylor_step_type
@@ -39,22 +40,27 @@ contains
    end function price_of_trial
 
    !> Bytes that a run needs for its state, its method and the least number of steps that the
-   !> longest delay holds. `auto` is counted as its explicit method.
+   !> longest delay holds. `auto` is counted as its explicit method. Huge for a refused problem.
    pure real(wp) function memory_needed(problem, options) result(bytes)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Method and tolerances
       type(integration_options), intent(in) :: options
+      type(error_type), allocatable :: error
       type(tolerance_type) :: tolerance
       character(len=8) :: name
       integer :: degree, steps
 
+      bytes = huge(bytes)
+      call check_problem(problem, error)
+      if (allocated(error)) return
       tolerance = tolerance_type(problem%n, options%relative, options%absolute, &
                                  options%each_relative, options%each_absolute)
       name = name_of(problem, options%method, tolerance)
       degree = usual_degree
       if (name == "taylor") degree = taylor_degree(tolerance%level)
       bytes = memory_of_state(problem) + memory_of(problem, name)
+      if (.not. allocated(problem%lag)) return
       if (size(problem%lag) == 0) return
       steps = 1
       if (all(name /= implicit_methods)) then
@@ -80,7 +86,8 @@ contains
       real(wp) :: above, below, delays, height, n
 
       n = problem%n
-      delays = size(problem%lag)
+      delays = 0
+      if (allocated(problem%lag)) delays = size(problem%lag)
       select case (method)
       case ("radau5", "radau9", "radau13")
          stages = stages_of(method)

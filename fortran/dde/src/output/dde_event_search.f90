@@ -7,7 +7,7 @@ module dde_event_search
    use dde_dense_state, only: dense_state
    use dde_events, only: event_watcher_type
    use dde_step, only: step_type
-   use dde_time, only: instant
+   use dde_time, only: ascending, instant
    use dde_kinds, only: wp
    implicit none (type, external)
    private
@@ -70,7 +70,7 @@ contains
       logical, intent(out) :: ended
       integer, allocatable :: which(:)
       real(wp), allocatable :: grid(:, :), root(:)
-      integer :: i
+      integer :: found, i
 
       call self%here%take_up(step, start, step_end)
       ended = .false.
@@ -78,13 +78,15 @@ contains
       call watcher%values(self%here%t%hi, self%here%y, self%here%slope, self%g)
       if (self%stays(watcher)) return
       call self%fill_grid(watcher, grid)
-      allocate (root(0), which(0))
+      ! at each place of the grid and at up to two beside it
+      allocate (root(3*size(grid)), which(3*size(grid)))
+      found = 0
       do i = 1, size(self%g)
-         call self%find_passages(watcher, i, grid(:, i), root, which)
+         call self%find_passages(watcher, i, grid(:, i), root, which, found)
       end do
-      if (size(root) > 0) then
+      if (found > 0) then
          call self%event%take_up(step, start, step_end)
-         call self%report(watcher, root, which, share)
+         call self%report(watcher, root(:found), which(:found), share)
          ended = self%ended
          if (ended) step_end = self%event%t
          if (ended) return
@@ -124,15 +126,15 @@ contains
 
    !> Append the passages of one function: between places of the grid and places beside them where
    !> it may pass zero twice. On return its side is that at the end of the step.
-   subroutine find_passages(self, watcher, i, grid, root, which)
+   subroutine find_passages(self, watcher, i, grid, root, which, found)
       class(event_search), intent(inout) :: self
       class(event_watcher_type), intent(in) :: watcher
       integer, intent(in) :: i
       !> The function on the grid, shape (0:last)
       real(wp), intent(in) :: grid(0:)
-      !> Places of passages, and their functions
-      real(wp), allocatable, intent(inout) :: root(:)
-      integer, allocatable, intent(inout) :: which(:)
+      !> Places of passages and their functions, the first `found` of them
+      real(wp), intent(inout) :: root(:)
+      integer, intent(inout) :: which(:), found
       real(wp) :: before, g_before, vertex(0:1)
       integer :: k, last
 
@@ -168,9 +170,10 @@ contains
          side = sign_of(g, self%side(i))
          if (side /= self%side(i) .and. self%side(i)*watcher%direction(i) <= 0 &
              .and. self%side(i) /= 0) then
-            root = [root, place]
-            which = [which, i]
-            call self%locate(watcher, i, before, g_before, g, root(size(root)))
+            found = found + 1
+            root(found) = place
+            which(found) = i
+            call self%locate(watcher, i, before, g_before, g, root(found))
          end if
          self%side(i) = side
          before = place
@@ -200,14 +203,12 @@ contains
       integer, intent(in) :: which(:)
       !> Place of the event that ends the run, if one does
       real(wp), intent(inout) :: share
-      logical :: passed(size(root))
-      integer :: i
+      integer :: i, k, order(size(root))
 
-      passed = .true.
-      do while (any(passed))
-         i = minloc(root, dim=1, mask=passed)
+      order = ascending(root)
+      do k = 1, size(order)
+         i = order(k)
          if (self%ended .and. root(i) > share) exit
-         passed(i) = .false.
          call self%event%go_to(root(i), watcher%takes(which(i), size(self%event%y)))
          call watcher%take(which(i), self%event%t, self%event%y, self%event%slope)
          if (watcher%terminal(which(i))) then

@@ -51,6 +51,7 @@ contains
                    new_unittest("maxima", test_maxima), &
                    new_unittest("two passages in one step", test_pair), &
                    new_unittest("order of several functions", test_order), &
+                   new_unittest("thousands of events in one step", test_thousands), &
                    new_unittest("a zero where steps meet", test_zero_at_step_end), &
                    new_unittest("a fast function of time", test_fast), &
                    new_unittest("steps without events are not searched", test_bounds), &
@@ -223,6 +224,38 @@ contains
          call expect_close(error, table%time(:2)%hi, [1.0_wp, 2.0_wp], 1.0e-13_wp, methods(i))
       end do
    end subroutine test_zero_at_step_end
+
+   !> y = t passes 1000 levels in one step, each of 100 functions at one time: in order of time,
+   !> then of number. The square of their number would be 1e10 comparisons.
+   subroutine test_thousands(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: levels = 1000, functions = 100*levels
+      type(event_table) :: table
+      type(integration_options) :: options
+      type(integration_result) :: outcome
+      integer :: i, k, number(functions)
+
+      ! each level has the functions number(i), number(i) + levels, ...
+      number(:levels) = [(1 + modulo(617*i, levels), i=1, levels)]
+      options = at_tolerance(1.0e-6_wp)
+      options%first_step = 1.0_wp
+      table = event_table(spread(1, 1, functions), &
+                          [(position(number(:levels), 1 + modulo(i - 1, levels)) &
+                            /(levels + 1.0_wp), i=1, functions)], spread(1, 1, functions))
+      call run(error, quadrature(0, 0.0_wp), 0.0_wp, 1.0_wp, options, outcome, watcher=table)
+      call expect(error, outcome%accepted == 1, "one step")
+      call expect(error, table%received == functions, text(table%received)//" events")
+      if (allocated(error)) return
+      number = [((number(i) + levels*k, k=0, 99), i=1, levels)]
+      call expect(error, all(table%which(:functions) == number), "in order")
+   end subroutine test_thousands
+
+   !> Where a number stands in a list, as a real number.
+   pure real(wp) function position(list, number) result(place)
+      integer, intent(in) :: list(:), number
+
+      place = findloc(list, number, dim=1)
+   end function position
 
    !> A function of time that changes much faster than the solution, 1 + t: all of its
    !> zeros k pi/50 up to t = 100, looked at five times between two of them, at no further step.

@@ -219,15 +219,14 @@ contains
       type(error_type), allocatable, intent(out) :: error
       class(progress_receiver_type), intent(inout), optional :: progress
       class(interval_observer_type), intent(inout), optional :: observer
-      real(wp), allocatable :: growth(:, :)
-      real(wp) :: time(0:intervals)
+      real(wp), allocatable :: growth(:, :), time(:)
       integer :: i
 
       measured%interval = (t_end - measured%continuation%time(1))/intervals
-      time = [(t_end - (intervals - i - uneven(i))*measured%interval, i=0, intervals)]
+      allocate (time(0:intervals), growth(settings%vectors(), intervals))
+      time(:) = [(t_end - (intervals - i - uneven(i))*measured%interval, i=0, intervals)]
       time(0) = measured%continuation%time(1)
       time(intervals) = t_end
-      allocate (growth(settings%vectors(), intervals))
       do i = 1, intervals
          call pass(tangent, settings, options, time(i), most_halvings, measured, growth(:, i), &
                    error, observer)
