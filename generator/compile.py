@@ -12,7 +12,7 @@ SHARED = [SUPPORT / "model_border.f90", SUPPORT / "nilpotent_numbers.f90"]
 COMPILER = "gfortran"
 FLAGS = (
     "-O2 -std=f2018 -ffp-contract=off -fno-tree-slp-vectorize -frecursive -fstack-arrays"
-    " -fno-semantic-interposition"
+    " -fno-semantic-interposition -ffree-line-length-none"
 )
 """Short work arrays live on the stack; the rest is explained in fortran/CMakeLists.txt."""
 

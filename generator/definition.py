@@ -4,7 +4,6 @@ Expressions are read by Python's own parser and never evaluated: a definition ca
 """
 
 import ast
-import keyword
 import math
 import re
 from collections.abc import Iterable
@@ -14,10 +13,15 @@ from pathlib import Path
 import sympy
 from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
+from sympy.codegen.cfunctions import expm1, log1p
+
+from generator.fortran import in_words
 
 FUNCTIONS = {
     "exp": sympy.exp,
+    "expm1": expm1,
     "log": sympy.log,
+    "log1p": log1p,
     "sqrt": sympy.sqrt,
     "sin": sympy.sin,
     "cos": sympy.cos,
@@ -25,18 +29,8 @@ FUNCTIONS = {
 """The functions that an expression may have: all are analytic, and have series by a recurrence."""
 TIME = sympy.Symbol("t", real=True)
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,47}\Z")
-TAKEN = {
-    *("t", "y", "z", "dy", "dz", "j", "k", "wp", "self", "unit", "degree", "step", "arguments"),
-    *("form", "rate", "share", "first", "last", "used", "lanes", "vectors", "before", "dydt"),
-    *("by_y", "by_z", "lag", "past", "power", "coefficient", "delay", "state", "derivative"),
-    *("sum", "real", "abs", "merge", "size", "steady", "parameter", "component", "place", "delays"),
-    *("slow", "rate_before", "integer", "end", "do", "if", "top", "component_series"),
-    *("parameters", "left", "right", "value", "order", "delayed", "terms", "text", "tab"),
-    *("rows_y", "rows_z", "part", "number", "length"),
-    *("slot", "front", "lane", "block", "at", "last_tile", "second_difference", "start", "i"),
-    *FUNCTIONS,
-}
-"""Names of the generated code, which a model's own names would hide."""
+RESERVED = {"t", "derivative", "second_difference", *FUNCTIONS}
+"""Names with a meaning of their own in expressions."""
 KEYS = {
     *("name", "about", "source", "parameters", "states", "auxiliary", "definitions"),
     *("equations", "steady_state", "history", "fast", "domain"),
@@ -44,8 +38,6 @@ KEYS = {
 LARGEST_EXPONENT = 300
 """The argument of exp is refused beyond this, unless `domain` says otherwise: its products might
 overflow."""
-
-
 LARGEST_POWER = 64
 """Largest exponent that is a number: 9**9**9 has more digits than there is memory for."""
 LARGEST_LOGARITHM = 700
@@ -103,6 +95,8 @@ class Model:
     domain: dict[str, tuple[float, float]] = field(default_factory=dict)
     differences: dict[str, sympy.Symbol] = field(default_factory=dict)
     """Second difference along the chain of each state of which the equations take one."""
+    written: dict[str, str] = field(default_factory=dict)
+    """Names of the definition by those that stand for them here and in the generated code."""
 
     def symbol(self, name: str) -> sympy.Symbol:
         """The symbol of a parameter, a state or an auxiliary."""
@@ -127,11 +121,17 @@ class Model:
 
     def by_state(self, expression: sympy.Expr, state: str) -> sympy.Expr:
         """The derivative by a state, of which auxiliaries are functions."""
+        expression = self.plain(expression)
         result = expression.diff(self.symbol(state))
         for name, of in self.auxiliary.items():
             if of == state:
                 result += self.symbol(name) * expression.diff(self.symbol(name))
         return result
+
+    def plain(self, expression: sympy.Expr) -> sympy.Expr:
+        """An expression without expm1 and log1p, and with the names of exponentials."""
+        names = {sympy.exp(self.symbol(w)): self.symbol(v) for v, w in self.auxiliary.items()}
+        return sympy.expand_func(expression).xreplace(names)
 
     def at_steady_state(self, expression: sympy.Expr) -> sympy.Expr:
         """An expression with all states, now and before, at the steady state."""
@@ -182,14 +182,16 @@ class _Reader:
     """Reads the parts of a definition in turn."""
 
     def __init__(self, name: str, values: dict):
-        self.place = f"model {name}"
+        self.place, self.written = f"model {name}", {}
         if unknown := sorted(set(values) - KEYS):
             self.refuse("keys", ", ".join(unknown), f"only {', '.join(sorted(KEYS))}")
         for key in ("states", "equations"):
             if not isinstance(values.get(key), dict) or not values[key]:
                 self.refuse(key, values.get(key), "at least one entry")
+        values = self.with_safe_names(values)
         self.model = Model(
             name=name,
+            written=self.written,
             about=self.line("about", values.get("about", f"The model {name}.")),
             source=self.line("source", values.get("source", "")),
             parameters=[
@@ -211,7 +213,6 @@ class _Reader:
             if not found or found[1] not in model.states:
                 self.refuse(f"auxiliary {key}", text, "exp(STATE)")
             model.auxiliary[str(key)] = found[1]
-        self.check_names()
         self.open: list[str] = []
         if set(values["equations"]) != set(model.states):
             self.refuse(
@@ -225,12 +226,13 @@ class _Reader:
         self.read_rest(values)
 
     def refuse(self, what: str, value, expected: str):
-        raise ModelError(f"{self.place}: {what}: {value!r}; expected {expected}")
+        text = f"{self.place}: {what}: {value!r}; expected {expected}"
+        raise ModelError(in_words(text, self.written))
 
     def line(self, what: str, text, longest: int = LONGEST_TEXT) -> str:
         """A text on one line: as a comment of the generated code it must not begin another one."""
         line = " ".join(str(text).split())
-        if len(line) > longest:
+        if len(in_words(line, self.written)) > longest:
             self.refuse(what, f"{line[:30]}...", f"at most {longest} letters")
         return line
 
@@ -249,27 +251,25 @@ class _Reader:
             **{key: float(value) for key, value in numbers.items()},
         )
 
-    def check_names(self) -> None:
-        """Names are distinct for Fortran, which knows no upper and lower case."""
-        model, seen = self.model, set()
-        for name in [
-            *(one.name for one in model.parameters),
-            *model.states,
-            *model.auxiliary,
-            *model.definitions,
-        ]:
-            low = name.lower()
-            if not NAME.match(name) or low in TAKEN or keyword.iskeyword(name):
-                self.refuse(
-                    "name",
-                    name,
-                    "a letter, then letters, digits or _, no name of the generated code",
-                )
-            if re.search(r"_delayed_\d+\Z|_difference\Z", low):
-                self.refuse("name", name, "no name of a delayed state or a difference")
-            if low in seen:
-                self.refuse("name", name, "each name once, whatever its case")
-            seen.add(low)
+    def with_safe_names(self, values: dict) -> dict:
+        """The definition with a number and _ after the start of a name: so no other name ends."""
+        safe = {}
+        for key in ("parameters", "states", "auxiliary", "definitions"):
+            for name in map(str, values.get(key) or ()):
+                if name in safe or name in RESERVED or not NAME.match(name):
+                    taken = ", ".join([*sorted(RESERVED), *safe])
+                    self.refuse("name", name, f"a letter, then letters, digits or _; not {taken}")
+                safe[name] = f"{name[:24]}_{len(safe) + 1}_"
+        self.written = {new: old for old, new in safe.items()}
+        safe = {new: f"{new}_" for new in self.written} | safe
+        said = {**values, "fast": in_words(values.get("fast"), safe)}
+        for key, section in values.items():
+            if isinstance(section, dict):
+                inside = {} if key in ("parameters", "states") else safe
+                said[key] = {
+                    in_words(str(k), safe): in_words(s, inside) for k, s in section.items()
+                }
+        return said
 
     def read_rest(self, values: dict) -> None:
         """What a definition may leave out."""

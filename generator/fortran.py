@@ -1,6 +1,9 @@
 """Expressions and statements as text of Fortran."""
 
+import re
+
 import sympy
+from sympy.codegen.cfunctions import expm1, log1p
 
 SUM, PRODUCT, POWER, ATOM = range(4)
 """How tightly the parts of an expression hold together."""
@@ -64,7 +67,7 @@ class _Printer:
             return self.product(one)
         if one.is_Pow and one.base is not sympy.E:
             return self.power(one)
-        if one.func in (sympy.exp, sympy.log, sympy.sin, sympy.cos):
+        if one.func in (sympy.exp, sympy.log, sympy.sin, sympy.cos, expm1, log1p):
             return f"{one.func.__name__}({self.text(one.args[0], SUM)})", ATOM
         raise TypeError(f"no Fortran for {one}")
 
@@ -129,3 +132,10 @@ def wrapped(line: str, width: int = WIDTH) -> list[str]:
 def indented(lines: list[str], by: int = 3) -> list[str]:
     """Lines further to the right."""
     return [" " * by + line if line else line for line in lines]
+
+
+def in_words(text, names: dict[str, str]):
+    """A text with other names; what is no text is left as it is."""
+    if not isinstance(text, str):
+        return text
+    return re.sub(r"\b[A-Za-z]\w*", lambda word: names.get(word[0], word[0]), text)

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import sympy
+from sympy.codegen.cfunctions import expm1, log1p
 
 from generator.definition import Model
 
@@ -23,6 +24,9 @@ class Node:
     """Of a sum: what each argument is multiplied by, without variables."""
     constant: sympy.Expr = sympy.S.Zero
     exponent: sympy.Expr = sympy.S.Zero
+    exact: str = ""
+    """The function of `of` that coefficient 0 is, where its kind would lose digits."""
+    of: tuple["Node", ...] = ()
 
     @property
     def is_convolution(self) -> bool:
@@ -34,7 +38,7 @@ class Graph:
     """The operations of some expressions, each quantity once."""
 
     def __init__(self, model: Model, inputs: dict[sympy.Symbol, str]):
-        self.variables = model.variables
+        self.variables, self.plain = model.variables, model.plain
         self.known: dict[sympy.Expr, Node] = {
             symbol: Node("input", name) for symbol, name in inputs.items()
         }
@@ -85,6 +89,10 @@ class Graph:
             return self.add(UNARY[one.func], self.node(one.args[0]))
         if one.is_Pow:
             return self.power(one.base, one.exp)
+        if one.func in (expm1, log1p):
+            node = self.made(self.plain(one))
+            node.exact, node.of = one.func.__name__, (self.node(one.args[0]),)
+            return node
         raise TypeError(f"no recurrence for {one}")
 
     def circle(self, one: sympy.Expr) -> Node:
@@ -141,7 +149,7 @@ def in_order(roots: list[Node], given: frozenset[Node] = frozenset()) -> list[No
         if node in started:
             return
         started.add(node)
-        for one in () if node in given else node.args:
+        for one in () if node in given else (*node.args, *node.of):
             visit(one)
         found[node] = None
 

@@ -8,7 +8,7 @@ import sympy
 
 from generator import chain, chain_series, chain_tangents, pointwise, series, slow, tangents
 from generator.definition import TIME, Model
-from generator.fortran import text_of, wrapped
+from generator.fortran import in_words, text_of, wrapped
 from generator.graph import Graph, in_order
 from generator.recurrences import Constants, Recurrences, fetch_parameters
 from generator.series import Procedure
@@ -47,7 +47,7 @@ def write_module(model: Model) -> str:
         parts["history_series"] = {
             state: history_series_procedure(model, state) for state in model.states
         }
-    return rendered("model.f90.jinja", model=model, balance=balance, **parts)
+    return rendered("model.f90.jinja", model.written, model=model, balance=balance, **parts)
 
 
 def procedures(model: Model, balance: slow.Balance | None) -> dict[str, Procedure]:
@@ -80,10 +80,11 @@ def procedures_of_chain(model: Model, balance: slow.Balance | None) -> dict[str,
     return parts
 
 
-def rendered(template: str, **values) -> str:
-    """The text of a template, in lines of a length that compilers take."""
+def rendered(template: str, names: dict[str, str], **values) -> str:
+    """The text of a template, in lines of a length that compilers take; comments in these names."""
     text = TEMPLATES.get_template(template).render(**values)
-    lines = [part for line in text.splitlines() for part in wrapped(line.rstrip())]
+    lines = (in_words(line, names if "!>" in line else {}) for line in text.splitlines())
+    lines = [part for line in lines for part in wrapped(line.rstrip())]
     return "\n".join(lines) + "\n"
 
 
@@ -116,7 +117,8 @@ def description_lines(model: Model) -> list[str]:
             if getattr(one, key) is not None:
                 lines.append((key, str(getattr(one, key))))
     interface = f'"{interface_digest()} " // achar(iachar("0") + storage_size(1.0_wp)/32)'
-    return [interface, *(" // tab // ".join(map(quoted, line)) for line in lines)]
+    written = ([quoted(in_words(word, model.written)) for word in line] for line in lines)
+    return [interface, *map(" // tab // ".join, written)]
 
 
 def interface_digest() -> str:
@@ -126,7 +128,7 @@ def interface_digest() -> str:
 
 def write_interface() -> str:
     """The text of the module with the digest that a program expects of its models."""
-    return rendered("interface.f90.jinja", digest=interface_digest())
+    return rendered("interface.f90.jinja", {}, digest=interface_digest())
 
 
 def quoted(text: str) -> str:

@@ -71,7 +71,7 @@ def jacobian_entries(model: Model):
     They are by the name of a state, or by the symbol of a delayed state or a second difference.
     """
     entries: dict[tuple, sympy.Expr] = {}
-    for row, equation in enumerate(model.equations.values(), 1):
+    for row, equation in enumerate(map(model.plain, model.equations.values()), 1):
         for state in model.states:
             entries[row, state] = model.by_state(equation, state)
         for symbol in [*(one.symbol for one in model.delayed), *model.differences.values()]:
@@ -146,7 +146,7 @@ def relaxation_procedure(model: Model, balance: Balance) -> Procedure:
 
 def derivative_procedure(model: Model) -> Procedure:
     """The k-linear forms of the equations at the steady state, by nilpotent numbers."""
-    equations = list(model.equations.values())
+    equations = list(map(model.plain, model.equations.values()))
     symbols = set().union(*(one.free_symbols for one in equations))
     parameters = uses_parameters(model, [*equations, *model.steady_state.values()])
     lines = fetch_parameters(model, parameters)

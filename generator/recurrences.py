@@ -101,7 +101,7 @@ class Recurrences:
         for one in self.roots:
             uses[one] = uses.get(one, 0) + 1
         for node in self.nodes:
-            for place, one in enumerate(node.args):
+            for place, one in enumerate((*node.args, *node.of)):
                 # what a convolution takes is stored, but for the dividend
                 stored = node.is_convolution and not (node.kind == "quotient" and place == 0)
                 uses[one] = uses.get(one, 0) + (2 if stored else 1)
@@ -120,7 +120,9 @@ class Recurrences:
         return f"{node.name}_0" if first else node.name
 
     def sum_text(self, node: Node, *, first: bool) -> str:
-        """The sum of a node."""
+        """The sum of a node, or the function that coefficient 0 is."""
+        if first and node.exact:
+            return f"{node.exact}({self.rate_text(node.of[0], first=True)})"
         parts = [
             (weight, self.text(one, first=first))
             for weight, one in zip(node.weights, node.args, strict=True)
@@ -207,8 +209,9 @@ class Recurrences:
         a = self.text(node.args[0])
         multiple, inverse = self.multiple(name), self.define(f"by_{a}")
         rest = self.convolved(a, multiple)
+        value = self.sum_text(node, first=True) if node.exact else f"log({a}_0)"
         return (
-            [f"{inverse} = 1.0_wp/{a}_0", f"{zero} = log({a}_0)"],
+            [f"{inverse} = 1.0_wp/{a}_0", f"{zero} = {value}"],
             [f"{multiple} = {inverse}*(k*{a} - {rest})", f"{name} = reciprocal(k)*{multiple}"],
         )
 

@@ -103,7 +103,7 @@ def conditions_of(model: Model, expressions: list[sympy.Expr], names: dict) -> l
         found.setdefault(one, (depth, text))
         return depth + 1
 
-    for expression in expressions:
+    for expression in map(model.plain, expressions):
         visit(expression)
     levels: list[list[str]] = []
     for depth, text in found.values():
@@ -241,7 +241,7 @@ def guarded(model: Model) -> list[sympy.Expr]:
     kinds = (sympy.exp, sympy.log, sympy.Pow)
     return [
         part.args[0]
-        for equation in model.equations.values()
+        for equation in map(model.plain, model.equations.values())
         for part in sympy.preorder_traversal(equation)
         if isinstance(part, kinds) and part.free_symbols & model.variables
     ]
@@ -250,7 +250,7 @@ def guarded(model: Model) -> list[sympy.Expr]:
 def integral_of(model: Model, auxiliary: str) -> tuple[int, sympy.Expr] | None:
     """The place of a state x with x' = c v + constant, and c: its series holds that of v."""
     v = model.symbol(auxiliary)
-    for place, equation in enumerate(model.equations.values(), 1):
+    for place, equation in enumerate(map(model.plain, model.equations.values()), 1):
         by_v = equation.diff(v)
         if (
             by_v != 0

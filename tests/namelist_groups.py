@@ -8,7 +8,7 @@ from scripts.namelists.program_groups import LAW, case_groups, nested
 from scripts.namelists.study_cases import HISTORY, PARAMETERS
 
 PARTS = {
-    "scene": {"parameters": [*PARAMETERS, "law"]},
+    "scene": {"parameters": [*PARAMETERS, "law", "own"]},
     "linear_stability": {"parameters": [*PARAMETERS, "law"]},
     "cycles": {"parameters": [*PARAMETERS, "law"]},
     "velocity_step": {"law": LAW},

@@ -3,16 +3,19 @@
 The Fortran that it makes is tested in generator/test/, in quadruple precision.
 """
 
+import ctypes
 import re
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 import sympy
 from conftest import ROOT
 
+from generator.compile import compile_module
 from generator.definition import ModelError, overlaid, read_model
-from generator.fortran import literal, text_of, wrapped
+from generator.fortran import in_words, literal, text_of, wrapped
 from generator.module import write_module
 from generator.pointwise import characteristic_terms
 from generator.series import flow_of
@@ -30,6 +33,25 @@ DECAY = {
 }
 
 
+NAMES = {
+    "plain": "aa bb cc dd ee ff gg hh pp qq",
+    "of the code": "y z k i rate dy w_0 d_w w w_delayed_1",
+    "of Fortran, in cases": "sum real a A exp_ do end_ if V v",
+    "of Python and SymPy": "lambda None is E I S N Q beta zeta",
+    "long": " ".join(f"{47 * 'long'[:1]}{letter}" for letter in "abcdefghij"),
+}
+"""Six parameters, three states and exp(state)."""
+
+
+class Shape(ctypes.Structure):
+    """`shape_type` of one block."""
+
+    _fields_ = [
+        *((name, ctypes.c_int) for name in ("n", "values", "blocks", "delays", "reach", "upper")),
+        ("mode", ctypes.c_double),
+    ]
+
+
 def block(law: str = PAPER) -> dict:
     return overlaid(read(BLOCK), built_in()[law])
 
@@ -42,21 +64,21 @@ def block(law: str = PAPER) -> dict:
         ({"equations": {}}, r"equations: {}; expected at least one entry"),
         ({"equations": {"a": "0"}}, r"equations: 'a'; expected one for each of a, w"),
         ({"states": {"a": "", "W": ""}, "auxiliary": None}, r"equations: 'a, w'; expected one for"),
-        ({"parameters": {"A": {}}}, r"name: 'a'; expected each name once, whatever its case"),
-        ({"parameters": {"unit": {}}}, r"name: 'unit'; expected .* no name of the generated code"),
+        ({"parameters": {"a": {}}}, r"name: 'a'; expected .*; not cos, .*, a\Z"),
+        (
+            {"parameters": {"t": {}}},
+            r"name: 't'; expected .*; not cos, derivative, exp, .*, t\Z",
+        ),
+        ({"parameters": {"1a": {}}}, r"name: '1a'; expected a letter, then letters, digits or _"),
         ({"parameters": {"p": {"most": 1}}}, r"parameter p: .*; expected keys of above, at_least"),
         ({"parameters": {"p": {"above": "0"}}}, r"above of parameter p: '0'; expected a number"),
-        (
-            {"parameters": {"w_delayed_1": {}}},
-            r"name: 'w_delayed_1'; expected no name of a delayed",
-        ),
         ({"auxiliary": {"v": "w**2"}}, r"auxiliary v: 'w\*\*2'; expected exp\(STATE\)"),
         ({"definitions": {"b": "c", "c": "b"}, "of_a": "b"}, r"definition: 'b > c > b'"),
         ({"of_a": "a +"}, r"equation of a: 'a \+'; expected an expression such as"),
         ({"of_a": "b"}, r"equation of a: 'b'; expected one of rate_of, a, w, v"),
         (
             {"of_a": "abs(a)"},
-            r"equation of a: 'abs\(a\)'; expected one of exp, log, .*not analytic",
+            r"equation of a: 'abs\(a\)'; expected one of exp, expm1, log, .*not analytic",
         ),
         ({"of_a": "exp(a, 2)"}, r"'exp\(a, 2\)'; expected one of exp"),
         ({"of_a": "a**w"}, r"'a\*\*w'; expected a power with a constant exponent"),
@@ -66,6 +88,10 @@ def block(law: str = PAPER) -> dict:
         ({"of_a": "a*1e-999999999"}, r"'1e-999999999'; expected a number from"),
         ({"of_a": "a % 2"}, r"'a % 2'; expected \+ - \* / \*\*"),
         ({"of_a": "a if w else v"}, r"'a if w else v'; expected numbers, names"),
+        (
+            {"of_a": "lambda**a", "parameters": {"lambda": {}}},
+            r"'lambda\*\*a'; expected a power with a constant exponent",
+        ),
         ({"of_a": "a(t - w)"}, r"'a\(t - w\)'; expected a\(t - DELAY\) with a delay >= 0"),
         ({"of_a": "a(t + 1)"}, r"'a\(t \+ 1\)'; expected a\(t - DELAY\)"),
         ({"of_a": "a(t + rate_of)"}, r"'a\(t \+ rate_of\)'; expected a\(t - DELAY\)"),
@@ -153,13 +179,57 @@ def test_long_lines_are_broken_outside_of_constants():
     assert " ".join(part.removesuffix(" &").strip() for part in lines) == line
 
 
+def values_of_model(names: str, folder) -> list[np.ndarray]:
+    """Rates, derivatives and series of a compiled model whose parts have these names."""
+    p, q, r, s, lag, bound, a, b, w, v = names.split()
+    definition = {
+        "name": "named",
+        "parameters": {p: {}, q: {}, r: {}, s: {}, lag: {"at_least": 0}, bound: {}},
+        "states": {a: "", b: "", w: ""},
+        "auxiliary": {v: f"exp({w})"},
+        "definitions": {"of_all": f"{p}*{a} + {q}*{b}(t - {lag})*{r} - {s}/(1 + {a}**2)*{bound}"},
+        "equations": {a: "of_all", b: f"expm1({w}) + log1p({a}**2)", w: f"-{p}**2/{v}*({a} + {w})"},
+        "history": {a: "sin(t)", b: f"{p}*t", w: f"{lag}"},
+    }
+    model = read_model(definition)
+    path = folder / "named.so"
+    compile_module(write_module(model), path, flags="-O0 -std=f2018 -ffree-line-length-none")
+    code = ctypes.CDLL(str(path))
+    shape, degree = Shape(3, 1, 1, 1, 1, 2, 0.0), 4
+    parameters, y, z = np.arange(1.0, 7.0), np.array([0.3, -0.4, 0.2]), np.array([0.7])
+    series, delayed = np.zeros((3, degree + 1)), np.full((1, degree + 1), 0.1)
+    series[:, 0] = y
+    place, dydt, rows, columns = np.array([1], np.int32), np.zeros(3), np.zeros((3, 3)), np.zeros(3)
+    of = np.ctypeslib.as_ctypes
+    start = (ctypes.byref(shape), of(parameters), of(place), of(place), of(place))
+    number, integer = (lambda x: ctypes.byref(ctypes.c_double(x))), ctypes.byref(ctypes.c_int(3))
+    code.model_rhs(*start, number(0.0), of(y), of(z), of(dydt))
+    code.model_jacobian(
+        *(*start, number(0.0), of(y), of(z), integer, integer, of(rows), of(columns))
+    )
+    code.model_series(
+        *(*start, number(0.0), number(1.0), ctypes.byref(ctypes.c_int(degree))),
+        *(of(delayed), of(series)),
+    )
+    return [dydt, rows, columns, series]
+
+
+def test_names_are_free(tmp_path):
+    """Any name that is not a function's: the model is the same, and messages keep the name."""
+    found = {kind: values_of_model(names, tmp_path / kind) for kind, names in NAMES.items()}
+    assert all(np.isfinite(values).all() for values in found["plain"])
+    for values in found.values():
+        for mine, plain in zip(values, found["plain"], strict=True):
+            np.testing.assert_allclose(mine, plain, rtol=1e-13)
+
+
 def test_velocity_of_the_block_is_integrated():
     """v' is linear, so that the series takes two convolutions; the balance is that of theory."""
     model = read_model(block())
-    assert flow_of(model).integrated == {"v": "w"}
     balance = balance_of(model)
-    assert str(balance.value) == "-theta - u*xi"
-    assert str(balance.rate) == "gamma**2/xi"
+    found = [*flow_of(model).integrated.items(), (balance.value, balance.rate)]
+    in_our_names = [tuple(in_words(str(text), model.written) for text in pair) for pair in found]
+    assert in_our_names == [("v", "w"), ("-theta - u*xi", "gamma**2/xi")]
     # a balance that is not linear in the other states has no slow series
     bent = overlaid(block(), {"definitions": {"friction": "theta + theta**2 + log(v)"}})
     assert balance_of(read_model(bent)) is None
@@ -168,11 +238,12 @@ def test_velocity_of_the_block_is_integrated():
 
 
 def test_characteristic_function_of_the_papers_law_is_5():
+    model = read_model(block())
     terms = {
-        (power, str(delay)): value
-        for value, power, delay in characteristic_terms(read_model(block()))
+        (power, in_words(str(delay), model.written)): value
+        for value, power, delay in characteristic_terms(model)
     }
-    epsilon, gamma, xi = (sympy.Symbol(name, real=True) for name in ("epsilon", "gamma", "xi"))
+    _, epsilon, xi, gamma = (model.symbol(one.name) for one in model.parameters)
     printed = {
         (3, "0"): sympy.Integer(1),
         (2, "0"): 1 + gamma**2 / xi,
