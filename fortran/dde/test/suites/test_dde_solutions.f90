@@ -153,7 +153,7 @@ contains
       do i = 6, 12
          tolerance = 10.0_wp**(-i)
          call solve_sine(at_tolerance(tolerance), misfit, error)
-         call expect_between(error, misfit/tolerance, 0.2_wp, 1.0_wp, "error per tolerance")
+         call expect_between(error, misfit/tolerance, 0.05_wp, 1.0_wp, "error per tolerance")
          tolerance = 10.0_wp**(3 - i)
          call solve_sine(at_tolerance(tolerance, "bs5"), misfit, error)
          call expect_between(error, misfit/tolerance, 0.2_wp, 5.0_wp, "error of bs5 per tolerance")
