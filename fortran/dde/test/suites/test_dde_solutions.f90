@@ -143,7 +143,7 @@ contains
       end do
    end subroutine test_fixed_steps
 
-   !> The error is proportional to the tolerance over seven decades: between 0.2 and 1 times it by
+   !> The error follows the tolerance over seven decades: between 0.05 and 1 times it by
    !> the pair of order 8, up to 5 times by that of order 5.
    subroutine test_tolerance(error)
       type(error_type), allocatable, intent(out) :: error
