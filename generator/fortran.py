@@ -67,6 +67,8 @@ class _Printer:
             return self.product(one)
         if one.is_Pow and one.base is not sympy.E:
             return self.power(one)
+        if one is sympy.E:
+            return "exp(1.0_wp)", ATOM
         if one.func in (sympy.exp, sympy.log, sympy.sin, sympy.cos, expm1, log1p):
             return f"{one.func.__name__}({self.text(one.args[0], SUM)})", ATOM
         raise TypeError(f"no Fortran for {one}")

@@ -170,6 +170,7 @@ def test_expressions_keep_their_brackets():
     assert text_of(-(a**2) * (b + (a + c) / b) / c) == "-a**2*(b + (a + c)/b)/c"
     assert text_of((a + b) ** sympy.Rational(1, 2) - 1 / (a * b)) == "sqrt(a + b) - 1.0_wp/(a*b)"
     assert text_of((a * b) ** c) == "(a*b)**c"
+    assert text_of(sympy.exp(1) - a) == "exp(1.0_wp) - a"
 
 
 def test_long_lines_are_broken_outside_of_constants():

@@ -9,7 +9,7 @@ module model_border
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: copy_line, expm1, lanes, line_length, log1p, reciprocal, shape_type
+   public :: copy_line, lanes, line_length, reciprocal, shape_type
    public :: describe_line, expand, expand_past, expand_tangents, find_delayed, find_forms, &
              find_jacobian, find_past, find_rate, find_rhs, find_state, list_terms
 
@@ -184,26 +184,4 @@ contains
       length = min(len(line), line_length)
       text(:length) = [(line(k:k), k=1, length)]
    end function copy_line
-
-   !> exp(x) - 1: near 0 the rounding of exp(x) is in its logarithm, too (Higham 2002, sec. 1.14.1).
-   elemental real(wp) function expm1(x) result(value)
-      !> The argument
-      real(wp), intent(in) :: x
-
-      value = exp(x) - 1.0_wp
-      if (.not. abs(value) > 0.0_wp) then
-         value = x
-      else if (abs(x) < 0.5_wp) then
-         value = value*(x/log(1.0_wp + value))
-      end if
-   end function expm1
-
-   !> log(1 + x): near 0 the rounding of 1 + x is in what it keeps of x, too.
-   elemental real(wp) function log1p(x) result(value)
-      !> The argument, above -1
-      real(wp), intent(in) :: x
-
-      value = x
-      if (abs((1.0_wp + x) - 1.0_wp) > 0.0_wp) value = log(1.0_wp + x)*(x/((1.0_wp + x) - 1.0_wp))
-   end function log1p
 end module model_border

@@ -24,7 +24,7 @@ def with_own_parameters(schema: dict, config: dict) -> dict:
         }:
             raise ConfigError(
                 f"config laws {law}: parameters {', '.join(sorted(meant))}: keys of all that has a "
-                "law have these names; expected others"
+                f"law have these names; expected none of {', '.join(sorted(taken))}"
             )
     for place in _with_law(whole):
         place |= {name: entry for name, entry in own.items() if name not in place}
