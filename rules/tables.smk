@@ -57,7 +57,7 @@ TABLES = {
     "fault_limit_table": table(
         "fault-limit.tsv",
         "fault_limit_table",
-        {"xi": lambda wildcards: config["hopf_curves"]["tau_of_epsilon"]["fixed"]},
+        {"xi": lambda wildcards: config["hopf_curves"]["tau_of_epsilon"]["xi"]},
     ),
     "cycle_points": table(
         "cycle-points.tsv",

@@ -11,6 +11,8 @@ PARTS = {
     "scene": {"parameters": [*PARAMETERS, "law", "own"]},
     "linear_stability": {"parameters": [*PARAMETERS, "law"]},
     "cycles": {"parameters": [*PARAMETERS, "law"]},
+    "hopf_curves": {"parameters": [*PARAMETERS, "law"]},
+    "points": {"parameters": [*PARAMETERS, "law", "own_names", "own"]},
     "velocity_step": {"law": LAW},
 }
 """For a group: the groups within it and their keys."""
@@ -30,10 +32,13 @@ def in_groups(given: dict[str, dict]) -> dict[str, dict]:
             values = nested(values, part, keys)
             groups[part] = values.pop(part)
         if name == "points":
-            for axis in PARAMETERS:
-                names = {f"{axis}_{key}": key for key in ("window", "count", "part")}
-                values = nested(values, axis, list(names))
-                values[axis] = {names[key]: value for key, value in values[axis].items()}
+            axes = ("epsilon", values.pop("ordinate", "tau"))
+            values["axes"] = [
+                {key: values.pop(f"{axis}_{key}") for key in ("window", "count", "part")}
+                | {"along": axis}
+                for axis in axes
+            ]
+            values = {key: value for key, value in values.items() if not key.startswith("tau_")}
         if name == "spectrum":
             groups |= {key: values[key] for key in ("trajectory",) if key in values}
             values = {key: value for key, value in values.items() if key != "trajectory"}
@@ -75,8 +80,7 @@ POINTS = {
     "name": "a part",
     **{"epsilon_window": [0.1, 0.5], "epsilon_count": 3, "epsilon_part": [2, 3]},
     **{"tau_window": [0.0, 10.0], "tau_count": 2, "tau_part": [1, 2]},
-    **{"xi_window": [0.8, 0.8], "xi_count": 1, "xi_part": [1, 1]},
-    **{"gamma_window": [0.8, 0.8], "gamma_count": 1, "gamma_part": [1, 1]},
+    **{"xi": 0.8, "gamma": 0.8},
     "theta": [0.0, 0.5],
     "u": [0.0, -0.5],
     "v": [1.1, 1.5],

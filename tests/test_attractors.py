@@ -44,14 +44,15 @@ def test_parts_of_the_atlas_divide_its_delays(full):
     delays = []
     for part in range(1, settings["parts"] + 1):
         points = attractor_surveys.atlas_groups(full, "fault", part)["points"]
-        assert points["epsilon"]["part"] == [1, settings["epsilon_count"]]
-        assert points["epsilon"]["window"] == settings["epsilon_window"]
-        assert points["tau"]["window"] == settings["planes"]["fault"]["tau_window"]
+        columns, lines = points["axes"]
+        assert (columns["along"], lines["along"]) == ("epsilon", "tau")
+        assert columns["part"] == [1, settings["epsilon_count"]]
+        assert columns["window"] == settings["epsilon_window"]
+        assert lines["window"] == settings["planes"]["fault"]["ordinate_window"]
         assert points["refinements"] == settings["refinements"]
-        assert points["xi"]["window"] == [0.5, 0.5]
-        assert points["gamma"]["window"] == [1e8, 1e8]
-        delays += range(points["tau"]["part"][0], points["tau"]["part"][1] + 1)
-    assert delays == list(range(1, settings["tau_count"] + 1))
+        assert points["parameters"] == {"xi": 0.5, "gamma": 1e8, "law": PAPER}
+        delays += range(lines["part"][0], lines["part"][1] + 1)
+    assert delays == list(range(1, settings["ordinate_count"] + 1))
 
 
 @pytest.mark.parametrize(("run", "sweep"), [("near", "none"), ("slip", "none"), ("up", "up")])
@@ -62,8 +63,9 @@ def test_runs_of_a_route_go_along_its_parameter(full, run, sweep):
     points, line = groups["points"], routes["lines"]["chaos_in_epsilon"]
     assert points["sweep"] == sweep
     count = line["count"]
-    assert points["epsilon"] == {"window": line["window"], "count": count, "part": [1, count]}
-    assert points["tau"] == {"window": [7.0, 7.0], "count": 1, "part": [1, 1]}
+    axis = {"along": "epsilon", "window": line["window"], "count": count, "part": [1, count]}
+    assert points["axes"] == [axis]
+    assert points["parameters"]["tau"] == 7.0
     history = routes["histories"].get(run, routes["histories"]["near"])
     assert groups["histories"] == {key: [history[key]] for key in HISTORY}
     assert groups["observation"].items() >= full["spectra"].items()
@@ -78,7 +80,7 @@ def test_route_along_a_value_of_the_history(full):
     points, histories = groups["points"], groups["histories"]
     assert histories["v"] == [0.5, 1.0, 1.5]
     assert histories["u"] == [full["routes"]["histories"]["slip"]["u"]] * 3
-    assert [points[key]["count"] for key in PARAMETERS] == [1, 1, 1, 1]
+    assert "axes" not in points
     assert points["sweep"] == "none"
     names = [path.split("/")[-1] for path in paths.runs_of_route(full, "mine")]
     assert names == ["near.nc", "slip.nc"]

@@ -46,6 +46,26 @@ def test_points_are_the_rectangle_for_each_history(programs, groups):
     assert found.problem.values.tolist() == [""] * 8
 
 
+def test_own_parameter_of_a_law_is_an_axis(programs, groups):
+    """Each point is as in a run at its value."""
+    points = groups["points"] | {"tau_part": [1, 1], "epsilon_part": [3, 3], **ONE_HISTORY}
+    # in another order than the definition's
+    points |= {"law": "quasistatic_slip_cut_off", "own_names": ["zeta", "c"]}
+    alone = []
+    for c in (0.0, 0.5):
+        groups["points"] = points | {"own": [0.1, c]}
+        alone.append(programs.made_of("attractors", groups))
+        assert (alone[-1].attrs["law_c"], alone[-1].attrs["law_zeta"]) == (c, 0.1)
+    groups["points"] = points | {"own_names": "zeta", "own": 0.1, "tau": 0.0, "ordinate": "c"}
+    groups["points"] |= {"c_window": [0.0, 0.5], "c_count": 2, "c_part": [1, 2]}
+    found = programs.made_of("attractors", groups)
+    assert (found.attrs["axes"], found.law_c.values.tolist()) == ("epsilon law_c", [0.0, 0.5])
+    assert found.law_c.attrs["long_name"] == "velocity scale of the cut-off"
+    expected = np.array([one.lyapunov_exponent.values[0] for one in alone])
+    np.testing.assert_array_equal(found.lyapunov_exponent, expected)
+    assert np.nanmax(np.abs(expected[0] - expected[1])) > 1e-3
+
+
 def test_sweep_is_in_its_order(programs, groups):
     """The first point is as in a run without sweep, the others start from the point before."""
     groups["points"] |= {"tau_part": [2, 2], **ONE_HISTORY}

@@ -213,12 +213,12 @@ def test_eigenvalues_are_those_of_the_matrix(ends):
 def test_modes_are_blocks_at_other_parameters(config):
     """gamma sqrt(s) and xi s; the first mode is the block itself."""
     first, last = (
-        mode_groups(config, "block", str(number))["hopf_curves"]
+        mode_groups(config, "block", str(number))["hopf_curves"]["parameters"]
         for number in (0, config["chain_modes"]["blocks"] - 1)
     )
-    assert (first["fixed"], first["gamma"]) == (0.5, 0.8)
+    assert (first["xi"], first["gamma"]) == (0.5, 0.8)
     s = 1 + 4 * math.sin(math.pi * 5 / 12) ** 2
-    assert (last["fixed"], last["gamma"]) == pytest.approx((0.5 * s, 0.8 * math.sqrt(s)))
+    assert (last["xi"], last["gamma"]) == pytest.approx((0.5 * s, 0.8 * math.sqrt(s)))
 
 
 def test_disturbance_is_drawn_or_of_one_block(config):

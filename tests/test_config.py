@@ -151,7 +151,7 @@ REFUSED = [
     ((*ROUTE, "window"), [-1.0, 0.5], "> -1.0"),
     (("hopf_curves", "xi_of_epsilon", "epsilon_window"), [-0.5, 0.0], "> 0"),
     (("attractors", "histories", "theta"), [-1e308, 1e308], "two ascending numbers"),
-    (("atlas", "planes", "xi_05", "tau_window"), [-0.1, 5.0], ">= 0.0"),
+    (("atlas", "planes", "xi_05", "ordinate_window"), [-0.1, 5.0], ">= 0.0"),
     # values that contradict others: the range is what the other value leaves
     (("scenes", "torus", "t_transient"), 8000.0, "a finite number >= 0 and < t_end = 8000.0"),
     (("scenes", "torus", "sample_interval"), 8000.5, " and <= t_end = 8000.0"),
@@ -165,11 +165,11 @@ REFUSED = [
     (("scenes", "fixed_point", "exponents"), {"count": 4}, ">= 2 and <= 3 without delay"),
     (("figures", "true_torus", "rows", "a", "scene"), "no_delay", "with the key attractors"),
     (("figures", "figure_6", "rows", "a", "scene"), "nowhere", "expected one of: fixed_point, "),
-    (("hopf_curves", "tau_of_epsilon", "fixed"), 0.0, "fixed (xi) = 0.0; expected a finite "),
+    (("hopf_curves", "tau_of_epsilon", "xi"), 0.0, "xi = 0.0; expected spring constant"),
     (("routes", "histories", "up"), {}, "'up'; expected another, this is the name of a sweep"),
     ((*ROUTE, "epsilon"), 0.5, "epsilon = 0.5; expected no value, it is along epsilon"),
     (("cycles", "lines", "torus_in_tau", "starts"), [17.0], "expected a number in [0.05, 16.0]"),
-    (("atlas", "parts"), 26, "parts = 26; expected a whole number >= 1 and <= tau_count = 25"),
+    (("atlas", "parts"), 26, "parts = 26; expected a whole number >= 1 and <= ordinate_count = 25"),
     (("routes", "observation", "kept"), 0, "kept = 0; expected a "),
     (("work_precision", "scenes", "mine"), {"t_end": 1.0}, "'mine'; expected one of: fixed_point"),
     (("work_precision", "cases", "chaos"), SCENE, "'chaos'; expected a name that no scene has"),
@@ -285,7 +285,7 @@ def test_all_problems_are_listed_at_once(config):
 
 def test_part_of_too_many_points_is_refused(config):
     """One run of the program takes a million of them."""
-    config["atlas"] |= {"epsilon_count": 100000, "tau_count": 80, "parts": 7, "refinements": 0}
+    config["atlas"] |= {"epsilon_count": 100000, "ordinate_count": 80, "parts": 7, "refinements": 0}
     words = "config atlas: parts = 7 of 1200000 points; expected at most 1000000 in each"
     assert words in refuse(config)
 

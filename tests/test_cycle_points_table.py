@@ -90,8 +90,9 @@ def test_a_simulated_torus_has_the_amplitude_of_the_table(programs, good_inputs,
     groups["observation"] |= {"t_transient": 4e4, "t_observed": 2000.0, "tolerance": 1e-8}
     groups["observation"] |= {"most_steps": 10_000_000}
     place["tau"] = float(row["tau"]) + distance
-    for name, value in place.items():
-        groups["points"] |= {f"{name}_window": [value, value], f"{name}_count": 1}
+    groups["points"] |= {"xi": place["xi"]}
+    for name in ("epsilon", "tau"):
+        groups["points"] |= {f"{name}_window": [place[name]] * 2, f"{name}_count": 1}
         groups["points"] |= {f"{name}_part": [1, 1]}
     groups["points"] |= {"theta": [0.0], "u": [0.0], "v": [1.1]}
     # a run of some seconds reports its progress

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from scripts.namelists.laws import PAPER
 from scripts.tables.hopf_points_table import rows_of
 
 PLANES = ["tau_of_epsilon", "xi_of_epsilon"]
@@ -65,8 +66,8 @@ def test_every_point_solves_the_characteristic_equation(curves, plane):
     turns = (curves.omega * curves.tau - angle) / (2 * np.pi)
     np.testing.assert_allclose(turns, curves.branch, rtol=0, atol=1e-9)
     fixed = {"tau": "xi", "xi": "tau"}[plane["ordinate"]]
-    np.testing.assert_allclose(curves[fixed], plane["fixed"], rtol=1e-13)
-    known = {"gamma": plane["gamma"], "ordinate": plane["ordinate"], fixed: plane["fixed"]}
+    np.testing.assert_allclose(curves[fixed], plane[fixed], rtol=1e-13)
+    known = {"gamma": plane["gamma"], "ordinate": plane["ordinate"], fixed: plane[fixed]}
     assert curves.attrs.items() >= known.items()
 
 
@@ -112,9 +113,8 @@ def test_map_counts_the_crossings(curves, plane):
     """In every cell: pairs at tau = 0 plus crossings of all curves below."""
     for i, epsilon in enumerate(curves.map_epsilon.values):
         for j, ordinate in enumerate(curves.map_ordinate.values):
-            place = {plane["ordinate"]: ordinate}
-            tau, xi = place.get("tau", plane["fixed"]), place.get("xi", plane["fixed"])
-            expected = count_by_crossings(epsilon, tau, xi, plane["gamma"])
+            place = {**plane, plane["ordinate"]: ordinate}
+            expected = count_by_crossings(epsilon, place["tau"], place["xi"], plane["gamma"])
             assert curves.map_unstable_pairs.values[j, i] == expected
 
 
@@ -139,3 +139,29 @@ def test_special_points_solve_the_characteristic_equation(curves):
         elif row["kind"] == "generalised_hopf":
             assert float(row["l2"]) != 0
             assert (row["unfolding"], row["torus_1"]) == ("", "")
+
+
+@pytest.mark.parametrize("along", ["gamma", "c"])
+def test_any_parameter_is_an_ordinate(programs, along):
+    """Points and counts; the law with a cut-off is here the paper's at (1 + c) xi."""
+    window = {"gamma": [0.4, 2.0], "c": [0.0, 3.0]}[along]
+    law = {"gamma": PAPER, "c": "slip_cut_off"}[along]
+    fixed = {"tau": 7.0, "xi": 0.5, "gamma": 0.8, "law": law}
+    fixed.pop(along, None)
+    plane = {"ordinate": along, "epsilon_window": [0.0, 1.2], "ordinate_window": window}
+    curves = programs.made_by("hopf", {**plane, **fixed, "cells": 16})
+    key = {"c": "law_c"}.get(along, along)
+    assert (curves.attrs["ordinate"], key in curves.attrs) == (key, False)
+    varied = curves[key].values
+    assert varied.size > 50
+    xi, gamma = (0.5, varied) if along == "gamma" else (0.5 * (1 + varied), 0.8)
+    assert residual(1j * curves.omega.values, curves.epsilon.values, 7.0, xi, gamma).max() < 1e-10
+    for i, epsilon in enumerate(curves.map_epsilon.values):
+        for j, y in enumerate(curves.map_ordinate.values):
+            place = (0.5, y) if along == "gamma" else (0.5 * (1 + y), 0.8)
+            counted = count_by_crossings(epsilon, 7.0, *place)
+            assert curves.map_unstable_pairs.values[j, i] == counted
+            # a pair becomes unstable at each curve
+            pieces = [curves.isel(point=curves.piece.values == k) for k in set(curves.piece.values)]
+            here = [one for one in pieces if one[key].min() <= y <= one[key].max()]
+            assert counted == sum(np.interp(y, one[key], one.epsilon) < epsilon for one in here)

@@ -16,7 +16,12 @@ from scripts.config.check_config import checked
 from scripts.files.inputs import read
 from scripts.files.read_config import ConfigError
 from scripts.namelists import laws
-from scripts.namelists.program_groups import hopf_groups, scene_groups
+from scripts.namelists.program_groups import (
+    attractors_groups,
+    cycles_groups,
+    hopf_groups,
+    scene_groups,
+)
 from scripts.results.models import models_in
 
 MINE = {
@@ -43,10 +48,87 @@ def test_default_of_a_parameter_reaches_the_program(with_law):
 def test_law_without_inertia_has_one_parameter_more(with_law):
     with_law["hopf_curves"]["tau_of_epsilon"] |= {"law": "quasistatic_mine", "zeta": 0.1}
     groups = hopf_groups(checked(with_law), "tau_of_epsilon")
-    assert groups["hopf_curves"]["own"] == [1.0, 0.1]
+    assert groups["hopf_curves"]["parameters"]["own"] == [1.0, 0.1]
     assert models_in(groups) == {"quasistatic_mine"}
     words = laws.law_in_words(with_law, with_law["hopf_curves"]["tau_of_epsilon"])
     assert words == "quasistatic_mine (speed = 1, zeta = 0.1)"
+
+
+AXES = {
+    ("routes", "lines", "mine"): {
+        "along": "speed",
+        "window": [0.5, 2.0],
+        "count": 3,
+        "epsilon": 0.5,
+    },
+    ("cycles", "lines", "mine"): {"along": "speed", "window": [0.5, 2.0], "epsilon": 0.5},
+    ("atlas", "planes", "mine"): {"ordinate": "speed", "ordinate_window": [0.5, 2.0]},
+    ("hopf_curves", "mine"): {
+        **{"ordinate": "speed", "ordinate_window": [0.5, 2.0]},
+        "epsilon_window": [0.0, 1.0],
+    },
+}
+"""What may be along a law's own parameter."""
+
+
+@pytest.fixture(params=AXES)
+def axis(request, with_law) -> dict:
+    """An entry along `speed`, in a configuration with it."""
+    *path, name = request.param
+    section = with_law
+    for key in path:
+        section = section[key]
+    section[name] = AXES[request.param] | {"law": "mine", "tau": 7.0, "xi": 0.5, "gamma": 0.8}
+    return section[name]
+
+
+def test_own_parameter_is_an_axis(with_law, axis):
+    """It has no value, not even its default; programs get its name."""
+    config = checked(with_law)
+    assert "speed" not in axis
+    if axis is config["hopf_curves"].get("mine"):
+        group = hopf_groups(config, "mine")["hopf_curves"]
+        named = group["ordinate"]
+    elif axis is config["cycles"]["lines"].get("mine"):
+        group = cycles_groups(config, "mine")["cycles"]
+        named = group["along"]
+    else:
+        survey = "atlas" if "ordinate" in axis else "routes"
+        part = "1" if survey == "atlas" else "near"
+        group = attractors_groups(config, f"{survey}/mine", part)["points"]
+        named = group["axes"][-1]["along"]
+    assert named == "speed"
+    assert "own" not in group["parameters"]
+
+
+def test_wrong_axis_is_refused(with_law, axis):
+    """Key, value and what is allowed, which depends on the law; the range of the law's window."""
+    with_law["laws"]["mine"]["parameters"]["speed"] = {"above": 0}
+    with_law["scenes"]["torus"]["speed"] = 1.0
+    key = "along" if "along" in axis else "ordinate"
+    others = "speed, theta, u, v" if "count" in axis else "speed"
+    for changes, words in (
+        ({key: "sped"}, f"{key} = 'sped'; expected one of: tau, "),
+        ({key: "sped"}, f"xi, gamma, {others}\n"),
+        ({key: "w"}, f"{key} = 'w'; expected one of: tau, "),
+        ({"law": "slip_delayed_logarithm"}, f"{key} = 'speed'; expected one of: tau, "),
+        ({"speed": 1.0}, f"speed = 1.0; expected no value, it is {key} speed"),
+        ({next(k for k in axis if k.endswith("window") and "eps" not in k): [0.0, 1.0]}, " > 0.0"),
+    ):
+        before = dict(axis)
+        axis |= changes
+        with pytest.raises(ConfigError) as refused:
+            checked(copy.deepcopy(with_law))
+        assert words in f"{refused.value}\n"
+        axis.clear()
+        axis |= before
+
+
+def test_values_of_own_parameters_go_by_name():
+    """A law's file may say more of the block's own parameters, in whatever order."""
+    law = {"evolution": "-speed*v", "source": "", "parameters": {"tau": {}, "speed": {}}}
+    group = laws.law_group({"laws": {"mine": law}}, {"law": "mine", "speed": 2.0, "tau": 7.0})
+    assert group == {"law": "mine", "own_names": ["speed"], "own": [2.0]}
 
 
 @pytest.mark.parametrize(
@@ -100,7 +182,14 @@ def test_wrong_law_is_refused(with_law, path, value, line):
 def test_results_say_which_law_they_have(programs, filled_config):
     """Name, source, equations and the values of its parameters."""
     values = torus(filled_config, t_end=5.0, t_transient=1.0, variables=["v"])
-    programs.made_by("trajectory", values | {"law": "slip_cut_off", "own": [0.25]})
+    values["law"] = "slip_cut_off"
+    groups = {"scene": values}
+    folder = programs.write(groups)
+    own = "    scene%parameters%own_names = 'c'\n    scene%parameters%own = 0.25\n/\n"
+    text = folder.read_text().replace("/\n", own)
+    folder.write_text(text)
+    run = programs.run("trajectory", folder.name, programs.output.name)
+    assert (run.returncode, run.stderr) == (0, "")
     attributes = read(programs.output).attrs
     assert attributes["law"] == "slip_cut_off (c = 0.25)"
     assert attributes["law_c"] == 0.25

@@ -18,7 +18,7 @@ from generator.compile import compile_module
 from generator.definition import overlaid, read_model
 from generator.module import interface_digest, write_module
 from scripts.files.read_config import read
-from scripts.namelists.laws import BLOCK
+from scripts.namelists.laws import BLOCK, PAPER
 
 REFUSED = {
     "trajectory": ("scene", "tau", -1.0, "scene 'torus': tau = -1.0; expected a finite number >= "),
@@ -126,12 +126,31 @@ def test_bad_input_is_refused(programs, good_groups, program):
     assert "absent" in line
 
 
+NO_PARAMETER = f"parameter of the law {PAPER} = 'w'; expected one of 'tau' "
+
+
 @pytest.mark.parametrize(
     ("program", "group", "changes", "words"),
     [
         ("spectrum", "spectrum", {"window": "w"}, "spectrum: window = 'w'; expected one of 'hann'"),
-        ("hopf", "hopf_curves", {"ordinate": "w"}, "ordinate = 'w'; expected one of 'tau' 'xi'"),
-        ("cycles", "cycles", {"along": "w", "epsilon": 0.5}, "along = 'w'; expected one of 'tau'"),
+        (
+            "hopf",
+            "hopf_curves",
+            {"ordinate": "w", "tau": 7.0},
+            f"parameter of the law {PAPER} = 'w'; ",
+        ),
+        (
+            "hopf",
+            "hopf_curves",
+            {"ordinate": "epsilon", "tau": 7.0},
+            "ordinate = 'epsilon'; expected one of",
+        ),
+        (
+            "cycles",
+            "cycles",
+            {"along": "w", "epsilon": 0.5},
+            f"parameter of the law {PAPER} = 'w'; expected one",
+        ),
         ("attractors", "points", {"sweep": "w"}, "points: sweep = 'w'; expected one of 'none'"),
     ],
 )
@@ -323,7 +342,7 @@ def test_help_lists_commands_and_keys(programs):
     assert set(COMMANDS) - {"reference"} <= set(listed.split())
     keys = programs.run("hopf", "--help")
     assert (keys.returncode, keys.stderr) == (0, "")
-    assert "hopf_curves%gamma= must be given" in keys.stdout
+    assert "hopf_curves%parameters%gamma= must be given" in keys.stdout
     assert programs.left_behind() == []
 
 

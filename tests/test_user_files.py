@@ -41,12 +41,12 @@ cycles:
     my_cycles: { along: tau, window: [1.0, 2.5], epsilon: 0.7, xi: 0.5, gamma: 0.8 }
 atlas:
   epsilon_count: 3
-  tau_count: 3
+  ordinate_count: 3
   parts: 1
   refinements: 0
   observation: *quick
   planes:
-    my_atlas: { xi: 0.5, gamma: 0.8, tau_window: [0.0, 10.0] }
+    my_atlas: { xi: 0.5, gamma: 0.8, ordinate_window: [0.0, 10.0] }
 dimensions:
   my_fault: { length: 0.1, v0: 1.0e-9, k: 1.0e+7, a: 1.0e+6, m: 1.0e+6 }
 exponents: { t_turning: 50.0, blocks: 3 }
@@ -269,7 +269,7 @@ def test_folder_is_named_after_the_file():
 
 def test_list_of_what_a_file_adds():
     whole = read(CONFIG)
-    overlay = read(ROOT / "config" / "new.yaml") | {"atlas": {"tau_count": 9}, "cycles": 3}
+    overlay = read(ROOT / "config" / "new.yaml") | {"atlas": {"ordinate_count": 9}, "cycles": 3}
     names = {section: found for section, found in added(overlay, whole).items() if found}
     assert names == {
         **{"scenes": ["my_scene"], "planes": ["my_plane"], "routes": ["my_route"]},

@@ -1,12 +1,12 @@
 """What the schema cannot see of attractors and cycles: keys that contradict each other."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from scripts.config.ranges import range_of
 from scripts.namelists.attractor_surveys import part_of, refinements_of
 from scripts.namelists.laws import definitions, own_parameters
-from scripts.namelists.study_cases import PARAMETERS
+from scripts.namelists.study_cases import HISTORY, PARAMETERS
 
 LEAST_LN_V, LARGEST_LN_V = -700.0, 700.0
 """Between these exp(ln v) is a positive finite number."""
@@ -41,7 +41,7 @@ def contradictions(config: dict) -> Iterator[str]:
     for section in ("attractors", "atlas", "friction_laws", "routes", "basins"):
         observation = config[section]["observation"]
         yield from _check_samples(f"config {section} observation", observation, config["spectra"])
-    yield from _check_atlas("config atlas", config["atlas"])
+    yield from _check_atlas("config atlas", config)
     yield from _check_laws("config friction_laws", config["friction_laws"], config)
     for name in set(config["routes"]["histories"]) & {"up", "down"}:
         yield (
@@ -49,21 +49,24 @@ def contradictions(config: dict) -> Iterator[str]:
         )
     for section in ("routes", "cycles"):
         for name, line in config[section]["lines"].items():
-            yield from _check_line(f"config {section} lines {name}", line)
+            own = own_parameters(config, line["law"])
+            others = HISTORY if section == "routes" else []
+            yield from _check_line(f"config {section} lines {name}", line, own, others)
     for key in ("epsilon", "tau") if "curves" in config["cycles"] else ():
         values = config["cycles"]["curves"][f"{key}_window"]
         yield from window("config cycles curves", f"{key}_window", values, **range_of(key))
 
 
-def _check_atlas(place: str, atlas: dict) -> Iterator[str]:
-    """Planes of epsilon and tau, each divided by its delays into parts, which are runs."""
+def _check_atlas(place: str, config: dict) -> Iterator[str]:
+    """Planes, each divided by its ordinate into parts, which are runs."""
+    atlas = config["atlas"]
     yield from window(place, "epsilon_window", atlas["epsilon_window"], **range_of("epsilon"))
     for name, plane in atlas["planes"].items():
-        inside = f"{place} planes {name}"
-        yield from window(inside, "tau_window", plane["tau_window"], **range_of("tau"))
-    delays, parts = atlas["tau_count"], atlas["parts"]
+        own = own_parameters(config, plane["law"])
+        yield from check_axis(f"{place} planes {name}", plane, "ordinate", own, "epsilon")
+    delays, parts = atlas["ordinate_count"], atlas["parts"]
     if parts > delays:
-        yield wrong(place, atlas, "parts", f"a whole number >= 1 and <= tau_count = {delays}")
+        yield wrong(place, atlas, "parts", f"a whole number >= 1 and <= ordinate_count = {delays}")
         return
     distance = 2 ** refinements_of(atlas)
     ends = (part_of(delays, parts, part, distance) for part in range(1, parts + 1))
@@ -90,15 +93,29 @@ def _check_laws(place: str, study: dict, config: dict) -> Iterator[str]:
         yield f"{place} planes: {name!r}; expected a name that no scene has"
 
 
-def _check_line(inside: str, line: dict) -> Iterator[str]:
-    """A line along one parameter, the other three fixed; starts on it, of cycles."""
-    along = line["along"]
-    yield from window(inside, "window", line["window"], **range_of(along))
-    if along in line:
-        yield wrong(inside, line, along, f"no value, it is along {along}")
-    missing = [key for key in PARAMETERS if key not in line and key != along]
+def check_axis(
+    place: str, entry: dict, key: str, own: dict, abscissa: str = "", others: Iterable[str] = ()
+) -> Iterator[str]:
+    """A parameter, of the block or the law's own, that varies in a window; the rest are fixed.
+
+    Beside parameters it may be one of `others`. A plane has an abscissa, too.
+    """
+    along, name = entry[key], f"{key}_window" if abscissa else "window"
+    known = [one for one in (*PARAMETERS, *own, *others) if one != abscissa]
+    if along not in known:
+        yield wrong(place, entry, key, f"one of: {', '.join(known)}")
+        return
+    yield from window(place, name, entry[name], **range_of(along, own))
+    if along in entry:
+        yield wrong(place, entry, along, f"no value, it is {key} {along}")
+    missing = [one for one in PARAMETERS if one not in {*entry, along, abscissa}]
     if missing:
-        yield f"{inside}: key {missing} is missing"
+        yield f"{place}: key {missing} is missing"
+
+
+def _check_line(inside: str, line: dict, own: dict, others: Iterable[str]) -> Iterator[str]:
+    """A line along one parameter; starts on it, of cycles."""
+    yield from check_axis(inside, line, "along", own, others=others)
     low, high = line["window"]
     for start in line.get("starts", []):
         if not low <= start <= high:

@@ -10,6 +10,7 @@ from scripts.config import check_attractors, check_chains, check_laws
 from scripts.config.check_attractors import wrong
 from scripts.config.ranges import range_of, rules
 from scripts.files.read_config import ConfigError, parse
+from scripts.namelists.laws import own_parameters
 from scripts.namelists.study_cases import cases_of_family, number_of_cases
 
 EQUATIONS = 3
@@ -144,13 +145,11 @@ def _contradictions(config: dict):
             yield f"config {survey} observation: kept = 0; expected a whole number >= 1"
     for name, plane in config["hopf_curves"].items():
         place = f"config hopf_curves {name}"
-        for axis, parameter in (("epsilon", "epsilon"), ("ordinate", plane["ordinate"])):
-            key = f"{axis}_window"
-            yield from check_attractors.window(place, key, plane[key], **range_of(parameter))
+        window, own = plane["epsilon_window"], own_parameters(config, plane["law"])
+        yield from check_attractors.window(place, "epsilon_window", window, **range_of("epsilon"))
+        yield from check_attractors.check_axis(place, plane, "ordinate", own, "epsilon")
         if plane["epsilon_window"][1] <= 0:
             yield wrong(place, plane, "epsilon_window", "an end > 0")
-        if plane["ordinate"] == "tau" and plane["fixed"] <= 0:
-            yield f"{place}: fixed (xi) = {plane['fixed']}; expected a finite number > 0"
     for study in ("stability", "work_precision"):
         reference = config[study]["reference"]
         if reference["check_tolerance"] <= reference["tolerance"]:

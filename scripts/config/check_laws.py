@@ -3,7 +3,8 @@
 import copy
 
 from scripts.files.read_config import ConfigError
-from scripts.namelists.laws import check_law, definitions, own_parameters
+from scripts.namelists.laws import block_parameters, check_law, definitions, own_parameters
+from scripts.namelists.study_cases import HISTORY
 
 
 def with_own_parameters(schema: dict, config: dict) -> dict:
@@ -69,8 +70,13 @@ def contradictions(config: dict):
         for key in sorted((every - set(own)) & set(entry)):
             has = f"it has {', '.join(own)}" if own else "it has none of its own"
             yield f"{place}: {key} is no parameter of the law {entry['law']}; {has}"
+        # an axis has no value; check_attractors.py refuses one that is no parameter
+        axis = entry.get("along", entry.get("ordinate"))
+        values = HISTORY if path[0] == "routes" else []
+        known = axis in (None, *block_parameters(), *own, *values)
         for key, rules in own.items():
-            yield from _own_parameter(place, entry, key, rules or {})
+            if key in entry or (known and key != axis):
+                yield from _own_parameter(place, entry, key, rules)
 
 
 def _own_parameter(place: str, entry: dict, key: str, rules: dict):

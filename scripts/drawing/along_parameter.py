@@ -5,18 +5,16 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from scripts.drawing.style import FAINT
-from scripts.namelists.laws import law_of
-from scripts.namelists.study_cases import PARAMETERS
+from scripts.namelists.laws import is_on
+from scripts.namelists.study_cases import HISTORY
 
 
 def mark_scenes(axes: Axes, scenes: dict[str, dict], place: dict, along: str) -> None:
     """A line with its name at each scene whose fixed parameters are those of a place."""
     first, last = axes.get_xlim()
     middle = 0.5 * (first + last)
-    for name, scene in scenes.items() if along in PARAMETERS else ():
-        fixed = all(scene[key] == place[key] for key in PARAMETERS if key != along)
-        fixed = fixed and law_of(scene) == law_of(place)
-        if fixed and first <= scene[along] <= last:
+    for name, scene in scenes.items():
+        if along in scene and is_on(scene, place, along) and first <= scene[along] <= last:
             axes.axvline(scene[along], color=FAINT, lw=0.6, zorder=0)
             axes.annotate(
                 name.replace("_", " "),
@@ -32,7 +30,7 @@ def mark_scenes(axes: Axes, scenes: dict[str, dict], place: dict, along: str) ->
 
 def maxima_of(run: xr.Dataset, along: str) -> tuple[np.ndarray, np.ndarray]:
     """Places and values of all maxima of v that a run has kept."""
-    varied = run[along if along in PARAMETERS else f"history_{along}"]
+    varied = run[f"history_{along}" if along in HISTORY else along]
     places = np.broadcast_to(varied.values[:, None], run.maximum.shape)
     there = run.maximum.values > 0
     return places[there], run.maximum.values[there]

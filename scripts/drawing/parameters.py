@@ -1,13 +1,13 @@
 """Parameters and numbers as figures write them, with true minus signs."""
 
-from scripts.namelists.laws import PAPER, law_of, spoken
+from scripts.namelists.laws import OWN, PAPER, law_of, spoken
 from scripts.namelists.study_cases import PARAMETERS
 
 SYMBOLS = {
     **{"tau": r"\tau", "epsilon": r"\varepsilon", "xi": r"\xi", "gamma": r"\gamma"},
     **{"theta": r"\theta", "u": "u", "v": "v"},
 }
-"""Of the parameters, and of the values before the start."""
+"""Of the block's parameters, and of the values before the start."""
 NAMES = {
     "tau": "delay",
     "epsilon": "sensitivity of the velocity relaxation",
@@ -38,15 +38,25 @@ def true_minus(text: str) -> str:
 
 def in_words(place: dict, *left_out: str) -> str:
     """The parameters of a place as formulas, without some of them, and a law not the paper's."""
-    words = [
-        f"${SYMBOLS[key]} = {number(place[key])}$" for key in PARAMETERS if key not in left_out
-    ]
+    words = [equation(key, place[key]) for key in PARAMETERS if key not in left_out]
     if law_of(place) != PAPER:
         words.append(f"law {spoken(law_of(place))}")
     return ", ".join(words)
 
 
-def axis_of(parameter: str) -> str:
-    """Name and symbol of a parameter, the delay with its unit."""
+def symbol_of(parameter: str) -> str:
+    """The symbol of a parameter, of a law's own one its name."""
+    name = parameter.removeprefix(OWN).replace("_", r"\_")
+    return SYMBOLS.get(parameter, rf"\mathrm{{{name}}}")
+
+
+def equation(parameter: str, value: float) -> str:
+    """A parameter with its value."""
+    return f"${symbol_of(parameter)} = {number(value)}$"
+
+
+def axis_of(parameter: str, meaning: str = "") -> str:
+    """Name and symbol of a parameter, the delay with its unit; a law's own one has its meaning."""
     unit = " (units of $L/v_0$)" if parameter == "tau" else ""
-    return f"{NAMES[parameter]} ${SYMBOLS[parameter]}${unit}"
+    meaning = "" if meaning == parameter.removeprefix(OWN) else meaning
+    return f"{NAMES.get(parameter, meaning)} ${symbol_of(parameter)}${unit}".strip()

@@ -18,13 +18,14 @@ from scripts.drawing.class_map import CELLS, KINDS, draw_classes, legend_of, mar
 from scripts.drawing.hopf_plane import SCENE, SUBCRITICAL, draw_piece, mark_scenes
 from scripts.drawing.special_points import STYLES, in_words, words_of
 from scripts.drawing.style import INK
-from scripts.figures.wording import place_in_words, short, with_error
-from scripts.namelists.laws import PAPER, spoken
+from scripts.figures.wording import as_formulas, place_in_words, short, with_error
+from scripts.namelists.laws import is_on
 from scripts.tables.motion_rows import (
     count_in_words,
     is_computed,
     kind_of,
     nearest_alike,
+    ordinate_of,
     plane_of,
     planes_of,
 )
@@ -56,21 +57,26 @@ def draw(
     letters = iter(ascii_lowercase)
     drawn: set[str] = set()
     for (at, shown), (left, right) in zip(planes.items(), panels, strict=True):
-        inside = {name: scene for name, scene in scenes.items() if plane_of(scene) == at}
-        draw_classes(left, shown, "tau")
-        mesh = draw_exponents(right, shown)
+        ordinate = ordinate_of(shown[0])
+        inside = {
+            name: scene
+            for name, scene in scenes.items()
+            if ordinate in scene and is_on(scene, shown[0], "epsilon", ordinate)
+        }
+        draw_classes(left, shown, ordinate)
+        mesh = draw_exponents(right, shown, ordinate)
         for axes in (left, right):
             for plane in curves:
                 if plane_of(plane.attrs) == at:
                     draw_curves(axes, plane)
-            mark_scenes(axes, inside, "tau", named=axes is left)
+            mark_scenes(axes, inside, ordinate, named=axes is left)
         for line in cycles:
             if plane_of(line.attrs) == at:
                 drawn |= draw_curves_of_cycles(left, line)
-        symbols = parameters.in_words(shown[0], "tau", "epsilon")
+        symbols = parameters.in_words(shown[0], ordinate, "epsilon")
         left.set_title(f"$\\bf{{{next(letters)}}}$  {symbols}\n{count_in_words(shown)}")
         right.set_title(f"$\\bf{{{next(letters)}}}$  the same: largest Lyapunov exponent")
-        left.set_ylabel(parameters.axis_of("tau"))
+        left.set_ylabel(parameters.axis_of(ordinate))
     for axes in panels[-1]:
         axes.set_xlabel(parameters.axis_of("epsilon"))
     ticks = [-LARGEST, -0.01, -LINEAR, 0, LINEAR, 0.01, LARGEST]
@@ -99,18 +105,18 @@ def draw(
     return figure
 
 
-def draw_exponents(axes: Axes, rows: list[dict]):
+def draw_exponents(axes: Axes, rows: list[dict], ordinate: str):
     """The largest exponent of each row, white at zero.
 
     A point that was not computed has that of the nearest computed one of its class.
     """
-    x, y, values = table_of(rows, "tau", lambda row: row["exponent_1"])
-    _, _, kinds = table_of(rows, "tau", lambda row: KINDS.index(kind_of(row)))
-    _, _, computed = table_of(rows, "tau", is_computed)
+    x, y, values = table_of(rows, ordinate, lambda row: row["exponent_1"])
+    _, _, kinds = table_of(rows, ordinate, lambda row: KINDS.index(kind_of(row)))
+    _, _, computed = table_of(rows, ordinate, is_computed)
     values = values[tuple(nearest_alike(kinds, computed == 1))]
     norm = SymLogNorm(LINEAR, vmin=-LARGEST, vmax=LARGEST)
     mesh = axes.pcolormesh(x, y, values, cmap="PuOr_r", norm=norm, **CELLS)
-    mark_failures(axes, rows, "tau")
+    mark_failures(axes, rows, ordinate)
     return mesh
 
 
@@ -118,7 +124,7 @@ def draw_curves(axes: Axes, curves: xr.Dataset) -> None:
     """Hopf curves, dashed where subcritical."""
     for piece in np.unique(curves.piece):
         line = curves.isel(point=curves.piece.values == piece)
-        draw_piece(axes, line.epsilon.values, line.tau.values, line.l1.values, INK)
+        draw_piece(axes, line.epsilon, line[ordinate_of(curves.attrs)], line.l1, INK)
 
 
 def draw_curves_of_cycles(axes: Axes, cycles: xr.Dataset) -> set[str]:
@@ -138,8 +144,8 @@ def draw_curves_of_cycles(axes: Axes, cycles: xr.Dataset) -> set[str]:
 def numbers(table: list[dict]) -> dict:
     """Shares of the classes and the largest exponent in each plane."""
     planes = []
-    for number, ((gamma, xi, law), rows) in enumerate(planes_of(table).items()):
-        of_law = "" if law == PAPER else f", law {spoken(law)}"
+    for number, rows in enumerate(planes_of(table).values()):
+        axes = ("epsilon", ordinate_of(rows[0]))
         counts = Counter(row["class"] for row in rows).most_common()
         shares = [(kind, 100 * count / len(rows)) for kind, count in counts]
         computed = [row for row in rows if not math.isnan(row["exponent_1"])]
@@ -147,10 +153,15 @@ def numbers(table: list[dict]) -> dict:
         planes.append(
             {
                 "panels": ", ".join(ascii_lowercase[2 * number : 2 * number + 2]),
-                "place": f":math:`\\xi` = {short(xi)} and :math:`\\gamma` = {short(gamma)}{of_law}",
+                "place": place_in_words(rows[0], *axes),
                 "shares": ", ".join(f"{kind} {short(share, 2)} %" for kind, share in shares),
                 "largest": with_error(most["exponent_1"], most["error_1"]) if most else "",
-                "at": place_in_words(most, "xi", "gamma") if most else "",
+                "at": as_formulas(", ".join(parameters.equation(key, most[key]) for key in axes))
+                if most
+                else "",
             }
         )
-    return {"planes": planes, "taken": sum(not is_computed(row) for row in table)}
+    ordinates = dict.fromkeys(ordinate_of(row) for row in table)
+    symbols = [f":math:`{parameters.symbol_of(key)}`" for key in ordinates]
+    taken = sum(not is_computed(row) for row in table)
+    return {"planes": planes, "ordinates": symbols, "taken": taken}

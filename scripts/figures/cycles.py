@@ -58,7 +58,8 @@ def draw(
         draw_branches(axes, line, along)
         draw_points(axes, line, along)
         drawn |= {str(artist.get_label()): artist for artist in axes.lines}
-        axes.set(xlabel=parameters.axis_of(along), ylabel="maxima of $v$ (units of $v_0$)")
+        abscissa = parameters.axis_of(along, line[along].attrs.get("long_name", ""))
+        axes.set(xlabel=abscissa, ylabel="maxima of $v$ (units of $v_0$)")
         # the names of scenes stand above the dots
         axes.margins(x=0.01, y=0.18)
         axes.set_ylim(bottom=0)
@@ -152,7 +153,7 @@ def numbers(cycles: list[xr.Dataset]) -> dict:
         lines.append(
             {
                 "letter": letter,
-                "symbol": parameters.SYMBOLS[along],
+                "symbol": parameters.symbol_of(along),
                 "place": place_in_words(line.attrs, along),
                 "branches": line.sizes["branches"],
                 "points": [count(len(places), name) for name, places in at.items()],

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from scripts.drawing.hopf_plane import SCENE, SUBCRITICAL, draw_piece, mark_scenes
-from scripts.drawing.parameters import SYMBOLS, axis_of, in_words
+from scripts.drawing.parameters import axis_of, in_words, symbol_of
 from scripts.drawing.special_points import words_of
 from scripts.drawing.style import INK
 from scripts.figures.wording import counted_at, place_in_words, short
@@ -42,7 +42,8 @@ def draw(curves: xr.Dataset, scenes: dict[str, dict[str, float]]) -> Figure:
     label_branches(axes, ends)
     mark_scenes(axes, scenes, ordinate)
     axes.set_title(in_words(curves.attrs, "epsilon", ordinate), pad=14)
-    axes.set(xlabel=axis_of("epsilon"), ylabel=axis_of(ordinate))
+    meaning = curves[ordinate].attrs.get("long_name", "")
+    axes.set(xlabel=axis_of("epsilon"), ylabel=axis_of(ordinate, meaning))
     kinds = {"supercritical": "-", "subcritical": SUBCRITICAL} if ends else {}
     handles = [Line2D([], [], color=INK, ls=ls, label=kind) for kind, ls in kinds.items()]
     marked = [Line2D([], [], label="scene", **SCENE)] if scenes else []
@@ -125,7 +126,7 @@ def numbers(curves: xr.Dataset, scenes: dict[str, dict]) -> dict:
     }
     return {
         "place": place_in_words(curves.attrs, "epsilon", ordinate),
-        "ordinate": f":math:`{SYMBOLS[ordinate]}`",
+        "ordinate": f":math:`{symbol_of(ordinate)}`",
         "branches": np.unique(curves.branch).size,
         "points": curves.sizes["point"],
         "subcritical": int((curves.l1 > 0).sum()),

@@ -48,10 +48,12 @@ def draw(tables: list[list[dict]], runs: list[xr.Dataset], scenes: dict[str, dic
         for number, (run, of_run) in enumerate(by_run.items()):
             colour = colours.setdefault(run, COLOURS[len(colours) % len(COLOURS)])
             style = {"color": colour, "ms": DOTS[min(number, len(DOTS) - 1)], "mew": 0}
-            draw_maxima(above, next(following), of_run, along, style)
+            data = next(following)
+            draw_maxima(above, data, of_run, along, style)
             draw_exponent(below, of_run, along, style)
         draw_strips(middle, by_run, along)
-        label(above, middle, below, along)
+        meaning = data[along].attrs.get("long_name", "") if along in data else ""
+        label(above, middle, below, parameters.axis_of(along, meaning))
         mark_scenes(above, scenes, rows[0], along)
         words = f"{parameters.in_words(rows[0], along)}: {count_in_words(rows)}"
         letter = f"$\\bf{{{'abcdefgh'[i % 8]}}}$  " if len(tables) > 1 else ""
@@ -73,7 +75,7 @@ def rows_by_run(rows: list[dict]) -> dict[str, list[dict]]:
     return runs
 
 
-def label(above: Axes, strips: Axes, below: Axes, along: str) -> None:
+def label(above: Axes, strips: Axes, below: Axes, abscissa: str) -> None:
     """The same abscissa for the three, named below."""
     first, last = strips.get_xlim()
     margin = 0.01 * (last - first)
@@ -92,7 +94,7 @@ def label(above: Axes, strips: Axes, below: Axes, along: str) -> None:
         above.set_ylim(0, (1 + ROOM) * highest if np.isfinite(highest) else None)
     above.set_ylabel("maxima of $v$")
     below.axhline(0, color=FAINT, lw=0.6, zorder=0)
-    below.set(xlabel=parameters.axis_of(along), ylabel="exponent\n$\\lambda_1$")
+    below.set(xlabel=abscissa, ylabel="exponent\n$\\lambda_1$")
 
 
 def draw_maxima(axes: Axes, run: xr.Dataset, rows: list[dict], along: str, style: dict) -> None:
@@ -129,7 +131,7 @@ def numbers(tables: list[list[dict]]) -> dict:
         routes.append(
             {
                 "letter": letter,
-                "symbol": parameters.SYMBOLS[along],
+                "symbol": parameters.symbol_of(along),
                 "place": place_in_words(rows[0], along),
                 "runs": [
                     {"names": f"run{'s' * (len(names) > 1)} {joined(names)}", "first": first}

@@ -10,10 +10,11 @@ from scripts.files.outputs import written
 def write_table(path: str | Path, rows: list[dict], columns: list[str] | None = None) -> None:
     """Write rows; the file appears only when complete.
 
-    Without `columns` these are the keys of the first row. What a row lacks is an empty cell.
+    Without `columns` these are the keys of all rows. What a row lacks is an empty cell.
     """
     with written(path) as unfinished, open(unfinished, "w", newline="") as file:
-        writer = csv.DictWriter(file, columns or list(rows[0]), delimiter="\t", lineterminator="\n")
+        columns = columns or list(dict.fromkeys(key for row in rows for key in row))
+        writer = csv.DictWriter(file, columns, delimiter="\t", lineterminator="\n")
         writer.writeheader()
         for row in rows:
             writer.writerow({key: as_text(value) for key, value in row.items()})

@@ -4,8 +4,7 @@ import math
 
 import numpy as np
 
-from scripts.namelists.laws import law_group
-from scripts.namelists.study_cases import HISTORY, PARAMETERS
+from scripts.namelists.study_cases import HISTORY, with_parameters
 
 LEAST_DISTANCES = 6
 """Distances between the lines of a plane that are computed in full: those of the default grid, of
@@ -37,29 +36,30 @@ def survey_groups(
 ) -> dict[str, dict]:
     """The namelist of points and histories, and of how attractors are found and judged there.
 
-    Parameters of the place are values or axes.
+    Parameters of the place are values or axes, of which the first one runs fastest.
     """
     observation = dict(config[section]["observation"])
     how = {"sweep": sweep, "refinements": refinements, "kept": observation.pop("kept")}
     solver = {key: observation.pop(key) for key in ("method", "tolerance", "most_steps")}
-    axes = {parameter: axis_of(place[parameter]) for parameter in PARAMETERS}
+    axes = [
+        {"along": key, "part": [1, value["count"]], **value}
+        for key, value in place.items()
+        if isinstance(value, dict) and "window" in value
+    ]
+    fixed = {key: value for key, value in place.items() if key not in [x["along"] for x in axes]}
+    points = {"name": name, "parameters": with_parameters(config, fixed)["parameters"], **how}
     return {
         "observation": {**observation, **config["spectra"]},
         "solver": solver,
-        "points": {"name": name, **axes, **law_group(config, place), **how},
+        # a namelist has no empty lists
+        "points": {**points, **({"axes": axes} if axes else {})},
         "histories": {key: [history[key] for history in histories] for key in HISTORY},
     }
 
 
-def axis_of(given: float | dict) -> dict:
-    """Window, count and part: as given, all of its values, or those of one value."""
-    axis = given if isinstance(given, dict) else {"window": [given, given], "count": 1}
-    return {"part": [1, axis["count"]], **axis}
-
-
 def refinements_of(atlas: dict) -> int:
     """The refinements of the file, or as many as leave enough distances of its first lines."""
-    fewest = min(atlas["epsilon_count"], atlas["tau_count"]) - 1
+    fewest = min(atlas["epsilon_count"], atlas["ordinate_count"]) - 1
     return min(atlas["refinements"], max(0, (fewest // LEAST_DISTANCES).bit_length() - 1))
 
 
@@ -83,17 +83,18 @@ def scene_groups(config: dict, scene: str) -> dict:
 
 
 def atlas_groups(config: dict, plane: str, part: int) -> dict:
-    """Namelist of a part of the atlas: some delays of a plane.
+    """Namelist of a part of the atlas: some lines of a plane.
 
-    A part is refined by itself, from every 2**refinements-th of its delays and from the last.
+    A part is refined by itself, from every 2**refinements-th of its lines and from the last.
     """
     atlas = config["atlas"]
     settings, refinements = atlas["planes"][plane], refinements_of(atlas)
-    delays = part_of(atlas["tau_count"], atlas["parts"], part, 2**refinements)
+    count = atlas["ordinate_count"]
+    shown = part_of(count, atlas["parts"], part, 2**refinements)
     columns = {"window": atlas["epsilon_window"], "count": atlas["epsilon_count"]}
-    lines = {"window": settings["tau_window"], "count": atlas["tau_count"], "part": delays}
+    lines = {"window": settings["ordinate_window"], "count": count, "part": shown}
     name = f"{plane} part {part} of {atlas['parts']}"
-    place = {**settings, "epsilon": columns, "tau": lines}
+    place = {**settings, "epsilon": columns, settings["ordinate"]: lines}
     histories = [atlas["history"]]
     return survey_groups(
         config, "atlas", name, place=place, histories=histories, refinements=refinements
@@ -136,7 +137,8 @@ def route_groups(config: dict, line: str, run: str) -> dict:
     if along in HISTORY:
         values = np.linspace(*window, count).tolist()
         histories = [{**histories[0], along: value} for value in values]
-    place = {**settings, along: {"window": window, "count": count}}
+    varied = {} if along in HISTORY else {along: {"window": window, "count": count}}
+    place = {**settings, **varied}
     sweep = run if run in routes["sweeps"] else "none"
     return survey_groups(
         config, "routes", f"{line} {run}", place=place, histories=histories, sweep=sweep

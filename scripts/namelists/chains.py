@@ -113,9 +113,11 @@ def mode_groups(config: dict, mode_plane: str, mode: str) -> dict[str, dict]:
     return {
         "hopf_curves": {
             "ordinate": "tau",
-            "fixed": plane["xi"] * s,
-            "gamma": plane["gamma"] * math.sqrt(s),
-            **law_group(config, plane),
+            "parameters": {
+                "xi": plane["xi"] * s,
+                "gamma": plane["gamma"] * math.sqrt(s),
+                **law_group(config, plane),
+            },
             "epsilon_window": plane["epsilon_window"],
             "ordinate_window": plane["tau_window"],
             "cells": study["cells"],

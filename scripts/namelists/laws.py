@@ -20,6 +20,8 @@ PAPER = "slip_delayed_logarithm"
 """The law of equation (4)."""
 PREFIX = "quasistatic_"
 """What stands before the name of a law without inertia."""
+OWN = "law_"
+"""What stands before the name of a law's own parameter in results: columns may have its name."""
 CHAIN = "chain_"
 """What stands before the name of the law of a chain of blocks."""
 
@@ -50,10 +52,16 @@ def definitions(config: dict) -> dict[str, dict]:
 
 
 @cache
+def block_parameters() -> dict[str, dict]:
+    """The parameters of the block by name, which every law has."""
+    return read(BLOCK)["parameters"]
+
+
+@cache
 def _damping() -> dict[str, dict]:
     """The parameters that a law without inertia has beside its own."""
     own = read(MODEL / "quasistatic.yaml")["parameters"]
-    return {key: entry for key, entry in own.items() if key != "gamma"}
+    return {key: entry for key, entry in own.items() if key not in block_parameters()}
 
 
 def without_inertia(law: dict) -> dict:
@@ -63,31 +71,47 @@ def without_inertia(law: dict) -> dict:
 
 def own_parameters(config: dict, law: str) -> dict[str, dict]:
     """The parameters that a law has beside the block's."""
-    return definitions(config)[law].get("parameters") or {}
+    every = definitions(config)[law].get("parameters") or {}
+    return {key: entry or {} for key, entry in every.items() if key not in block_parameters()}
+
+
+def own_place(config: dict, settings: dict) -> dict:
+    """Law of an entry, and by name the own parameters that it gives: all but those of axes."""
+    names = ("law", *own_parameters(config, settings["law"]))
+    return {key: settings[key] for key in names if key in settings}
 
 
 def law_group(config: dict, settings: dict) -> dict:
     """Law and own parameters of an entry, as programs read them."""
-    own = [settings[key] for key in own_parameters(config, settings["law"])]
+    law, *own = own_place(config, settings).items()
     # a namelist has no empty lists
-    return {"law": settings["law"], **({"own": own} if own else {})}
-
-
-def own_place(config: dict, settings: dict) -> dict:
-    """Law and own parameters of an entry by name, to be compared with others."""
-    return {key: settings[key] for key in ("law", *own_parameters(config, settings["law"]))}
+    names, values = ([item[i] for item in own] for i in (0, 1))
+    return dict([law]) | ({"own_names": names, "own": values} if own else {})
 
 
 def law_in_words(config: dict, settings: dict) -> str:
     """Name of the law of an entry, with the values of its own parameters, as results have it."""
-    own = own_parameters(config, settings["law"])
-    values = ", ".join(f"{name} = {settings[name]:g}" for name in own)
-    return settings["law"] + (f" ({values})" if values else "")
+    return with_values(**own_place(config, settings))
+
+
+def with_values(law: str, **own: float) -> str:
+    """Name of a law with the values of own parameters."""
+    values = ", ".join(f"{name} = {value:g}" for name, value in own.items())
+    return law + (f" ({values})" if values else "")
 
 
 def law_of(place: Mapping) -> str:
     """The law of a row, of attributes or of a place; the paper's if it has none."""
     return str(place.get("law", PAPER))
+
+
+def is_on(scene: dict, place: Mapping, *axes: str) -> bool:
+    """Whether a scene has the law and parameters of a place, those of axes aside."""
+    keys = [key for key in block_parameters() if key not in axes]
+    own = {key.removeprefix(OWN): scene[key] for key in scene if key.startswith(OWN)}
+    fixed = {key: value for key, value in own.items() if OWN + key not in axes}
+    law = law_of(scene) if fixed == own else with_values(law_of(scene).split()[0], **fixed)
+    return law == law_of(place) and all(scene[key] == place[key] for key in keys)
 
 
 def spoken(law: str) -> str:

@@ -6,7 +6,6 @@ the program, and a group within a group a component of that variable.
 """
 
 from scripts.namelists import attractor_surveys
-from scripts.namelists.laws import law_group, own_parameters
 from scripts.namelists.study_cases import (
     HISTORY,
     case_of,
@@ -57,10 +56,7 @@ def linear_stability_groups(config: dict, scene: str) -> dict[str, dict]:
 
 def hopf_groups(config: dict, plane: str) -> dict[str, dict]:
     """A plane of Hopf curves."""
-    settings = config["hopf_curves"][plane]
-    own = own_parameters(config, settings["law"])
-    rest = {key: value for key, value in settings.items() if key not in own}
-    return {"hopf_curves": {**rest, **law_group(config, settings)}}
+    return {"hopf_curves": with_parameters(config, config["hopf_curves"][plane])}
 
 
 def cycles_groups(config: dict, cycle_line: str) -> dict[str, dict]:

@@ -3,11 +3,12 @@
 import math
 from itertools import product
 
-from scripts.namelists.laws import law_group, own_parameters, own_place
+from scripts.namelists.laws import block_parameters, law_group, own_parameters, own_place
 
-PARAMETERS = ["tau", "epsilon", "xi", "gamma"]
+PARAMETERS = list(block_parameters())
+"""Names of the block's parameters."""
 HISTORY = ["theta", "u", "v"]
-"""Names of the parameters and of the values for t <= 0, in the order of block_parameters.f90."""
+"""Names of the values for t <= 0, in the order of block_parameters.f90."""
 
 
 def place_of(config: dict, settings: dict) -> dict:

@@ -16,7 +16,14 @@ from scripts.files.outputs import logged, written
 from scripts.files.tsv import read_table
 from scripts.namelists.laws import PAPER, law_of
 from scripts.page.page_views import exponents, motion
-from scripts.tables.motion_rows import COLOURS, is_computed, kind_of, nearest_alike, plane_of
+from scripts.tables.motion_rows import (
+    COLOURS,
+    is_computed,
+    kind_of,
+    nearest_alike,
+    ordinate_of,
+    plane_of,
+)
 
 KINDS = list(COLOURS)
 """A kind of motion is stored as its place here."""
@@ -35,8 +42,10 @@ def list_planes(
 
     There is one row, one path and one length of the path in time for each point.
     """
-    points = list(zip(rows, paths, times, strict=True))
-    places = dict.fromkeys(map(plane_of, rows))
+    # the view moves epsilon and tau
+    every = zip(rows, paths, times, strict=True)
+    points = [point for point in every if ordinate_of(point[0]) == "tau"]
+    places = dict.fromkeys(plane_of(row) for row, _, _ in points)
     return [
         describe_plane([point for point in points if plane_of(point[0]) == place])
         for place in places

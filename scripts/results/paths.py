@@ -4,7 +4,7 @@ In paths `<results>` stands for the folder of the results.
 """
 
 from scripts.namelists.chains import motion_chains, stiffness_of_modes
-from scripts.namelists.laws import law_in_words, own_place
+from scripts.namelists.laws import OWN, law_in_words, own_parameters, own_place
 from scripts.namelists.study_cases import HISTORY, PARAMETERS
 
 
@@ -130,28 +130,34 @@ def table_of_atlas(config: dict) -> str:
 def curves_of_atlas(config: dict) -> list[str]:
     """Hopf curves that lie in planes of the atlas."""
     atlas = config["atlas"]
-    planes = [_plane(config, plane, "xi") for plane in atlas["planes"].values()]
+    planes = [_plane(config, plane) for plane in atlas["planes"].values()]
     return [
         f"<results>/hopf/{name}.nc"
         for name, plane in config["hopf_curves"].items()
-        if plane["ordinate"] == "tau" and _plane(config, plane, "fixed") in planes
+        if _plane(config, plane) in planes
     ]
 
 
 def cycles_in_atlas(config: dict) -> list[str]:
     """Cycles followed along lines that lie in planes of the atlas."""
-    planes = [_plane(config, plane, "xi") for plane in config["atlas"]["planes"].values()]
+    planes = [_plane(config, plane) for plane in config["atlas"]["planes"].values()]
     return [
         f"<results>/cycles/{name}.nc"
         for name, line in config["cycles"]["lines"].items()
-        if _plane(config, line, "xi") in planes
+        if _plane(config, line, "tau") in planes
     ]
 
 
-def _plane(config: dict, settings: dict, fixed: str) -> dict:
-    """What a plane has fixed: xi or tau, gamma, the law and the law's own parameters."""
-    place = {"fixed": settings.get(fixed), "gamma": settings.get("gamma")}
-    return place | own_place(config, settings)
+def _plane(config: dict, settings: dict, ordinate: str = "") -> dict:
+    """What an entry has fixed in a plane of epsilon and an ordinate, by default its own."""
+    axes = ("epsilon", ordinate or settings["ordinate"])
+    place = {key: settings.get(key) for key in PARAMETERS} | own_place(config, settings)
+    return {**{key: value for key, value in place.items() if key not in axes}, "ordinate": axes[1]}
+
+
+def own_values(config: dict, settings: dict) -> dict[str, float]:
+    """The law's own parameters of an entry by their keys in results."""
+    return {f"{OWN}{key}": settings[key] for key in own_parameters(config, settings["law"])}
 
 
 def places_in_atlas(config: dict) -> dict[str, dict]:
@@ -160,6 +166,7 @@ def places_in_atlas(config: dict) -> dict[str, dict]:
         scene: {
             **{key: config["scenes"][scene][key] for key in PARAMETERS},
             "law": law_in_words(config, config["scenes"][scene]),
+            **own_values(config, config["scenes"][scene]),
         }
         for scene in scenes_with(config, "attractors")
     }
@@ -168,9 +175,8 @@ def places_in_atlas(config: dict) -> dict[str, dict]:
 def places_in_plane(config: dict, plane: str) -> dict[str, dict]:
     """Parameters of the scenes that lie in a plane of Hopf curves."""
     settings = config["hopf_curves"][plane]
-    fixed = "xi" if settings["ordinate"] == "tau" else "tau"
     return {
         scene: place
         for scene, place in places_in_atlas(config).items()
-        if _plane(config, config["scenes"][scene], fixed) == _plane(config, settings, "fixed")
+        if _plane(config, config["scenes"][scene], settings["ordinate"]) == _plane(config, settings)
     }

@@ -7,7 +7,7 @@ import numpy as np
 from scripts.files.inputs import DataArray, Dataset, read
 from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
-from scripts.namelists.laws import law_of
+from scripts.namelists.laws import OWN, law_of
 from scripts.namelists.study_cases import HISTORY, PARAMETERS
 from scripts.tables.exponents_table import SIGNS
 from scripts.tables.motion_rows import AXES_FIRST, has_problem
@@ -22,8 +22,8 @@ OF_MOTION = (
     *("recurrence_time", "recurrence_variation", "roughness"),
 )
 """Numbers of a motion as they stand in its file."""
-NOT_COMPUTED = {*PARAMETERS, "law", *HISTORY, "computed", "class", "period"}
-"""Columns of points of the atlas that were not computed; the others are empty."""
+NOT_COMPUTED = {*PARAMETERS, "law", "ordinate", *HISTORY, "computed", "class", "period"}
+"""Columns of points of the atlas that were not computed; the others but axes are empty."""
 
 
 def rows_of(run: Dataset, **flags: list[str]) -> list[dict]:
@@ -32,6 +32,7 @@ def rows_of(run: Dataset, **flags: list[str]) -> list[dict]:
     columns = {
         **{key: numbers(run[key]) for key in AXES_FIRST},
         "law": [law_of(run.attrs)] * run.sizes["point"],
+        **{key: numbers(run[key]) for key in axes_of(run) if key.startswith(OWN)},
         **{key: numbers(run[f"history_{key}"]) for key in HISTORY},
         **flags,
         "class": words(run["class"]),
@@ -61,11 +62,19 @@ def rows_of(run: Dataset, **flags: list[str]) -> list[dict]:
 
 def atlas_rows(run: Dataset) -> list[dict]:
     """Rows of a part of the atlas, with the column `computed` before the class."""
-    rows = rows_of(run, computed=words(run.computed))
+    axes = axes_of(run)
+    # the ordinate is tau where there is no such column
+    other = {"ordinate": axes[1:] * run.sizes["point"]} if axes[1:] != ["tau"] else {}
+    rows = rows_of(run, **other, computed=words(run.computed))
     for row in rows:
         if row["computed"] == "no":
-            row |= dict.fromkeys(row.keys() - NOT_COMPUTED, np.nan)
+            row |= dict.fromkeys(row.keys() - NOT_COMPUTED - set(axes), np.nan)
     return rows
+
+
+def axes_of(run: Dataset) -> list[str]:
+    """Keys of the parameters that vary."""
+    return run.attrs.get("axes", "epsilon tau").split()
 
 
 def numbers(values: DataArray) -> list[float]:

@@ -1,8 +1,6 @@
 """The table of exponents: each scene, each of its runs, each exponent with its error bar."""
 
-import xarray as xr
-
-from scripts.files.inputs import read
+from scripts.files.inputs import Dataset, read
 from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
 from scripts.namelists.laws import law_of
@@ -11,7 +9,7 @@ SIGNS = {1: "positive", 0: "zero", -1: "negative", 2: "unclear"}
 """Of exponents in files, with their words; unclear are those that may be zero."""
 
 
-def rows_of(run: xr.Dataset) -> list[dict]:
+def rows_of(run: Dataset) -> list[dict]:
     """Rows of a scene, those by its own tolerance alone first."""
     return [
         {

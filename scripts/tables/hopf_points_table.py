@@ -7,7 +7,7 @@ import xarray as xr
 from scripts.files.inputs import read
 from scripts.files.outputs import logged
 from scripts.files.tsv import as_digits, write_table
-from scripts.namelists.laws import law_of
+from scripts.namelists.laws import OWN, law_of
 from scripts.tables.linear_stability_table import amplitude_death
 from scripts.tables.motion_rows import AXES_FIRST
 
@@ -30,9 +30,13 @@ CURVES = {"generalised_hopf": [1], "double_hopf": [1, 2]}
 def rows_of(plane: str, curves: xr.Dataset) -> list[dict]:
     """The special points of one plane; a row has the columns that its kind of points fills."""
     points = [curves.isel(special=i) for i in range(curves.sizes["special"])]
-    gamma = as_digits(curves.attrs["gamma"])
-    law = law_of(curves.attrs)
-    return [{"of": plane, "law": law, **row_of(point), "gamma": gamma} for point in points]
+    fixed = {key: as_digits(curves.attrs[key]) for key in AXES_FIRST if key in curves.attrs}
+    law, ordinate = law_of(curves.attrs), curves.attrs["ordinate"]
+    return [
+        {"of": plane, "law": law, **row_of(point), **fixed}
+        | {ordinate: as_digits(point[f"special_{ordinate}"])}
+        for point in points
+    ]
 
 
 def row_of(point: xr.Dataset) -> dict:
@@ -88,4 +92,5 @@ if __name__ == "__main__":
             rows += rows_of(Path(path).stem, read(path))
         for path in snakemake.input.scenes:
             rows += death_rows_of(Path(path).stem, read(path))
-        write_table(snakemake.output[0], rows, COLUMNS)
+        own = dict.fromkeys(key for row in rows for key in row if key.startswith(OWN))
+        write_table(snakemake.output[0], rows, [*COLUMNS, *own])

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from scripts.namelists.laws import law_of
+from scripts.namelists.laws import OWN, law_of
 from scripts.namelists.study_cases import HISTORY, PARAMETERS
 
 UNDECIDED = "undecided"
@@ -61,12 +61,21 @@ def nearest_alike(kinds: np.ndarray, computed: np.ndarray) -> np.ndarray:
     return nearest
 
 
-def plane_of(place: Mapping) -> tuple[float, float, str]:
-    """The plane of a place: its gamma, xi and law."""
-    return place["gamma"], place["xi"], law_of(place)
+def ordinate_of(place: Mapping) -> str:
+    """The parameter over epsilon in the plane of a row or of curves."""
+    ordinate = place.get("ordinate")
+    # an empty cell of a table is not a text
+    return ordinate if isinstance(ordinate, str) else "tau"
 
 
-def planes_of(rows: list[dict]) -> dict[tuple[float, float, str], list[dict]]:
+def plane_of(place: Mapping) -> tuple:
+    """The plane of a row or of curves: its gamma, xi and law; what another ordinate has fixed."""
+    ordinate = ordinate_of(place)
+    one, two, *third = (place[key] for key in ("gamma", "xi", "tau") if key != ordinate)
+    return one, two, law_of(place), *([] if ordinate == "tau" else [ordinate, *third])
+
+
+def planes_of(rows: list[dict]) -> dict[tuple, list[dict]]:
     """Rows of the atlas by their plane, in ascending order."""
     planes = sorted({plane_of(row) for row in rows})
     return {at: [row for row in rows if plane_of(row) == at] for at in planes}
@@ -76,7 +85,7 @@ def parameter_of(rows: list[dict]) -> str:
     """The parameter that varies along a route, or the value of the history."""
     # runs differ in their histories
     of_run = [row for row in rows if row.get("run") == rows[0].get("run")]
-    keys = (*PARAMETERS, *HISTORY)
+    keys = (*PARAMETERS, *(key for key in rows[0] if key.startswith(OWN)), *HISTORY)
     return next(key for key in keys if len({row[key] for row in of_run}) > 1)
 
 

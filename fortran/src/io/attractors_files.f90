@@ -4,8 +4,8 @@ module attractors_files
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use attractor_points, only: finding_type, point_type
    use attractors, only: attractor_settings_type, most_with_zeros
-   use block_attributes, only: put_law
-   use block_parameters, only: absent_history, block_history_type, parameter_meanings
+   use block_attributes, only: key_of, put_law
+   use block_parameters, only: absent_history, block_history_type, meaning_of, parameter_meanings
    use dde, only: integration_options
    use dde_errors, only: error_type, text
    use dde_kinds, only: int64, wp
@@ -57,6 +57,7 @@ contains
       if (allocated(error)) return
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       histories = pack(histories, min(histories%theta, histories%u, histories%v) < absent)
+      points%parameters = points%at(points%axes(1)%window(1), points%axes(2)%window(1))
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
       options = integration_options(method=trim(solver%method), relative=solver%tolerance, &
@@ -85,11 +86,14 @@ contains
       type(output_file_type) :: file
       character(len=*), parameter :: ordinals(3) = ["first ", "second", "third "]
       real(wp), dimension(size(findings)) :: least, mean_time, most, variation
-      integer :: i, rows
+      character(len=word_length) :: name
+      integer :: i, k, rows
 
       call file%create(path, "Attractors of the spring block with delayed friction")
       call file%attribute("name", trim(points%name))
-      call put_law(file, list(1)%parameters)
+      call put_law(file, list(1)%parameters, key_of(points%axes%along))
+      call file%attribute("axes", trim(key_of(points%axes(1)%along))//" " &
+                          //trim(key_of(points%axes(2)%along)))
       call file%attribute("sweep", trim(points%sweep))
       call file%attribute("refinements", int(points%refinements, int64))
       call file%attribute("method", trim(options%method))
@@ -108,6 +112,13 @@ contains
          call file%column(rows, "tau", place%tau, trim(parameter_meanings(1)))
          call file%column(rows, "xi", place%xi, trim(parameter_meanings(3)))
          call file%column(rows, "gamma", place%gamma, trim(parameter_meanings(4)))
+         do i = 1, size(points%axes)
+            name = points%axes(i)%along
+            if (name == key_of(name)) cycle
+            k = findloc(points%parameters%own_names, name, dim=1)
+            call file%column(rows, trim(key_of(name)), place%own(k), &
+                             meaning_of(points%parameters%law, name))
+         end do
          call file%column(rows, "history_theta", past%theta, "theta for t <= 0")
          call file%column(rows, "history_u", past%u, "u for t <= 0")
          call file%column(rows, "history_v", past%v, "v for t <= 0")

@@ -4,21 +4,38 @@ module block_attributes
                                history_names, parameter_names, vector_of
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
-   use model_description, only: description_type
+   use model_description, only: description_type, word_length
    use netcdf_output, only: output_file_type
    use scene_input, only: scene_type
    implicit none (type, external)
    private
-   public :: put_law, put_parameters, put_scene
+   public :: key_length, key_of, put_law, put_parameters, put_scene
+
+   !> Before names of a law's own parameters: other attributes and variables may have the bare name.
+   character(len=*), parameter :: own_prefix = "law_"
+   !> Letters of a key.
+   integer, parameter :: key_length = word_length + len(own_prefix)
 
 contains
 
+   !> The key of a parameter in a file.
+   elemental function key_of(name) result(key)
+      !> Name of the parameter
+      character(len=*), intent(in) :: name
+      character(len=key_length) :: key
+
+      key = name
+      if (name /= "" .and. all(parameter_names /= name)) key = own_prefix//name
+   end function key_of
+
    !> Write name, source, equations and own parameters of the law as attributes.
-   subroutine put_law(file, parameters)
+   subroutine put_law(file, parameters, but)
       !> The file
       type(output_file_type), intent(inout) :: file
       !> Parameters with their law
       type(block_parameters_type), intent(in) :: parameters
+      !> Keys of parameters that are left out, if any
+      character(len=*), intent(in), optional :: but(:)
       type(description_type) :: law
       character(len=:), allocatable :: equations, own
       type(error_type), allocatable :: error
@@ -38,9 +55,11 @@ contains
       call file%attribute("law_equations", equations)
       own = ""
       do i = size(parameter_names) + 1, size(law%parameters)
+         if (present(but)) then
+            if (any(but == key_of(law%parameters(i)%name))) cycle
+         end if
          own = own//" "//trim(law%parameters(i)%name)
-         ! other attributes may have the bare name
-         call file%attribute("law_"//trim(law%parameters(i)%name), &
+         call file%attribute(trim(key_of(law%parameters(i)%name)), &
                              parameters%own(i - size(parameter_names)))
       end do
       if (own /= "") call file%attribute("law_parameters", own(2:))
@@ -52,21 +71,25 @@ contains
       type(output_file_type), intent(inout) :: file
       !> Parameters
       type(block_parameters_type), intent(in) :: parameters
-      !> Number of a parameter that is left out, if any
-      integer, intent(in), optional :: but
-      real(wp) :: vector(size(parameter_names))
+      !> Key of a parameter that is left out
+      character(len=*), intent(in), optional :: but
+      real(wp), allocatable :: vector(:)
       integer :: i
 
-      call put_law(file, parameters)
+      if (present(but)) then
+         call put_law(file, parameters, [but])
+      else
+         call put_law(file, parameters)
+      end if
       if (parameters%is_chain()) then
          call file%attribute("blocks", int(parameters%blocks, int64))
          call file%attribute("kappa", parameters%kappa)
          call file%attribute("ends", trim(parameters%ends))
       end if
       vector = vector_of(parameters)
-      do i = 1, size(vector)
+      do i = 1, size(parameter_names)
          if (present(but)) then
-            if (i == but) cycle
+            if (parameter_names(i) == but) cycle
          end if
          call file%attribute(trim(parameter_names(i)), vector(i))
       end do

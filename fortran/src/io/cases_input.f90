@@ -21,7 +21,7 @@ contains
       !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> The cases
-      type(case_type), intent(in) :: cases(:)
+      type(case_type), intent(inout) :: cases(:)
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
       integer :: i

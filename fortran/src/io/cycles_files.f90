@@ -2,10 +2,9 @@
 !> special points and their curves.
 module cycles_files
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use block_attributes, only: put_parameters
+   use block_attributes, only: key_length, key_of, put_parameters
    use block_cycles, only: cycle_settings_type, cycles_type, left_out_type
-   use block_parameters, only: block_parameters_type, missing_parameters, parameter_names, &
-                               vector_of, with_vector
+   use block_parameters, only: block_parameters_type, meaning_of, missing_parameters, vector_of
    use cycle_curves, only: cycle_curve_type
    use cycle_lines, only: cycle_line_type, hopf_start_type
    use dde_errors, only: error_type
@@ -59,22 +58,19 @@ contains
       type(cycles_section_type) :: cycles
       type(namelist_file_type) :: file
       integer :: along
-      real(wp) :: vector(size(parameter_names))
       namelist /settings/ cycles
 
       call file%open(path, error)
       if (allocated(error)) return
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       ! the value of the parameter along the line is not used
-      vector = vector_of(cycles%parameters)
-      where (parameter_names == cycles%along) vector = cycles%window(1)
-      cycles%parameters = with_vector(cycles%parameters, vector)
+      call cycles%parameters%put(trim(cycles%along), cycles%window(1))
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
-      call check_choice(error, path, "along", cycles%along, parameter_names)
       call cycles%parameters%check(path, error)
+      call check_choice(error, path, "along", cycles%along, cycles%parameters%names())
       call check_count(error, path, "degree", cycles%degree, at_least=3)
-      along = findloc(parameter_names == cycles%along, .true., dim=1)
+      along = findloc(cycles%parameters%names() == cycles%along, .true., dim=1)
       line_settings = cycle_settings_type(line=cycle_line_type(along, cycles%parameters, &
                                                                cycles%window), &
                                      starts=elements(cycles%starts), &
@@ -106,31 +102,36 @@ contains
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
+      character(len=key_length), allocatable :: names(:)
+      character(len=:), allocatable :: along, meaning
       integer :: rows
 
+      names = settings%line%parameters%names()
+      along = trim(key_of(names(settings%line%along)))
+      meaning = meaning_of(settings%line%parameters%law, names(settings%line%along))
+      names = key_of(names)
       call file%create(path, "Cycles along a line of parameters: stable and unstable branches")
-      associate (line => settings%line)
-         call file%attribute("along", trim(parameter_names(line%along)))
-         call put_parameters(file, line%parameters, but=line%along)
-      end associate
+      call file%attribute("along", along)
+      call put_parameters(file, settings%line%parameters, but=along)
       call file%attribute("degree", int(settings%degree, int64))
-      call put_orbits(file, settings%line%along, found)
+      call put_orbits(file, settings%line%along, along, meaning, found)
       rows = file%dimension("left_out", size(left_out))
       call file%words(rows, "left_out_origin", left_out%origin, "where it starts")
-      call file%column(rows, "left_out_"//trim(parameter_names(settings%line%along)), left_out%at, &
-                       "parameter along the line")
+      call file%column(rows, "left_out_"//along, left_out%at, "parameter along the line")
       call file%words(rows, "left_out_reason", left_out%reason, "why no branch was followed")
-      call put_points(file, found)
-      call put_hopf(file, hopf)
+      call put_points(file, names, found)
+      call put_hopf(file, names, hopf)
       call put_curves(file, curves)
-      call put_cusps(file, curves)
+      call put_cusps(file, names, curves)
       call file%finish(error)
    end subroutine write_cycles
 
    !> Orbits, and the branches they are on.
-   subroutine put_orbits(file, along, found)
+   subroutine put_orbits(file, along, name, meaning, found)
       type(output_file_type), intent(inout) :: file
+      !> Number of the parameter along the line, its key and what it is
       integer, intent(in) :: along
+      character(len=*), intent(in) :: name, meaning
       type(cycles_type), intent(in) :: found(:)
       real(wp), allocatable :: columns(:, :), imaginary(:, :), real_part(:, :)
       integer, allocatable :: branch(:), intervals(:), unstable(:)
@@ -162,9 +163,8 @@ contains
             end associate
          end do
       end do
-      rows = file%dimension("orbit", all, coordinates=trim(parameter_names(along))//" branch")
-      call file%column(rows, trim(parameter_names(along)), columns(:, 1), &
-                       "parameter along the line")
+      rows = file%dimension("orbit", all, coordinates=name//" branch")
+      call file%column(rows, name, columns(:, 1), meaning)
       call file%column(rows, "period", columns(:, 2), "period")
       call file%column(rows, "v_least", columns(:, 3), "least velocity")
       call file%column(rows, "v_most", columns(:, 4), "greatest velocity")
@@ -183,16 +183,18 @@ contains
    end subroutine put_orbits
 
    !> Special points.
-   subroutine put_points(file, found)
+   subroutine put_points(file, names, found)
       type(output_file_type), intent(inout) :: file
+      !> Names of the parameters
+      character(len=*), intent(in) :: names(:)
       type(cycles_type), intent(in) :: found(:)
       character(len=kind_length), allocatable :: words(:, :)
-      real(wp), allocatable :: columns(:, :)
+      real(wp), allocatable :: columns(:, :), places(:, :)
       integer, allocatable :: numbers(:, :)
       integer :: all, i, j, row, rows
 
       all = sum([(size(found(i)%points), i=1, size(found))])
-      allocate (words(all, 2), columns(all, 14), numbers(all, 5))
+      allocate (words(all, 2), columns(all, 10), numbers(all, 5), places(size(names), all))
       columns = ieee_value(1.0_wp, ieee_quiet_nan)
       row = 0
       do i = 1, size(found)
@@ -200,15 +202,15 @@ contains
             row = row + 1
             associate (point => found(i)%points(j))
                words(row, :) = [point%kind, point%criticality()]
-               columns(row, :4) = point%orbit%parameters
-               columns(row, 5) = point%orbit%period
-               columns(row, 6) = exp(maxval(point%orbit%range_of(index_of_ln_v)))
-               columns(row, 7:11) = [real(point%multiplier), aimag(point%multiplier), &
+               places(:, row) = point%orbit%parameters(:size(names))
+               columns(row, 1) = point%orbit%period
+               columns(row, 2) = exp(maxval(point%orbit%range_of(index_of_ln_v)))
+               columns(row, 3:7) = [real(point%multiplier), aimag(point%multiplier), &
                                      point%angle(), point%trivial_error, point%mesh_error]
-               if (allocated(point%coefficient)) columns(row, 12) = point%coefficient
-               if (allocated(point%coefficient_error)) columns(row, 13) = point%coefficient_error
+               if (allocated(point%coefficient)) columns(row, 8) = point%coefficient
+               if (allocated(point%coefficient_error)) columns(row, 9) = point%coefficient_error
                if (allocated(point%coefficient) .and. allocated(point%growth)) then
-                  columns(row, 14) = point%torus_amplitude(index_of_ln_v)
+                  columns(row, 10) = point%torus_amplitude(index_of_ln_v)
                end if
                numbers(row, :) = [i, point%unstable, nearest_resonance(abs(point%angle()))]
             end associate
@@ -217,25 +219,24 @@ contains
       rows = file%dimension("special", all, coordinates="special_tau special_epsilon")
       call file%words(rows, "special_kind", words(:, 1), "kind of the special point")
       call file%words(rows, "special_criticality", words(:, 2), "criticality of a torus point")
-      do i = 1, size(parameter_names)
-         call file%column(rows, "special_"//trim(parameter_names(i)), columns(:, i), &
-                          "its "//trim(parameter_names(i)))
+      do i = 1, size(names)
+         call file%column(rows, "special_"//trim(names(i)), places(i, :), "its "//trim(names(i)))
       end do
-      call file%column(rows, "special_period", columns(:, 5), "its period")
-      call file%column(rows, "special_v_most", columns(:, 6), "its greatest velocity")
-      call file%column(rows, "special_multiplier_real", columns(:, 7), &
+      call file%column(rows, "special_period", columns(:, 1), "its period")
+      call file%column(rows, "special_v_most", columns(:, 2), "its greatest velocity")
+      call file%column(rows, "special_multiplier_real", columns(:, 3), &
                        "real part of the critical multiplier")
-      call file%column(rows, "special_multiplier_imaginary", columns(:, 8), "imaginary part of it")
-      call file%column(rows, "special_angle", columns(:, 9), "angle of it over a full turn")
-      call file%column(rows, "special_multiplier_error", columns(:, 10), &
+      call file%column(rows, "special_multiplier_imaginary", columns(:, 4), "imaginary part of it")
+      call file%column(rows, "special_angle", columns(:, 5), "angle of it over a full turn")
+      call file%column(rows, "special_multiplier_error", columns(:, 6), &
                        "distance of the trivial multiplier from 1")
-      call file%column(rows, "special_mesh_error", columns(:, 11), &
+      call file%column(rows, "special_mesh_error", columns(:, 7), &
                        "difference of the parameter on two meshes")
-      call file%column(rows, "special_coefficient", columns(:, 12), &
+      call file%column(rows, "special_coefficient", columns(:, 8), &
                        "cubic coefficient of a torus point")
-      call file%column(rows, "special_coefficient_error", columns(:, 13), &
+      call file%column(rows, "special_coefficient_error", columns(:, 9), &
                        "difference of it on two meshes")
-      call file%column(rows, "special_amplitude", columns(:, 14), &
+      call file%column(rows, "special_amplitude", columns(:, 10), &
                        "half range of maxima of ln v of tori, over root of distance")
       call file%column(rows, "special_branch", numbers(:, 1), "its branch, from 1")
       call file%column(rows, "special_unstable_before", numbers(:, 2), &
@@ -294,29 +295,32 @@ contains
    end subroutine put_curves
 
    !> Cusps of curves of folds.
-   subroutine put_cusps(file, curves)
+   subroutine put_cusps(file, names, curves)
       type(output_file_type), intent(inout) :: file
+      !> Names of the parameters
+      character(len=*), intent(in) :: names(:)
       type(cycle_curve_type), intent(in) :: curves(:)
       integer :: i, k, rows
       integer, allocatable :: number(:)
-      real(wp) :: columns(8, sum([((size(curves(i)%parts(k)%cusps), k=1, 2), i=1, size(curves))]))
+      real(wp), allocatable :: columns(:, :), places(:, :)
 
-      allocate (number(0))
+      i = sum([((size(curves(i)%parts(k)%cusps), k=1, 2), i=1, size(curves))])
+      allocate (columns(4, i), places(size(names), i), number(0))
       do i = 1, size(curves)
          do k = 1, 2
             call add_cusps(curves(i)%parts(k)%cusps)
          end do
       end do
       rows = file%dimension("cusp", size(number), coordinates="cusp_tau cusp_epsilon")
-      do i = 1, size(parameter_names)
-         call file%column(rows, "cusp_"//trim(parameter_names(i)), columns(i, :), &
-                          trim(parameter_names(i))//" of a cusp of a curve of folds")
+      do i = 1, size(names)
+         call file%column(rows, "cusp_"//trim(names(i)), places(i, :), &
+                          trim(names(i))//" of a cusp of a curve of folds")
       end do
-      call file%column(rows, "cusp_period", columns(5, :), "its period")
-      call file%column(rows, "cusp_v_most", columns(6, :), "its greatest velocity")
-      call file%column(rows, "cusp_multiplier_error", columns(7, :), &
+      call file%column(rows, "cusp_period", columns(1, :), "its period")
+      call file%column(rows, "cusp_v_most", columns(2, :), "its greatest velocity")
+      call file%column(rows, "cusp_multiplier_error", columns(3, :), &
                        "distance of the trivial multiplier from 1")
-      call file%column(rows, "cusp_mesh_error", columns(8, :), &
+      call file%column(rows, "cusp_mesh_error", columns(4, :), &
                        "difference of tau or epsilon on two meshes")
       call file%column(rows, "cusp_curve", number, "its curve, from 1")
 
@@ -329,29 +333,32 @@ contains
 
          do j = 1, size(cusps)
             number = [number, i]
-            associate (orbit => cusps(j)%orbit, column => columns(:, size(number)))
-               column(:4) = orbit%parameters
-               column(5:) = [orbit%period, exp(maxval(orbit%range_of(index_of_ln_v))), &
-                             cusps(j)%trivial_error, cusps(j)%mesh_error]
+            associate (orbit => cusps(j)%orbit)
+               places(:, size(number)) = orbit%parameters(:size(names))
+               columns(:, size(number)) = [orbit%period, &
+                                           exp(maxval(orbit%range_of(index_of_ln_v))), &
+                                           cusps(j)%trivial_error, cusps(j)%mesh_error]
             end associate
          end do
       end subroutine add_cusps
    end subroutine put_cusps
 
    !> Hopf points.
-   subroutine put_hopf(file, hopf)
+   subroutine put_hopf(file, names, hopf)
       type(output_file_type), intent(inout) :: file
+      !> Names of the parameters
+      character(len=*), intent(in) :: names(:)
       type(hopf_start_type), intent(in) :: hopf(:)
-      real(wp) :: places(4, size(hopf))
+      real(wp) :: places(size(vector_of(block_parameters_type())), size(hopf))
       integer :: i, rows
 
       do i = 1, size(hopf)
          places(:, i) = vector_of(hopf(i)%parameters)
       end do
       rows = file%dimension("hopf", size(hopf), coordinates="hopf_tau hopf_epsilon")
-      do i = 1, size(parameter_names)
-         call file%column(rows, "hopf_"//trim(parameter_names(i)), places(i, :), &
-                          trim(parameter_names(i))//" of the Hopf point")
+      do i = 1, size(names)
+         call file%column(rows, "hopf_"//trim(names(i)), places(i, :), &
+                          trim(names(i))//" of the Hopf point")
       end do
       call file%column(rows, "hopf_omega", hopf%omega, "angular frequency of its pair")
    end subroutine put_hopf

@@ -1,8 +1,8 @@
 !> What the program `hopf` reads and writes: the plane and window of Hopf curves; these curves.
 module hopf_files
-   use block_attributes, only: put_law
-   use block_family, only: along_tau, along_xi
-   use block_parameters, only: most_own, paper_law, parameter_meanings
+   use block_attributes, only: key_of, put_law
+   use block_parameters, only: block_parameters_type, meaning_of, missing_parameters, paper_law, &
+                               parameter_meanings, parameter_names, vector_of
    use dde_errors, only: error_type, text
    use hopf_condition, only: find_hopf_condition
    use dde_kinds, only: wp
@@ -10,26 +10,21 @@ module hopf_files
    use hopf_curves, only: curve_point_type
    use hopf_planes, only: curve_plane_type
    use hopf_points, only: hopf_point_type
-   use namelist_input, only: namelist_file_type, word_length
+   use namelist_input, only: namelist_file_type
    use model_description, only: law_length => word_length
    use netcdf_output, only: output_file_type
    use stability_map, only: middles
-   use value_checks, only: absent, check_choice, missing, missing_count
+   use value_checks, only: check_choice, missing, missing_count
    implicit none (type, external)
    private
    public :: hopf_settings_type, read_plane, write_curves
 
    !> A plane as the namelist gives it; all nondimensional.
    type :: hopf_settings_type
-      !> 'tau' or 'xi'
-      character(len=word_length) :: ordinate = ""
-      !> Value of the other of the two
-      real(wp) :: fixed = missing
-      !> Frequency of the block
-      real(wp) :: gamma = missing
-      !> Law of friction and its own parameters
-      character(len=law_length) :: law = ""
-      real(wp) :: own(most_own) = absent
+      !> Name of the parameter over epsilon
+      character(len=law_length) :: ordinate = ""
+      !> The other parameters; epsilon and the ordinate may be left out
+      type(block_parameters_type) :: parameters = missing_parameters
       !> Window on epsilon
       real(wp) :: epsilon_window(2) = missing
       !> Window on the ordinate
@@ -50,28 +45,28 @@ contains
       type(curve_plane_type), intent(out) :: plane
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
+      character(len=law_length), allocatable :: names(:)
       type(namelist_file_type) :: file
       namelist /settings/ hopf_curves
 
       call file%open(path, error)
       if (allocated(error)) return
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
-      write (file%copy, nml=settings, delim="quote")
-      call file%close(error)
-      call check_choice(error, path, "ordinate", hopf_curves%ordinate, ["tau", "xi "])
-      plane%fixed%law = hopf_curves%law
-      plane%fixed%own = hopf_curves%own
+      associate (parameters => hopf_curves%parameters)
+         call parameters%put("epsilon", hopf_curves%epsilon_window(1))
+         call parameters%put(trim(hopf_curves%ordinate), hopf_curves%ordinate_window(1))
+         write (file%copy, nml=settings, delim="quote")
+         call file%close(error)
+         call parameters%check(path, error)
+         if (allocated(error)) return
+         names = parameters%names()
+         call check_choice(error, path, "ordinate", hopf_curves%ordinate, &
+                           pack(names, names /= "epsilon"))
+         plane%along = findloc(names, hopf_curves%ordinate, dim=1)
+         plane%fixed = parameters
+      end associate
       plane%epsilon_window = hopf_curves%epsilon_window
       plane%ordinate_window = hopf_curves%ordinate_window
-      plane%fixed%gamma = hopf_curves%gamma
-      if (hopf_curves%ordinate == "tau") then
-         plane%along = along_tau
-         plane%fixed%xi = hopf_curves%fixed
-      else
-         plane%along = along_xi
-         plane%fixed%tau = hopf_curves%fixed
-      end if
-      call plane%fixed%check(path, error)
       if (allocated(error)) return
       call find_hopf_condition(plane%fixed, plane%condition, error)
    end subroutine read_plane
@@ -93,7 +88,9 @@ contains
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
-      integer :: cells(2), rows
+      character(len=:), allocatable :: key
+      real(wp), allocatable :: vector(:)
+      integer :: cells(2), i, rows
 
       call file%create(path, "Hopf curves: where a pair of characteristic roots is imaginary")
       rows = file%dimension("point", size(points), coordinates="epsilon tau xi")
@@ -108,7 +105,7 @@ contains
       call file%column(rows, "residual", points%residual, &
                        "residual of the characteristic function over its largest term")
       call file%column(rows, "crossing", points%crossing, "sign of d Re(lambda)/d tau")
-      if (settings%law == paper_law) then
+      if (settings%parameters%law == paper_law) then
          call file%column(rows, "printed_tau", points%printed_tau, "delay by (10) as printed")
          call file%column(rows, "printed_residual", points%printed_residual, &
                           "residual of (5) there over its largest term")
@@ -116,13 +113,27 @@ contains
       call file%column(rows, "l1", points%l1, "first Lyapunov coefficient")
       call file%column(rows, "unstable_pairs", points%unstable_pairs, &
                        "unstable pairs beside this one")
-      call put_law(file, plane%fixed)
-      call file%attribute("ordinate", trim(settings%ordinate))
-      call file%attribute("gamma", settings%gamma)
-      call file%attribute(trim(merge("xi ", "tau", settings%ordinate == "tau")), settings%fixed)
+      key = trim(key_of(settings%ordinate))
+      call put_law(file, plane%fixed, [key])
+      call file%attribute("ordinate", key)
+      vector = vector_of(plane%fixed)
+      do i = 1, size(parameter_names)
+         if (parameter_names(i) == "epsilon" .or. parameter_names(i) == settings%ordinate) cycle
+         call file%attribute(trim(parameter_names(i)), vector(i))
+      end do
+      if (.not. plane%by_frequency()) then
+         call file%column(rows, key, &
+                          [(plane%ordinate(points(i)%parameters), i=1, size(points))], &
+                          meaning_of(settings%parameters%law, settings%ordinate))
+      end if
       rows = file%dimension("special", size(special), &
                             coordinates="special_epsilon special_tau special_xi")
       call put_special(file, rows, special)
+      if (.not. plane%by_frequency()) then
+         call file%column(rows, "special_"//key, &
+                          [(plane%ordinate(special(i)%parameters), i=1, size(special))], &
+                          "its "//key)
+      end if
       call put_unfoldings(file, settings, rows, special)
       cells = [file%dimension("map_epsilon", size(pairs, 1)), &
                file%dimension("map_ordinate", size(pairs, 2))]
@@ -207,7 +218,7 @@ contains
       do j = 1, 2
          call put("start_epsilon_"//text(j), special%unfolding%start(1, j), &
                   "direction of curve "//text(j)//" of folds or tori, epsilon")
-         call put("start_"//trim(settings%ordinate)//"_"//text(j), &
+         call put("start_"//trim(key_of(settings%ordinate))//"_"//text(j), &
                   special%unfolding%start(2, j), &
                   "direction of curve "//text(j)//" of folds or tori, "//trim(settings%ordinate))
          call put("angle_"//text(j), angle(:, j), &

@@ -1,36 +1,37 @@
-!> Points at which attractors are looked for, from the section `points` of a namelist: a grid in the
-!> four parameters of the block and a list of histories, or a sweep along one parameter.
+!> Points at which attractors are looked for, from the section `points` of a namelist: a grid in at
+!> most two parameters and a list of histories, or a sweep along one parameter.
 module points_input
    use attractor_points, only: point_type
-   use block_parameters, only: block_history_type, block_parameters_type, most_own
+   use block_parameters, only: block_history_type, block_parameters_type, missing_parameters
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use model_description, only: law_length => word_length
    use namelist_input, only: word_length
-   use value_checks, only: absent, check_choice, check_count, missing, missing_count
+   use value_checks, only: check_choice, check_count, missing_count
    implicit none (type, external)
    private
    public :: points_settings_type
 
    !> Evenly spaced values of one parameter, of which a part is computed.
    type :: axis_type
+      !> Name of the parameter; blank where there is no axis
+      character(len=law_length) :: along = ""
       !> First and last value
-      real(wp) :: window(2) = missing
+      real(wp) :: window(2) = 0.0_wp
       !> Number of values; the first alone when 1
-      integer :: count = missing_count
+      integer :: count = 1
       !> First and last that are computed, from 1
-      integer :: part(2) = missing_count
+      integer :: part(2) = 1
    end type axis_type
 
    !> Where attractors are looked for, and what is kept of each.
    type :: points_settings_type
       !> Name of what the points belong to
       character(len=word_length) :: name = ""
-      !> Values of the parameters
-      type(axis_type) :: epsilon, tau, xi, gamma
-      !> Law of friction and its own parameters
-      character(len=law_length) :: law = ""
-      real(wp) :: own(most_own) = absent
+      !> Parameters; those of the axes may be left out
+      type(block_parameters_type) :: parameters = missing_parameters
+      !> Axes of the grid
+      type(axis_type) :: axes(2)
       !> Whether each point starts where the one before ended: "none", "up" or "down"
       character(len=word_length) :: sweep = ""
       !> Every 2**refinements-th line in epsilon and tau is computed in full
@@ -38,6 +39,7 @@ module points_input
       !> Most maxima and points of the section kept of each
       integer :: kept = missing_count
    contains
+      procedure :: at => parameters_at
       procedure :: check => check_points
       procedure :: columns => columns_of_grid
       procedure :: list => list_points
@@ -45,9 +47,20 @@ module points_input
 
 contains
 
+   !> The parameters with these values on the axes.
+   pure type(block_parameters_type) function parameters_at(self, x, y) result(parameters)
+      class(points_settings_type), intent(in) :: self
+      !> Values on the first and on the second axis
+      real(wp), intent(in) :: x, y
+
+      parameters = self%parameters
+      call parameters%put(trim(self%axes(1)%along), x)
+      call parameters%put(trim(self%axes(2)%along), y)
+   end function parameters_at
+
    !> Refuse parameters and histories without a meaning; keep an earlier error.
    subroutine check_points(self, place, histories, error)
-      class(points_settings_type), intent(in) :: self
+      class(points_settings_type), intent(inout) :: self
       !> File and section, for messages
       character(len=*), intent(in) :: place
       type(block_history_type), intent(in) :: histories(:)
@@ -56,11 +69,10 @@ contains
       integer :: i
 
       do i = 1, 2
-         corner = block_parameters_type(epsilon=self%epsilon%window(i), tau=self%tau%window(i), &
-                                        xi=self%xi%window(i), gamma=self%gamma%window(i), &
-                                        law=self%law, own=self%own)
+         corner = self%at(self%axes(1)%window(i), self%axes(2)%window(i))
          call corner%check(place, error)
       end do
+      self%parameters = corner
       call check_choice(error, place, "sweep", self%sweep, ["none", "up  ", "down"])
       call check_count(error, place, "number of histories", size(histories), at_least=1)
       do i = 1, size(histories)
@@ -72,26 +84,21 @@ contains
    pure integer function columns_of_grid(self) result(columns)
       class(points_settings_type), intent(in) :: self
 
-      columns = size(values_on(self%epsilon))
+      columns = size(values_on(self%axes(1)))
    end function columns_of_grid
 
-   !> All points: epsilon runs fastest, then tau, xi, gamma, and histories slowest; those of a sweep
-   !> in its order.
+   !> All points: the first axis runs fastest, then the second, and histories slowest; those of a
+   !> sweep in its order.
    pure function list_points(self, histories) result(points)
       class(points_settings_type), intent(in) :: self
       type(block_history_type), intent(in) :: histories(:)
       type(point_type), allocatable :: points(:)
-      real(wp), allocatable :: epsilon(:), gamma(:), tau(:), xi(:)
-      integer :: g, i, j, k, x
+      real(wp), allocatable :: x(:), y(:)
+      integer :: i, j, k
 
-      epsilon = values_on(self%epsilon)
-      tau = values_on(self%tau)
-      xi = values_on(self%xi)
-      gamma = values_on(self%gamma)
-      points = [(((((point_type(block_parameters_type(epsilon=epsilon(i), tau=tau(j), xi=xi(x), &
-                                                      gamma=gamma(g), law=self%law, &
-                                                      own=self%own), histories(k)), &
-                     i=1, size(epsilon)), j=1, size(tau)), x=1, size(xi)), g=1, size(gamma)), &
+      x = values_on(self%axes(1))
+      y = values_on(self%axes(2))
+      points = [(((point_type(self%at(x(i), y(j)), histories(k)), i=1, size(x)), j=1, size(y)), &
                  k=1, size(histories))]
       if (self%sweep == "down") points = points(size(points):1:-1)
    end function list_points

@@ -102,7 +102,7 @@ contains
       !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> The scene
-      type(scene_type), intent(in) :: scene
+      type(scene_type), intent(inout) :: scene
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
 

@@ -12,15 +12,16 @@ module block_parameters
    implicit none (type, external)
    private
    public :: absent_history, block_history_type, block_parameters_type, chain_law, describe_law, &
-             history_names, law_names, law_parameters, missing_history, missing_parameters, &
-             most_own, paper_law, parameter_meanings, parameter_names, with_vector, vector_of
+             history_names, law_names, law_parameters, meaning_of, missing_history, &
+             missing_parameters, paper_law, parameter_meanings, parameter_names, vector_of, &
+             with_vector
 
    !> The law of equation (4).
    character(len=*), parameter :: paper_law = "slip_delayed_logarithm"
    !> What names of models of chains have before the law.
    character(len=*), parameter :: chain_prefix = "chain_"
-   !> Most parameters that a law has beside the block's.
-   integer, parameter :: most_own = 8
+   !> Most parameters that a law has beside the block's: a user's eight, and zeta.
+   integer, parameter :: most_own = 9
    !> Names of the block's parameters, the first of every law, in the order of their numbers.
    character(len=*), parameter :: parameter_names(4) = ["tau    ", "epsilon", "xi     ", "gamma  "]
    !> Descriptions of the parameters, in the same order.
@@ -44,7 +45,8 @@ module block_parameters
       real(wp) :: gamma = 1.0_wp
       !> Name of the law of friction
       character(len=word_length) :: law = paper_law
-      !> The law's own parameters, in the order of its definition
+      !> The law's own parameters by name; once checked in the order of its definition
+      character(len=word_length) :: own_names(most_own) = ""
       real(wp) :: own(most_own) = 0.0_wp
       !> Number of blocks of a chain
       integer :: blocks = 1
@@ -55,7 +57,11 @@ module block_parameters
    contains
       !> Whether there are several blocks
       procedure :: is_chain
-      !> Refuse a parameter out of range
+      !> Names of all parameters in the order of their numbers
+      procedure :: names => names_of_parameters
+      !> Give a parameter a value by its name
+      procedure :: put => put_parameter
+      !> Put the law's own parameters in order, and refuse a parameter out of range
       procedure :: check => check_parameters
    end type block_parameters_type
 
@@ -84,28 +90,70 @@ module block_parameters
 
 contains
 
-   !> The block's parameters by number.
+   !> All parameters by number: the block's, then the law's own.
    pure function vector_of(parameters) result(vector)
       !> Parameters by name
       class(block_parameters_type), intent(in) :: parameters
-      real(wp) :: vector(size(parameter_names))
+      real(wp) :: vector(size(parameter_names) + most_own)
 
-      vector = [parameters%tau, parameters%epsilon, parameters%xi, parameters%gamma]
+      vector = [parameters%tau, parameters%epsilon, parameters%xi, parameters%gamma, parameters%own]
    end function vector_of
 
    !> Parameters of the same law with these values.
    pure type(block_parameters_type) function with_vector(parameters, vector) result(changed)
-      !> The law and its own parameters
+      !> The law; its own parameters as far as the vector has none
       type(block_parameters_type), intent(in) :: parameters
-      !> The block's parameters in the order of `parameter_names`
+      !> Parameters by number, at least the block's
       real(wp), intent(in) :: vector(:)
 
       changed = parameters
-      changed%tau = vector(1)
-      changed%epsilon = vector(2)
-      changed%xi = vector(3)
-      changed%gamma = vector(4)
+      call set_vector(changed, vector)
    end function with_vector
+
+   !> Give parameters their values by number.
+   pure subroutine set_vector(parameters, vector)
+      class(block_parameters_type), intent(inout) :: parameters
+      real(wp), intent(in) :: vector(:)
+
+      parameters%tau = vector(1)
+      parameters%epsilon = vector(2)
+      parameters%xi = vector(3)
+      parameters%gamma = vector(4)
+      parameters%own(:size(vector) - size(parameter_names)) = vector(size(parameter_names) + 1:)
+   end subroutine set_vector
+
+   !> Names of all parameters in the order of their numbers.
+   pure function names_of_parameters(self) result(names)
+      class(block_parameters_type), intent(in) :: self
+      character(len=word_length), allocatable :: names(:)
+
+      names = [character(len=word_length) :: parameter_names, &
+               pack(self%own_names, self%own_names /= "")]
+   end function names_of_parameters
+
+   !> Give a parameter a value by its name, which `check` refuses if the law has none.
+   pure subroutine put_parameter(self, name, value)
+      class(block_parameters_type), intent(inout) :: self
+      !> Name of the parameter; blank for none
+      character(len=*), intent(in) :: name
+      !> Its value
+      real(wp), intent(in) :: value
+      real(wp) :: vector(size(parameter_names) + most_own)
+      integer :: number
+
+      if (name == "") return
+      number = findloc([character(len=word_length) :: parameter_names], name, dim=1)
+      if (number == 0) then
+         number = findloc(self%own_names, name, dim=1)
+         if (number == 0) number = findloc(self%own_names, "", dim=1)
+         if (number == 0) return
+         self%own_names(number) = name
+         number = number + size(parameter_names)
+      end if
+      vector = vector_of(self)
+      vector(number) = value
+      call set_vector(self, vector)
+   end subroutine put_parameter
 
    !> All parameters in the order of the law's definition.
    function law_parameters(parameters, model) result(vector)
@@ -114,13 +162,10 @@ contains
       !> The model of the law
       class(model_type), intent(in) :: model
       real(wp), allocatable :: vector(:)
-      integer :: own
 
-      own = model%sizes%parameters - size(parameter_names)
-      ! of a chain the last one is kappa
-      if (model%is_chain()) own = own - 1
-      vector = [vector_of(parameters), parameters%own(:own)]
-      if (model%is_chain()) vector = [vector, parameters%kappa]
+      vector = vector_of(parameters)
+      vector = vector(:model%sizes%parameters)
+      if (model%is_chain()) vector(size(vector)) = parameters%kappa
    end function law_parameters
 
    !> Whether there are several blocks.
@@ -152,9 +197,24 @@ contains
       if (.not. allocated(error)) description = model%describe()
    end subroutine describe_law
 
-   !> Refuse a law that there is not, and parameters out of its ranges; keep an earlier error.
+   !> What the definition of a law says of one of its parameters.
+   function meaning_of(law, name) result(meaning)
+      !> Names of the law and of the parameter, which were checked
+      character(len=*), intent(in) :: law, name
+      character(len=:), allocatable :: meaning
+      type(description_type) :: description
+      type(error_type), allocatable :: error
+
+      call describe_law(law, description, error)
+      associate (known => description%parameters)
+         meaning = trim(known(findloc(known%name, name, dim=1))%meaning)
+      end associate
+   end function meaning_of
+
+   !> Put the law's own parameters in the order of its definition. Refuse a law that there is not,
+   !> names that it has not, and parameters out of its ranges; keep an earlier error.
    subroutine check_parameters(self, place, error)
-      class(block_parameters_type), intent(in) :: self
+      class(block_parameters_type), intent(inout) :: self
       character(len=*), intent(in) :: place
       type(error_type), allocatable, intent(inout) :: error
       real(wp), allocatable :: lag(:), vector(:)
@@ -166,7 +226,20 @@ contains
       if (.not. allocated(error)) call open_model(trim(self%law), model, error)
       if (allocated(error)) return
       law = model%describe()
-      vector = [vector_of(self), self%own]
+      vector = vector_of(self)
+      associate (names => law%parameters%name, first => size(parameter_names) + 1)
+         if (any(self%own_names /= "")) vector(first:) = absent
+         do i = 1, most_own
+            if (self%own_names(i) == "") cycle
+            call check_choice(error, place, "parameter of the law "//trim(self%law), &
+                              self%own_names(i), names)
+            if (allocated(error)) return
+            vector(findloc(names, self%own_names(i), dim=1)) = self%own(i)
+         end do
+         call set_vector(self, vector)
+         self%own_names = ""
+         self%own_names(:size(names) - first + 1) = names(first:)
+      end associate
       do i = 1, size(law%parameters)
          associate (one => law%parameters(i))
             if (one%at_least > unbounded) then

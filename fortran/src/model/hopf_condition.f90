@@ -42,9 +42,6 @@ module hopf_condition
       procedure :: largest_omega
       procedure :: least_omega
       procedure :: xi_at
-      procedure :: miss_along_xi
-      procedure :: gamma_at
-      procedure :: miss_along_gamma
       procedure :: tau_at
       procedure :: partner_omega
    end type hopf_condition_type
@@ -310,55 +307,6 @@ contains
       value = on_axis(c(:, 1), omega) &
               + on_axis(c(:, 2), omega)*exp(cmplx(0.0_wp, -omega*tau, kind=wp))
    end function delta_at
-
-   !> 0 at the frequencies of pairs i omega at this epsilon, delay and gamma, whatever xi: Delta =
-   !> a + x b.
-   pure real(wp) function miss_along_xi(self, omega, epsilon, tau, gamma) result(miss)
-      class(hopf_condition_type), intent(in) :: self
-      real(wp), intent(in) :: omega, epsilon, tau, gamma
-      complex(wp) :: a, b
-
-      a = delta_at(self, omega, 1.0_wp + epsilon, 0.0_wp, g_of(self, gamma), tau)
-      b = delta_at(self, omega, 1.0_wp + epsilon, 1.0_wp, g_of(self, gamma), tau) - a
-      miss = aimag(a*conjg(b))/(abs(a)*abs(b) + tiny(1.0_wp))
-   end function miss_along_xi
-
-   !> 0 at the frequencies of pairs i omega at this epsilon, delay and xi, whatever gamma: Delta =
-   !> a + g b.
-   pure real(wp) function miss_along_gamma(self, omega, epsilon, tau, xi) result(miss)
-      class(hopf_condition_type), intent(in) :: self
-      real(wp), intent(in) :: omega, epsilon, tau, xi
-      complex(wp) :: a, b
-
-      call split_by_g(self, omega, epsilon, tau, xi, a, b)
-      miss = aimag(a*conjg(b))/(abs(a)*abs(b) + tiny(1.0_wp))
-   end function miss_along_gamma
-
-   !> Delta = a + g b.
-   pure subroutine split_by_g(self, omega, epsilon, tau, xi, a, b)
-      class(hopf_condition_type), intent(in) :: self
-      real(wp), intent(in) :: omega, epsilon, tau, xi
-      complex(wp), intent(out) :: a, b
-
-      a = delta_at(self, omega, 1.0_wp + epsilon, x_of(self, xi), 0.0_wp, tau)
-      b = delta_at(self, omega, 1.0_wp + epsilon, x_of(self, xi), 1.0_wp, tau) - a
-   end subroutine split_by_g
-
-   !> The gamma of a pair i omega where `miss_along_gamma` is 0; -1 where there is none.
-   pure real(wp) function gamma_at(self, omega, epsilon, tau, xi) result(gamma)
-      class(hopf_condition_type), intent(in) :: self
-      !> Frequency of the pair, > 0; sensitivity of the velocity relaxation; delay; spring constant
-      real(wp), intent(in) :: omega, epsilon, tau, xi
-      complex(wp) :: a, b
-      real(wp) :: g
-
-      call split_by_g(self, omega, epsilon, tau, xi, a, b)
-      g = -real(a*conjg(b))
-      gamma = -1.0_wp
-      if (.not. (g > 0.0_wp .and. abs(b) > 0.0_wp)) return
-      gamma = g/abs(b)**2
-      if (self%has_inertia) gamma = sqrt(gamma)
-   end function gamma_at
 
    !> The delay of a pair i omega on branch k, by exp(i omega tau) = -Q/P; (10) for the paper's law,
    !> with its full numerator and the arctangent of two arguments. There the angle is continuous in

@@ -121,28 +121,33 @@ contains
       type(block_history_type) :: history
       type(continuation_type) :: arrived, start
       type(spring_block_type) :: block_model
+      real(wp) :: longest_delay
       integer :: i
 
       allocate (findings(size(points)))
       history = points(1)%history
+      longest_delay = 0.0_wp
+      do i = 1, size(points)
+         block_model = spring_block_type(points(i)%parameters, history)
+         longest_delay = max(longest_delay, maxval(block_model%lag))
+      end do
       do i = 1, size(points)
          block_model = spring_block_type(points(i)%parameters, history)
          call find_attractor(block_model, settings, options, findings(i)%attractor, &
                              findings(i)%problem, start, arrived)
          if (i < size(points) .and. .not. allocated(findings(i)%problem)) then
-            call hand_over(block_model, points(i + 1), maxval(points%parameters%tau), options, &
-                           arrived, history, start)
+            call hand_over(block_model, spring_block_type(points(i + 1)%parameters, history), &
+                           longest_delay, options, arrived, history, start)
          end if
          if (present(progress)) call progress%advance(i, size(points))
       end do
    end subroutine sweep_attractors
 
    !> Where the next point starts. A run on at the old parameters makes the past as long as the
-   !> longest delay of the sweep. There is no past to hand over between a block without delay and
-   !> one with a delay: then the last state holds for t <= 0.
+   !> longest delay of the sweep. There is no past to hand over between blocks with different
+   !> numbers of delays: then the last state holds for t <= 0.
    subroutine hand_over(block_model, next, longest_delay, options, arrived, history, start)
-      type(spring_block_type), intent(in) :: block_model
-      type(point_type), intent(in) :: next
+      type(spring_block_type), intent(in) :: block_model, next
       real(wp), intent(in) :: longest_delay
       type(integration_options), intent(in) :: options
       type(continuation_type), intent(in) :: arrived
@@ -155,7 +160,7 @@ contains
       type(integration_result) :: outcome
       real(wp) :: y(block_model%n)
 
-      if ((size(block_model%lag) > 0) .neqv. (next%parameters%tau > 0.0_wp)) then
+      if (size(block_model%lag) /= size(next%lag)) then
          start = continuation_type()
          history = block_history_type(theta=arrived%y(index_of_theta), &
                                       u=arrived%y(index_of_u) + disturbance, &

@@ -91,7 +91,7 @@ contains
       type(orbit_change_type) :: tangent
       type(periodic_orbit_type) :: orbit
       type(special_point_type), allocatable :: here(:)
-      real(wp) :: at(4)
+      real(wp), allocatable :: at(:)
       integer :: branches, direction, i, j
 
       associate (line => settings%line)
@@ -193,7 +193,7 @@ contains
       !> Error if the trajectory leads to no cycle
       type(error_type), allocatable, intent(out) :: error
       type(integration_options) :: options
-      real(wp) :: vector(4)
+      real(wp), allocatable :: vector(:)
 
       vector = vector_of(settings%line%parameters)
       vector(settings%line%along) = settings%starts(i)
@@ -239,7 +239,7 @@ contains
       type(cycle_settings_type), intent(in) :: settings
       type(cycles_type), intent(in) :: found(:)
       type(hopf_start_type), intent(in) :: hopf
-      real(wp) :: vector(4)
+      real(wp), allocatable :: vector(:)
       integer :: i
 
       value = .false.

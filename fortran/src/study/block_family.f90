@@ -1,4 +1,4 @@
-!> The block as a family of problems with the parameters tau, epsilon, xi and gamma.
+!> The block as a family of problems with the parameters of its law.
 module block_family
    use block_parameters, only: block_history_type, block_parameters_type, vector_of, with_vector
    use dde, only: dde_problem_type
@@ -10,12 +10,12 @@ module block_family
    public :: along_epsilon, along_gamma, along_tau, along_xi, block_family_type, &
              transverse_family_type, vector_of, with_vector
 
-   !> Numbers of the parameters in the order of the family.
+   !> Numbers of the block's parameters in the family; the law's own ones follow.
    integer, parameter :: along_tau = 1, along_epsilon = 2, along_xi = 3, along_gamma = 4
 
-   !> The block; parameters tau, epsilon, xi, gamma.
+   !> The block; parameters in the order of the law's definition.
    type, extends(problem_family_type) :: block_family_type
-      !> The law and its own parameters
+      !> The law
       type(block_parameters_type) :: law
    contains
       procedure :: at => block_at
@@ -35,7 +35,7 @@ contains
    !> The block at parameters. A delay of 0 remains a delay.
    subroutine block_at(self, parameters, problem)
       class(block_family_type), intent(in) :: self
-      !> tau, epsilon, xi, gamma
+      !> Parameters by number
       real(wp), intent(in) :: parameters(:)
       class(dde_problem_type), allocatable, intent(out) :: problem
 
@@ -46,7 +46,7 @@ contains
    !> The block at parameters, with disturbances of the mode.
    subroutine transverse_at(self, parameters, problem)
       class(transverse_family_type), intent(in) :: self
-      !> tau, epsilon, xi, gamma
+      !> Parameters by number
       real(wp), intent(in) :: parameters(:)
       class(dde_problem_type), allocatable, intent(out) :: problem
 

@@ -1,22 +1,31 @@
-!> Lines of parameters of the block on which cycles are followed, and the Hopf points on them.
+!> Lines of a parameter on which cycles are followed, and the Hopf points on them: where the number
+!> of unstable characteristic roots changes by a pair. This holds for every law and parameter.
 module cycle_lines
-   use block_family, only: along_epsilon, along_gamma, along_tau, along_xi, vector_of
-   use block_parameters, only: block_parameters_type
-   use dde_errors, only: error_type, raise
+   use block_family, only: along_epsilon, along_gamma, along_tau, along_xi, vector_of, with_vector
+   use block_parameters, only: block_parameters_type, law_parameters
+   use characteristic_function, only: characteristic_of, characteristic_type
+   use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use gsl_roots, only: find_root, scalar_function_type
-   use hopf_condition, only: find_hopf_condition, hopf_condition_type, two_pi
+   use model_problem, only: model_type
+   use root_counts, only: crossing_frequency, roots_right_of
+   use spring_block, only: find_model
    implicit none (type, external)
    private
    public :: along_epsilon, along_gamma, along_tau, along_xi, cycle_line_type, find_hopf_starts, &
              hopf_start_type
 
-   !> Places at which a sign of the condition is looked for between frequencies 0 and the largest
+   !> Places of a line at which unstable roots are counted
    integer, parameter :: scan_places = 4000
+   !> An interval with one pair is halved to this length before Newton's method, one with several to
+   !> that, in units of the window
+   real(wp), parameter :: narrow = 1.0e-7_wp, narrowest = 1.0e-13_wp
+   !> Newton's method ends when steps are below this share, or after so many steps
+   real(wp), parameter :: accuracy = 1.0e-14_wp
+   integer, parameter :: most_steps = 20
 
    !> A line.
    type :: cycle_line_type
-      !> along_tau, along_epsilon, along_xi or along_gamma
+      !> Number of the parameter that varies
       integer :: along = along_epsilon
       !> The other parameters
       type(block_parameters_type) :: parameters
@@ -32,109 +41,127 @@ module cycle_lines
       real(wp) :: omega = 0.0_wp
    end type hopf_start_type
 
-   !> By how much the Hopf condition misses the line, as a function of the frequency.
-   type, extends(scalar_function_type) :: miss_type
-      !> The line
-      type(cycle_line_type) :: line
-      !> Where the law has pairs i omega
-      type(hopf_condition_type) :: condition
-      !> Branch of equation (10); on lines along xi and gamma there is one for all
-      integer :: k = 0
-   contains
-      procedure :: value => miss_of_line
-   end type miss_type
-
 contains
 
-   !> All Hopf points on a line.
+   !> All Hopf points on a line. Pairs that cross in and out between two places of the scan are
+   !> missed.
    subroutine find_hopf_starts(line, starts, error)
       !> The line
       type(cycle_line_type), intent(in) :: line
-      !> Hopf points, branch by branch of equation (10)
+      !> Hopf points, by the turns that the pair makes in a delay, and by frequency
       type(hopf_start_type), allocatable, intent(out) :: starts(:)
-      !> A root was not found
+      !> A Hopf point was not found
       type(error_type), allocatable, intent(out) :: error
-      type(hopf_start_type) :: start
-      type(miss_type) :: miss
-      real(wp) :: here, largest, next, omega, place(4)
-      integer :: branches, i, k
+      type(model_type) :: model
+      real(wp) :: here, next
+      integer :: i, pairs_here, pairs_next
 
       allocate (starts(0))
-      miss%line = line
-      call find_hopf_condition(line%parameters, miss%condition, error)
-      if (allocated(error)) return
-      if (line%along == along_gamma .and. .not. miss%condition%has_inertia) then
-         call raise(error, "find_hopf_starts: along gamma, on which the law '" &
-                    //trim(line%parameters%law)//"' does not depend; expected a law with inertia")
-         return
-      end if
-      associate (p => line%parameters)
-         largest = miss%condition%largest_omega(p%epsilon)
-         select case (line%along)
-         case (along_tau)
-            branches = int(line%window(2)*largest/two_pi) + 1
-         case (along_epsilon)
-            largest = miss%condition%largest_omega(line%window(2))
-            branches = int(p%tau*largest/two_pi) + 1
-         case default
-            branches = 0
-         end select
-         do k = 0, branches
-            miss%k = k
-            here = miss%value(largest/scan_places)
-            do i = 1, scan_places - 1
-               next = miss%value(largest*(i + 1)/scan_places)
-               if (here < 0.0_wp .neqv. next < 0.0_wp) then
-                  call find_root(miss, largest*i/scan_places, largest*(i + 1)/scan_places, omega, &
-                                 error)
-                  if (allocated(error)) return
-                  start = hopf_start_type(at_frequency(miss, omega), omega)
-                  place = vector_of(start%parameters)
-                  if (place(line%along) >= line%window(1) .and. &
-                      place(line%along) <= line%window(2) .and. &
-                      start%parameters%tau >= 0.0_wp) starts = [starts, start]
-               end if
-               here = next
-            end do
+      call find_model(place_on(line, line%window(1)), model)
+      here = line%window(1)
+      pairs_here = unstable_roots(here)
+      do i = 1, scan_places
+         next = line%window(1) + (line%window(2) - line%window(1))*i/scan_places
+         pairs_next = unstable_roots(next)
+         call search(here, next, pairs_here, pairs_next)
+         if (allocated(error)) return
+         here = next
+         pairs_here = pairs_next
+      end do
+
+   contains
+
+      !> The characteristic function at a place.
+      type(characteristic_type) function function_at(x) result(c)
+         real(wp), intent(in) :: x
+
+         call model%set(law_parameters(place_on(line, x), model), model%past)
+         c = characteristic_of(model)
+      end function function_at
+
+      !> Number of unstable roots at a place.
+      integer function unstable_roots(x) result(number)
+         real(wp), intent(in) :: x
+
+         number = roots_right_of(function_at(x), 0.0_wp)
+      end function unstable_roots
+
+      !> Add the Hopf points of an interval. A change by one is a real root.
+      recursive subroutine search(from, to, roots_from, roots_to)
+         real(wp), intent(in) :: from, to
+         !> Numbers of unstable roots at its ends
+         integer, intent(in) :: roots_from, roots_to
+         real(wp) :: middle
+         integer :: roots_middle
+
+         if (abs(roots_to - roots_from) < 2 .or. allocated(error)) return
+         associate (share => (to - from)/(line%window(2) - line%window(1)))
+            if (share > merge(narrow, narrowest, abs(roots_to - roots_from) == 2)) then
+               middle = 0.5_wp*(from + to)
+               roots_middle = unstable_roots(middle)
+               call search(from, middle, roots_from, roots_middle)
+               call search(middle, to, roots_middle, roots_to)
+            else
+               call add(from, to)
+            end if
+         end associate
+      end subroutine search
+
+      !> Add the Hopf point between two places by Newton's method for Delta(i omega) = 0.
+      subroutine add(from, to)
+         real(wp), intent(in) :: from, to
+         type(characteristic_type) :: c
+         complex(wp) :: by_omega, by_x, delta, s
+         real(wp) :: omega, step(2), x
+         integer :: i
+         logical, allocatable :: earlier(:)
+
+         ! off the ends, at which the pair may be on the axis
+         omega = crossing_frequency(function_at(2.0_wp*from - to), function_at(2.0_wp*to - from))
+         x = 0.5_wp*(from + to)
+         do i = 1, most_steps
+            c = function_at(x)
+            s = cmplx(0.0_wp, omega, kind=wp)
+            delta = c%value(s)
+            by_omega = (0.0_wp, 1.0_wp)*c%by_s(s)
+            by_x = c%by_parameter(line%along, s)
+            step = -[aimag(conjg(by_x)*delta), -aimag(conjg(by_omega)*delta)] &
+                   /aimag(conjg(by_x)*by_omega)
+            omega = omega + step(1)
+            x = x + step(2)
+            if (all(abs(step) <= accuracy*abs([omega, x]))) exit
          end do
-      end associate
+         if (.not. abs(x - 0.5_wp*(from + to)) <= 2.0_wp*(to - from) + accuracy*abs(x)) then
+            call raise(error, "find_hopf_starts: a pair of roots crosses the axis between " &
+                       //text(from)//" and "//text(to)//", and Newton's method does not find where")
+            return
+         end if
+         associate (start => hopf_start_type(place_on(line, x), omega))
+            earlier = [(is_before(starts(i), start), i=1, size(starts))]
+            starts = [pack(starts, earlier), start, pack(starts, .not. earlier)]
+         end associate
+      end subroutine add
    end subroutine find_hopf_starts
 
-   !> Parameters of a pair i omega on the line.
-   type(block_parameters_type) function at_frequency(miss, omega) result(parameters)
-      type(miss_type), intent(in) :: miss
-      real(wp), intent(in) :: omega
-
-      parameters = miss%line%parameters
-      associate (p => parameters, c => miss%condition)
-         select case (miss%line%along)
-         case (along_xi)
-            p%xi = c%xi_at(omega, p%tau, p%gamma)
-         case (along_gamma)
-            p%gamma = c%gamma_at(omega, p%epsilon, p%tau, p%xi)
-         case default
-            p%epsilon = c%epsilon_at(omega, p%xi, p%gamma)
-            p%tau = c%tau_at(omega, p%epsilon, p%xi, p%gamma, miss%k)
-         end select
-      end associate
-   end function at_frequency
-
-   !> By how much a pair i omega misses the line.
-   real(wp) function miss_of_line(self, x) result(value)
-      class(miss_type), intent(in) :: self
+   !> Parameters at a place of a line.
+   pure type(block_parameters_type) function place_on(line, x) result(parameters)
+      type(cycle_line_type), intent(in) :: line
       real(wp), intent(in) :: x
+      real(wp), allocatable :: vector(:)
 
-      associate (p => self%line%parameters, c => self%condition)
-         select case (self%line%along)
-         case (along_tau)
-            value = c%epsilon_at(x, p%xi, p%gamma) - p%epsilon
-         case (along_epsilon)
-            value = c%tau_at(x, c%epsilon_at(x, p%xi, p%gamma), p%xi, p%gamma, self%k) - p%tau
-         case (along_xi)
-            value = c%miss_along_xi(x, p%epsilon, p%tau, p%gamma)
-         case default
-            value = c%miss_along_gamma(x, p%epsilon, p%tau, p%xi)
-         end select
+      vector = vector_of(line%parameters)
+      vector(line%along) = x
+      parameters = with_vector(line%parameters, vector)
+   end function place_on
+
+   !> Whether a Hopf point has fewer turns in a delay, or as many and a lower frequency.
+   pure logical function is_before(one, other) result(value)
+      type(hopf_start_type), intent(in) :: one, other
+      real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
+
+      associate (k => nint(one%omega*one%parameters%tau/turn), &
+                 other_k => nint(other%omega*other%parameters%tau/turn))
+         value = k < other_k .or. (k == other_k .and. one%omega < other%omega)
       end associate
-   end function miss_of_line
+   end function is_before
 end module cycle_lines

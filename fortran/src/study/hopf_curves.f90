@@ -1,5 +1,6 @@
-!> Hopf curves in a plane of two parameters, drawn over the frequency omega: the pieces inside a
-!> window are found by a scan, their ends by root finding, and points are set where the line bends.
+!> Hopf curves in a plane of two parameters, drawn over the frequency omega, or over the ordinate,
+!> which then stands for omega below: the pieces inside a window are found by a scan, their ends by
+!> root finding, and points are set where the line bends.
 module hopf_curves
    use block_family, only: along_tau
    use block_parameters, only: block_parameters_type
@@ -14,8 +15,8 @@ module hopf_curves
    private
    public :: curve_point_type, trace_curves
 
-   !> Omegas of the scan for pieces inside the window.
-   integer, parameter :: scan_points = 20000
+   !> Omegas of the scan for pieces inside the window, or ordinates, which are dearer.
+   integer, parameter :: scan_omegas = 20000, scan_ordinates = 500
    !> Farthest a chord may lie from the curve, and longest chord, in units of the window.
    real(wp), parameter :: chord_deviation = 1.0e-4_wp, chord_length = 0.02_wp
    !> Most halvings of one piece.
@@ -69,8 +70,9 @@ contains
       real(wp), allocatable :: omega(:)
       logical, allocatable :: inside(:)
       real(wp) :: ends(2), omega_least, omega_most
-      integer :: first, i, k, k_most, last, piece
+      integer :: first, i, k, k_most, last, piece, scan_points
 
+      scan_points = merge(scan_omegas, scan_ordinates, plane%by_frequency())
       allocate (points(0), omega(0:scan_points), inside(0:scan_points))
       margin%plane = plane
       call plane%bounds(omega_least, omega_most, k_most)
@@ -162,7 +164,7 @@ contains
    end function piece_of_curve
 
    !> Whether the chord between two omegas misses the curve's middle or is too long.
-   pure logical function chord_is_bad(plane, k, omega_1, omega_2) result(value)
+   logical function chord_is_bad(plane, k, omega_1, omega_2) result(value)
       type(curve_plane_type), intent(in) :: plane
       integer, intent(in) :: k
       real(wp), intent(in) :: omega_1, omega_2
@@ -178,27 +180,26 @@ contains
       end if
    end function chord_is_bad
 
-   !> The point of branch k at omega with its residuals and crossing.
-   type(curve_point_type) function point_of_curve(plane, k, omega, piece) result(point)
+   !> The point of branch k at a frequency or an ordinate, with its residuals and crossing.
+   type(curve_point_type) function point_of_curve(plane, k, x, piece) result(point)
       type(curve_plane_type), intent(in) :: plane
       integer, intent(in) :: k
-      real(wp), intent(in) :: omega
+      real(wp), intent(in) :: x
       integer, intent(in) :: piece
       type(block_parameters_type) :: printed
       type(characteristic_type) :: c
       complex(wp) :: s
 
-      s = cmplx(0.0_wp, omega, kind=wp)
-      point%omega = omega
       point%branch = k
       point%piece = piece
-      point%parameters = plane%at(omega, k)
+      point%parameters = plane%at(x, k, point%omega)
+      s = cmplx(0.0_wp, point%omega, kind=wp)
       associate (p => point%parameters)
          c = block_characteristic(p)
          point%residual = c%relative_residual(s)
          point%crossing = nint(sign(1.0_wp, real(c%root_by(along_tau, s))))
          printed = p
-         printed%tau = printed_tau(omega, p%xi, p%gamma, k)
+         printed%tau = printed_tau(point%omega, p%xi, p%gamma, k)
       end associate
       point%printed_tau = printed%tau
       c = block_characteristic(printed)

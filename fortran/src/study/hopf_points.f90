@@ -6,7 +6,7 @@ module hopf_points
    use block_parameters, only: block_parameters_type
    use dde_errors, only: error_type
    use gsl_roots, only: find_falling_root, find_root, scalar_function_type
-   use hopf_condition, only: two_pi
+   use hopf_condition, only: hopf_condition_type, two_pi
    use hopf_curves, only: curve_point_type
    use hopf_planes, only: curve_plane_type
    use hopf_unfoldings, only: unfold_double_hopf, unfold_generalised_hopf, unfolding_type
@@ -89,7 +89,7 @@ contains
       !> A root was not found
       type(error_type), allocatable, intent(out) :: error
       type(branch_function_type) :: coefficient, meeting
-      real(wp) :: omega
+      real(wp) :: x
       integer :: i, m
 
       allocate (found(0))
@@ -102,32 +102,36 @@ contains
             if (p%piece /= q%piece) cycle
             coefficient%k = p%branch
             if (p%l1 < 0.0_wp .neqv. q%l1 < 0.0_wp) then
-               call find_root(coefficient, p%omega, q%omega, omega, error)
+               call find_root(coefficient, place(p), place(q), x, error)
                if (allocated(error)) return
-               if (abs(coefficient%value(omega)) <= small_coefficient) then
-                  call add_point(found, "generalised_hopf", plane, [omega], [p%branch], error)
+               if (abs(coefficient%value(x)) <= small_coefficient) then
+                  call add_point(found, "generalised_hopf", plane, x, [p%branch], error)
                end if
             end if
             ! of two frequencies at the same parameters, the lower one's pair becomes stable
             if (p%crossing > 0 .or. q%crossing > 0) cycle
             meeting%k = p%branch
             meeting%other = 0
-            associate (here => meeting%value(p%omega), there => meeting%value(q%omega))
+            associate (here => meeting%value(place(p)), there => meeting%value(place(q)))
                do m = max(0, ceiling(min(here, there))), floor(max(here, there))
                   if (m == p%branch .or. allocated(error)) cycle
                   meeting%other = m
-                  call find_root(meeting, p%omega, q%omega, omega, error)
+                  call find_root(meeting, place(p), place(q), x, error)
                   if (allocated(error)) return
-                  associate (b => plane%at(omega, p%branch))
-                     call add_point(found, "double_hopf", plane, &
-                                    [omega, plane%condition%partner_omega(omega, b%epsilon, b%xi, &
-                                                                          b%gamma)], &
-                                    [p%branch, m], error)
-                  end associate
+                  call add_point(found, "double_hopf", plane, x, [p%branch, m], error)
                end do
             end associate
          end associate
       end do
+
+   contains
+
+      !> Where a point is on its branch: its frequency, or its ordinate.
+      pure real(wp) function place(point) result(x)
+         type(curve_point_type), intent(in) :: point
+
+         x = merge(point%omega, plane%ordinate(point%parameters), plane%by_frequency())
+      end function place
    end subroutine find_hopf_points
 
    !> The point without delay, where the plane shows it.
@@ -145,23 +149,31 @@ contains
       associate (p => plane%at(omega, 0), window => plane%epsilon_window)
          if (p%epsilon < window(1) .or. p%epsilon > window(2)) return
       end associate
-      call add_point(found, "hopf_without_delay", plane, [omega], [0], error)
+      call add_point(found, "hopf_without_delay", plane, omega, [0], error)
    end subroutine find_start
 
    !> Append a point with its coefficients and its normal form.
-   subroutine add_point(found, kind, plane, omega, branch, error)
+   subroutine add_point(found, kind, plane, x, branch, error)
       type(hopf_point_type), allocatable, intent(inout) :: found(:)
       character(len=*), intent(in) :: kind
       type(curve_plane_type), intent(in) :: plane
-      !> Frequencies, ascending
-      real(wp), intent(in) :: omega(:)
+      !> Where the point is on the first branch
+      real(wp), intent(in) :: x
+      !> Branches, that of the lower frequency first
       integer, intent(in) :: branch(:)
       type(error_type), allocatable, intent(out) :: error
+      type(hopf_condition_type) :: condition
       type(hopf_point_type) :: point
+      real(wp) :: omega(size(branch))
       integer :: i
 
       point%kind = kind
-      point%parameters = plane%at(omega(1), branch(1))
+      point%parameters = plane%at(x, branch(1), omega(1))
+      call plane%condition_at(point%parameters, condition, error)
+      if (allocated(error)) return
+      associate (p => point%parameters)
+         omega(2:) = condition%partner_omega(omega(1), p%epsilon, p%xi, p%gamma)
+      end associate
       point%parameters%tau = max(point%parameters%tau, 0.0_wp)
       point%unstable_pairs = pairs_beside(block_characteristic(point%parameters), omega)
       do i = 1, size(omega)
@@ -173,7 +185,7 @@ contains
       end do
       select case (kind)
       case ("generalised_hopf")
-         call unfold_generalised_hopf(plane, omega(1), branch(1), point%unfolding, error)
+         call unfold_generalised_hopf(plane, x, branch(1), point%unfolding, error)
       case ("double_hopf")
          call unfold_double_hopf(plane, point%parameters, point%omega, point%unfolding, error)
       case default
@@ -185,17 +197,19 @@ contains
    real(wp) function value_along_branch(self, x) result(value)
       class(branch_function_type), intent(in) :: self
       real(wp), intent(in) :: x
+      type(block_parameters_type) :: p
       type(error_type), allocatable :: error
-      real(wp) :: partner
+      type(hopf_condition_type) :: c
+      real(wp) :: omega, partner
 
-      associate (p => self%plane%at(x, self%k), c => self%plane%condition)
-         if (self%other == no_branch) then
-            call first_lyapunov_coefficient(block_equation_type(p), x, value, error)
-         else
-            partner = c%partner_omega(x, p%epsilon, p%xi, p%gamma)
-            value = partner*(p%tau - c%tau_at(partner, p%epsilon, p%xi, p%gamma, 0))/two_pi &
-                    - self%other
-         end if
-      end associate
+      p = self%plane%at(x, self%k, omega)
+      if (self%other == no_branch) then
+         call first_lyapunov_coefficient(block_equation_type(p), omega, value, error)
+      else
+         call self%plane%condition_at(p, c, error)
+         partner = c%partner_omega(omega, p%epsilon, p%xi, p%gamma)
+         value = partner*(p%tau - c%tau_at(partner, p%epsilon, p%xi, p%gamma, 0))/two_pi &
+                 - self%other
+      end if
    end function value_along_branch
 end module hopf_points

@@ -13,14 +13,15 @@ module hopf_unfoldings
    private
    public :: unfold_double_hopf, unfold_generalised_hopf, unfolding_type, way_to_growth
 
-   !> Step of the slope of c1 along the curve, in units of omega; its error is of fourth order.
+   !> Step of the slope of c1 along the curve, in units of omega or of the window; its error is of
+   !> fourth order.
    real(wp), parameter :: slope_step = 1.0e-3_wp
 
    !> The normal form at a special point.
    type :: unfolding_type
       !> Coefficients of z |z|^2 and z |z|^4 at a generalised Hopf point
       complex(wp) :: c1 = 0.0_wp, c2 = 0.0_wp
-      !> d Re(c1)/d omega along the Hopf curve
+      !> d Re(c1)/d omega along the Hopf curve, or by the ordinate
       real(wp) :: c1_slope = 0.0_wp
       !> Coefficients at a double Hopf point
       type(double_hopf_type) :: form
@@ -34,11 +35,11 @@ contains
    !> The second Lyapunov coefficient l2 = Re(c2)/omega. From mu + Re(c1) r + Re(c2) r^2 = 0 and its
    !> derivative, folds have Re(c1) = -2 Re(c2) r and mu = Re(c2) r^2: their curve touches the Hopf
    !> curve and leaves towards the part where l1 and l2 differ in sign.
-   subroutine unfold_generalised_hopf(plane, omega, k, unfolding, error)
+   subroutine unfold_generalised_hopf(plane, x, k, unfolding, error)
       !> The plane
       type(curve_plane_type), intent(in) :: plane
-      !> Frequency of the pair
-      real(wp), intent(in) :: omega
+      !> Frequency of the pair, or the ordinate, as the plane has it
+      real(wp), intent(in) :: x
       !> Branch of the curve
       integer, intent(in) :: k
       !> The normal form
@@ -46,26 +47,30 @@ contains
       !> No coefficient
       type(error_type), allocatable, intent(out) :: error
       complex(wp) :: c1(-2:2), slopes(2)
-      real(wp) :: tangent(2)
+      type(block_parameters_type) :: p
+      real(wp) :: omega, step, tangent(2)
       integer :: i
 
-      call normal_form_coefficient(block_equation_type(plane%at(omega, k)), [omega], [3, 2], &
-                                   unfolding%c2, error)
+      step = slope_step*x
+      if (.not. plane%by_frequency()) then
+         step = slope_step*(plane%ordinate_window(2) - plane%ordinate_window(1))
+      end if
       do i = -2, 2
+         p = plane%at(x + i*step, k, omega)
+         call normal_form_coefficient(block_equation_type(p), [omega], [2, 1], c1(i), error)
          if (allocated(error)) return
-         associate (there => omega*(1.0_wp + slope_step*i))
-            call normal_form_coefficient(block_equation_type(plane%at(there, k)), [there], [2, 1], &
-                                         c1(i), error)
-         end associate
       end do
+      p = plane%at(x, k, omega)
+      call normal_form_coefficient(block_equation_type(p), [omega], [3, 2], unfolding%c2, error)
       if (allocated(error)) return
       unfolding%c1 = c1(0)
       unfolding%c1_slope = (8.0_wp*real(c1(1) - c1(-1)) - real(c1(2) - c1(-2))) &
-                           /(12.0_wp*slope_step*omega)
-      slopes = plane%root_slopes(plane%at(omega, k), cmplx(0.0_wp, omega, kind=wp))
+                           /(12.0_wp*step)
+      slopes = plane%root_slopes(p, cmplx(0.0_wp, omega, kind=wp))
       tangent = [real(slopes(2)), -real(slopes(1))]
-      ! omega grows along the tangent
-      tangent = sign(1.0_wp, sum(aimag(slopes)*tangent))*tangent/norm2(tangent)
+      ! omega, or the ordinate, grows along the tangent
+      tangent = sign(1.0_wp, merge(sum(aimag(slopes)*tangent), tangent(2), plane%by_frequency())) &
+                *tangent/norm2(tangent)
       unfolding%start(:, 1) = -sign(1.0_wp, real(unfolding%c2)*unfolding%c1_slope)*tangent
    end subroutine unfold_generalised_hopf
 

@@ -7,7 +7,7 @@ module root_counts
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: has_more_roots, pairs_beside, roots_right_of
+   public :: crossing_frequency, has_more_roots, pairs_beside, roots_right_of
 
    !> Bound on the change of Delta in a step, in units of Delta: below 1, its argument is certain.
    real(wp), parameter :: step_share = 0.9_wp
@@ -33,6 +33,33 @@ contains
 
       number = number_of(c, line_growth(c, bound, 0.0_wp, far_end(c, bound)), bound)
    end function roots_right_of
+
+   !> Frequency at which a pair of roots crosses the imaginary axis between two characteristic
+   !> functions that are near each other. From there on along the axis their arguments differ by a
+   !> turn.
+   pure real(wp) function crossing_frequency(one, other) result(omega)
+      !> The characteristic functions on both sides of the crossing
+      type(characteristic_type), intent(in) :: one, other
+      !> Length of the last interval, relative
+      real(wp), parameter :: length = 1.0e-6_wp
+      real(wp) :: above, below, growth, more
+
+      below = 0.0_wp
+      above = max(far_end(one, 0.0_wp), far_end(other, 0.0_wp))
+      growth = 0.0_wp
+      do
+         omega = 0.5_wp*(below + above)
+         if (above - below <= length*above) return
+         more = growth + line_growth(one, 0.0_wp, below, omega) &
+                - line_growth(other, 0.0_wp, below, omega)
+         if (abs(more) > pi) then
+            above = omega
+         else
+            below = omega
+            growth = more
+         end if
+      end do
+   end function crossing_frequency
 
    !> Whether there are surely more than `number` roots with real part above `bound`. It does not
    !> count them, which takes long. Where the delayed terms are larger than twice the sum of the

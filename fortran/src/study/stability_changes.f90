@@ -12,7 +12,8 @@ module stability_changes
    use spring_block, only: block_characteristic
    implicit none (type, external)
    private
-   public :: angle_above, changes_with_epsilon, changes_with_tau, omega_function_type, &
+   public :: angle_above, changes_with_epsilon, changes_with_tau, find_on_branch, &
+             omega_function_type, &
              stability_change_type
 
    !> A crossing.
@@ -109,7 +110,7 @@ contains
       type(block_parameters_type) :: there
       type(hopf_condition_type) :: condition
       type(omega_function_type) :: angle
-      real(wp) :: lower, omega, omega_most
+      real(wp) :: omega, omega_most
 
       allocate (changes(0))
       call find_hopf_condition(p, condition, error)
@@ -118,13 +119,9 @@ contains
       omega_most = condition%largest_omega(epsilon_most)
       there = p
       do
-         if (angle%value(omega_most) >= 0.0_wp) exit
-         lower = 0.5_wp*omega_most
-         do while (angle%value(lower) <= 0.0_wp)
-            lower = 0.5_wp*lower
-         end do
-         call find_root(angle, lower, omega_most, omega, error)
+         call find_on_branch(angle, omega_most, omega, error)
          if (allocated(error)) return
+         if (omega <= 0.0_wp) exit
          angle%k = angle%k + 1
          there%epsilon = condition%epsilon_at(omega, p%xi, p%gamma)
          if (there%epsilon > epsilon_most) cycle
@@ -132,6 +129,27 @@ contains
                             changes%parameters%epsilon < there%epsilon)
       end do
    end subroutine changes_with_epsilon
+
+   !> The frequency at which a branch has a given delay.
+   subroutine find_on_branch(angle, omega_most, omega, error)
+      !> `angle_above` with the branch and the delay
+      type(omega_function_type), intent(in) :: angle
+      !> Largest frequency
+      real(wp), intent(in) :: omega_most
+      !> The frequency; 0 if there is none
+      real(wp), intent(out) :: omega
+      !> A root was not found
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: lower
+
+      omega = 0.0_wp
+      if (angle%value(omega_most) >= 0.0_wp) return
+      lower = 0.5_wp*omega_most
+      do while (angle%value(lower) <= 0.0_wp)
+         lower = 0.5_wp*lower
+      end do
+      call find_root(angle, lower, omega_most, omega, error)
+   end subroutine find_on_branch
 
    !> A crossing at the pair i omega.
    type(stability_change_type) function change_at(p, omega, parameter) result(change)

@@ -26,6 +26,7 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("Hopf points on lines", test_hopf_starts), &
+                   new_unittest("Hopf points along a law's own parameter", test_own_parameter), &
                    new_unittest("folds start at a generalised Hopf point", test_folds), &
                    new_unittest("tori start at a double Hopf point", test_tori), &
                    new_unittest("a closed branch", test_closed)]
@@ -39,7 +40,7 @@ contains
       type(hopf_start_type), allocatable :: across(:), starts(:)
       integer, parameter :: along(3) = [along_epsilon, along_xi, along_gamma]
       real(wp), parameter :: known(4) = [10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp]
-      real(wp) :: place(4)
+      real(wp), allocatable :: place(:)
       integer :: i, j
 
       do j = 1, size(along)
@@ -55,7 +56,7 @@ contains
                place = vector_of(p)
                call expect_between(error, place(along(j)), 0.01_wp, 2.0_wp, "window")
                place(along(j)) = known(along(j))
-               call expect_close(error, place, known, 1.0e-9_wp, "the line")
+               call expect_close(error, place(:4), known, 1.0e-9_wp, "the line")
                call expect_close(error, relative_residual(p, cmplx(0.0_wp, starts(i)%omega, wp)), &
                                  0.0_wp, 1.0e-10_wp, "residual of (5)")
                call find_hopf_starts(cycle_line_type(along_tau, p, [0.0_wp, 20.0_wp]), across, &
@@ -68,6 +69,29 @@ contains
          end do
       end do
    end subroutine test_hopf_starts
+
+   !> About steady sliding the law with a cut-off is the paper's at (1 + c) xi.
+   subroutine test_own_parameter(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(block_parameters_type) :: p
+      type(failure_type), allocatable :: failure
+      type(hopf_start_type), allocatable :: along_c(:), of_paper(:)
+      integer :: i
+
+      p = block_parameters_type(tau=10.0_wp, epsilon=0.5_wp, xi=0.4_wp, gamma=0.8_wp)
+      call find_hopf_starts(cycle_line_type(along_xi, p, [0.4_wp, 4.0_wp]), of_paper, failure)
+      call expect_success(error, failure)
+      p%law = "slip_cut_off"
+      call find_hopf_starts(cycle_line_type(5, p, [0.0_wp, 9.0_wp]), along_c, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect(error, size(along_c) > 0 .and. size(along_c) == size(of_paper), "as many")
+      if (allocated(error)) return
+      call expect_close(error, 0.4_wp*(1.0_wp + [(along_c(i)%parameters%own(1), &
+                                                  i=1, size(along_c))]), &
+                        of_paper%parameters%xi, 1.0e-12_wp, "(1 + c) xi")
+      call expect_close(error, along_c%omega, of_paper%omega, 1.0e-12_wp, "omega")
+   end subroutine test_own_parameter
 
    !> The Hopf point of a kind in the plane of epsilon and tau that is nearest to a place.
    subroutine nearest_hopf_point(xi, window, kind, place, nearest, error)

@@ -4,7 +4,7 @@ module test_block_parameters
    use block_parameters, only: block_history_type, block_parameters_type
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
-   use expectations, only: expect, expect_failure, expect_success
+   use expectations, only: expect, expect_close, expect_failure, expect_success
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use value_checks, only: absent
    implicit none (type, external)
@@ -18,6 +18,7 @@ contains
 
       testsuite = [new_unittest("allowed values", test_allowed), &
                    new_unittest("refused values", test_refused), &
+                   new_unittest("parameters by name", test_names), &
                    new_unittest("the first error stays", test_first_error)]
    end subroutine collect_block_parameters
 
@@ -76,12 +77,36 @@ contains
       subroutine refuse(refused, why)
          type(block_parameters_type), intent(in) :: refused
          character(len=*), intent(in) :: why
+         type(block_parameters_type) :: checked
          type(failure_type), allocatable :: met
 
-         call refused%check("input.nml", met)
+         checked = refused
+         call checked%check("input.nml", met)
          call expect_failure(error, met, why)
       end subroutine refuse
    end subroutine test_refused
+
+   !> A law's own parameters have their values by name, in whatever order they are given.
+   subroutine test_names(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(block_parameters_type) :: parameters
+      type(failure_type), allocatable :: failure
+
+      parameters%law = "quasistatic_slip_cut_off"
+      call parameters%put("zeta", 0.1_wp)
+      call parameters%put("c", 0.5_wp)
+      call parameters%put("xi", 0.7_wp)
+      call parameters%check("input.nml", failure)
+      call expect_success(error, failure)
+      call expect(error, all(parameters%names() == [character(len=7) :: "tau", "epsilon", "xi", &
+                                                    "gamma", "c", "zeta"]), "order")
+      call expect_close(error, [parameters%xi, parameters%own(:2)], [0.7_wp, 0.5_wp, 0.1_wp], &
+                        0.0_wp, "xi, c and zeta")
+      parameters%law = "slip_cut_off"
+      call parameters%check("input.nml", failure)
+      call expect_failure(error, failure, "input.nml: parameter of the law slip_cut_off = " &
+                          //"'zeta'; expected one of 'tau' 'epsilon' 'xi' 'gamma' 'c'")
+   end subroutine test_names
 
    !> Of several values out of range the first is reported.
    subroutine test_first_error(error)
