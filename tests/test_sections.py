@@ -1,0 +1,90 @@
+"""Each section of the schema in a file of one's own: alone, in pairs, all, with nothing to show."""
+
+import itertools
+import json
+
+import pytest
+from conftest import Project
+
+from scripts.files.read_config import merge
+from scripts.workflow.plan import read_plan
+
+PLACE = {"tau": 7.0, "epsilon": 0.7, "xi": 0.5, "gamma": 0.8}
+AT_REST = {**PLACE, "tau": 1.0, "epsilon": 0.1}
+PLANE = {"xi": 0.5, "gamma": 0.8}
+LINE = {"along": "tau", "epsilon": 0.7, **PLANE}
+OBSERVED = {"t_transient": 100.0, "t_observed": 100.0, "t_lasting": 50.0, "t_turning": 20.0}
+QUICK = {"observation": {**OBSERVED, "doublings": 0}}
+SHORT = {"t_end": 200.0, "t_transient": 50.0}
+SECTIONS = {
+    "scenes": {"s": {**PLACE, **SHORT, "sample_interval": 0.1, "exponents": {}}},
+    "hopf_curves": {
+        "p": {"ordinate": "tau", **PLANE, "epsilon_window": [0, 1], "ordinate_window": [0, 10]}
+    },
+    "routes": {**QUICK, "lines": {"r": {**LINE, "window": [1, 3], "count": 2}}},
+    "cycles": {"most_orbits": 5, "lines": {"c": {**LINE, "window": [1.0, 2.5]}}},
+    "atlas": {
+        **{**QUICK, "epsilon_count": 3, "ordinate_count": 3, "parts": 1},
+        "planes": {"a": {**PLANE, "ordinate_window": [0, 10]}},
+    },
+    "dimensions": {"d": {"length": 0.1, "v0": 1e-9, "k": 1e7, "a": 1e6, "m": 1e6}},
+    "claims": {
+        "k": {
+            **{"place": "here", "claim": "It is chaos.", "look_at": "attractors.tsv"},
+            "test": {"attractor_class": {"scene": "chaos", "expected": "chaos"}},
+        }
+    },
+    "chains": {"n": {**PLACE, **SHORT, "blocks": 3, "kappa": 0.1}},
+    "event_sizes": {"chains": {"e": {**PLACE, **SHORT, "blocks": 5, "kappa": 0.1}}},
+    "chain_modes": {
+        **{"blocks": 3, "cells": 10},
+        "planes": {"m": {**PLANE, "epsilon_window": [0, 1], "tau_window": [0, 5]}},
+    },
+    "basins": {**QUICK, "count": 3, "places": {"b": PLACE}},
+    "work_precision": {"scenes": {"torus": {"t_end": 20.0}}},
+    "stability": {"families": {"f": {**{k: [v] for k, v in PLACE.items()}, "t_end": 10.0}}},
+}
+NOTHING = {
+    "scenes": {"s": {**AT_REST, **SHORT, "history": {"v": 1.0, "u": 0.0, "theta": 0.0}}},
+    "hopf_curves": {"p": {**SECTIONS["hopf_curves"]["p"], "epsilon_window": [0, 0.1]}},
+    "cycles": {"lines": {"c": {**LINE, "epsilon": 0.1, "window": [0.1, 0.2]}}},
+    "chains": {"n": {**AT_REST, **SHORT, "blocks": 3, "kappa": 0.1}},
+    "event_sizes": {"chains": {"e": {**AT_REST, **SHORT, "blocks": 3, "kappa": 0.1}}},
+    "chain_modes": merge(SECTIONS["chain_modes"], {"planes": {"m": {"epsilon_window": [0, 0.05]}}}),
+}
+"""Motions at rest, planes and lines without Hopf points."""
+SETTINGS = {"attractors": QUICK, "exponents": {"t_turning": 50.0, "blocks": 3}}
+
+
+@pytest.mark.parametrize("number", [1, pytest.param(2, marks=pytest.mark.long)])
+def test_sections_are_planned_in_any_company(tmp_path, number):
+    path = tmp_path / "mine.yaml"
+    for names in itertools.combinations(SECTIONS, number):
+        path.write_text(json.dumps({name: SECTIONS[name] for name in names}))
+        assert "<results>/index.html" in read_plan({"user_file": str(path)}).targets()
+
+
+def made_with(project: Project, values: dict) -> None:
+    """A page with all figures that the file asks for."""
+    (project.folder / "mine.yaml").write_text(json.dumps(merge(SETTINGS, values)))
+    run = project.snakemake("--config", "user_file=mine.yaml")
+    assert run.returncode == 0, run.stdout
+    results = project.folder / "results" / "mine"
+    page = (results / "index.html").read_text()
+    for figure in read_plan({"user_file": str(project.folder / "mine.yaml")}).figures:
+        assert f"figures/{figure}.svg" in page
+        assert (results / "figures" / f"{figure}.svg").exists()
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("values", [SECTIONS, NOTHING], ids=["all", "nothing to show"])
+def test_sections_together_have_a_page(scratch, values):
+    made_with(scratch, values)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    "values", [{name: part[name]} for part in (SECTIONS, NOTHING) for name in part]
+)
+def test_section_alone_has_a_page(scratch, values):
+    made_with(scratch, values)
