@@ -3,6 +3,7 @@ module slip_events_command
    use block_parameters, only: block_history_type
    use dde_errors, only: error_type
    use program_arguments, only: stop_on
+   use namelist_input, only: elements
    use scene_input, only: read_histories, read_scene, scene_type
    use slip_events, only: find_slip_events, slip_event_type
    use slip_events_output, only: write_slip_events
@@ -28,8 +29,9 @@ contains
       call stop_on(error)
       call read_histories(namelist_path, scene, histories, error)
       call stop_on(error)
-      call find_slip_events(spring_block_type(scene%parameters, histories), scene%t_transient, &
-                            scene%t_end, scene%options(), events, error)
+      call find_slip_events(spring_block_type(scene%parameters, histories), &
+                            elements(scene%thresholds), scene%t_transient, scene%t_end, &
+                            scene%options(), events, error)
       call stop_on(error)
       call write_slip_events(output_path, scene, histories, events, error)
       call stop_on(error)

@@ -41,8 +41,9 @@ def chain_groups(config: dict, chain: str) -> dict[str, dict]:
 
 def event_chain_groups(config: dict, event_chain: str) -> dict[str, dict]:
     """A chain for the slips of its blocks from the start on: events are found in all of them."""
-    settings = config["event_sizes"]["chains"][event_chain]
-    return _groups_of(config, event_chain, {**settings, "t_transient": 0.0})
+    study = config["event_sizes"]
+    own = {"t_transient": 0.0, "thresholds": study["thresholds"]}
+    return _groups_of(config, event_chain, study["chains"][event_chain] | own)
 
 
 def motion_chains(config: dict) -> dict[str, dict]:

@@ -5,8 +5,8 @@ module scene_input
    use dde, only: integration_options
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use namelist_input, only: element_length, namelist_file_type, word_length
-   use value_checks, only: check_number, missing, most_samples
+   use namelist_input, only: element_length, elements, namelist_file_type, word_length
+   use value_checks, only: absent, check_number, missing, most_samples
    implicit none (type, external)
    private
    public :: check_scene, read_histories, read_scene, scene_type
@@ -31,6 +31,8 @@ module scene_input
       character(len=word_length) :: method = ""
       !> Variables to store, of theta, u and v; blank where there are fewer
       character(len=element_length) :: variables(3) = ""
+      !> Velocities above which a block slips, for slip events
+      real(wp) :: thresholds(4) = [1.0_wp, absent, absent, absent]
    contains
       procedure :: options => options_of_scene
    end type scene_type
@@ -57,6 +59,8 @@ contains
       call check_number(error, path//": scene '"//trim(scene%name)//"'", "sample_interval", &
                         scene%sample_interval, &
                         at_least=scene%t_end/most_samples*scene%parameters%blocks)
+      call check_number(error, path//": scene '"//trim(scene%name)//"'", "thresholds", &
+                        minval(elements(scene%thresholds)), above=0.0_wp)
    end subroutine read_scene
 
    !> Read and check the values for t <= 0 of each block: of a chain they are lists in the group

@@ -29,7 +29,7 @@ contains
       integer :: rows
       integer, allocatable :: order(:)
 
-      call file%create(path, "Slip events of the spring block: times in which v > 1")
+      call file%create(path, "Slip events of the spring block: times with v above a threshold")
       rows = file%dimension("event", size(events), coordinates="onset")
       call put_scene(file, scene, histories)
       call file%attribute("t_transient", scene%t_transient)
@@ -41,9 +41,10 @@ contains
          call file%column(rows, "number_of_block", order(events%place), &
                           "number of the block in the chain")
       end if
-      call file%column(rows, "onset", events%onset, "time at which v rises through 1")
+      call file%column(rows, "threshold", events%threshold, "velocity above which a block slips")
+      call file%column(rows, "onset", events%onset, "time at which v rises through the threshold")
       call file%column(rows, "recurrence_time", events%recurrence_time, "time to the next onset")
-      call file%column(rows, "duration", events%duration, "time in which v > 1")
+      call file%column(rows, "duration", events%duration, "time above the threshold")
       call file%column(rows, "slip", events%slip, "integral of v over the duration")
       call file%column(rows, "peak_velocity", events%peak_velocity, "largest v of the event")
       call file%column(rows, "least_velocity", events%least_velocity, &

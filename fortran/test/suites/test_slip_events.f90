@@ -30,6 +30,7 @@ contains
 
       testsuite = [new_unittest("known slip", test_known), &
                    new_unittest("two maxima in an event", test_two_maxima), &
+                   new_unittest("two thresholds in one run", test_two_thresholds), &
                    new_unittest("transient and unfinished events", test_ends), &
                    new_unittest("no event", test_none)]
    end subroutine collect_slip_events
@@ -46,8 +47,8 @@ contains
    end subroutine rhs
 
    !> Events of the problem up to a time.
-   subroutine events_of(a, b, t_transient, t_end, events, error)
-      real(wp), intent(in) :: a, b, t_transient, t_end
+   subroutine events_of(a, b, thresholds, t_transient, t_end, events, error)
+      real(wp), intent(in) :: a, b, thresholds(:), t_transient, t_end
       type(slip_event_type), allocatable, intent(out) :: events(:)
       type(error_type), allocatable, intent(inout) :: error
       type(failure_type), allocatable :: failure
@@ -56,7 +57,8 @@ contains
       call fill(problem, 3, spread(0.0_wp, 1, 3), spread(0.0_wp, 1, 3))
       problem%a = a
       problem%b = b
-      call find_slip_events(problem, t_transient, t_end, at_tolerance(tolerance), events, failure)
+      call find_slip_events(problem, thresholds, t_transient, t_end, at_tolerance(tolerance), &
+                            events, failure)
       call expect_success(error, failure)
    end subroutine events_of
 
@@ -68,7 +70,7 @@ contains
       type(slip_event_type), allocatable :: events(:)
       integer :: i
 
-      call events_of(1.0_wp, 0.0_wp, 0.0_wp, 40.0_wp, events, error)
+      call events_of(1.0_wp, 0.0_wp, [1.0_wp], 0.0_wp, 40.0_wp, events, error)
       if (allocated(error)) return
       call expect(error, size(events%onset) == 5, "onsets at 2 pi to 10 pi; the last has no next")
       if (allocated(error)) return
@@ -86,7 +88,7 @@ contains
       real(wp), parameter :: highest = 10.0_wp/3.0_wp*sqrt(5.0_wp/12.0_wp)
       type(slip_event_type), allocatable :: events(:)
 
-      call events_of(2.0_wp, 1.0_wp, 0.0_wp, 20.0_wp, events, error)
+      call events_of(2.0_wp, 1.0_wp, [1.0_wp], 0.0_wp, 20.0_wp, events, error)
       if (allocated(error)) return
       call expect(error, size(events%onset) == 2, "onsets at 2 pi and 4 pi")
       if (allocated(error)) return
@@ -95,12 +97,33 @@ contains
       call expect_close(error, log(events%least_velocity), -[highest, highest], bound, "least")
    end subroutine test_two_maxima
 
+   !> sin t > 1/2 from pi/6 to 5 pi/6: the slip there by the midpoint rule; those with v > 1 stay.
+   subroutine test_two_thresholds(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: parts = 100000
+      real(wp), parameter :: high = exp(0.5_wp), time = 2.0_wp/3.0_wp*pi
+      type(slip_event_type), allocatable :: events(:)
+      integer :: i
+
+      call events_of(1.0_wp, 0.0_wp, [1.0_wp, high], 1.0_wp, 20.0_wp, events, error)
+      if (allocated(error)) return
+      call expect(error, size(events) == 3, "onsets at 2 pi, 13 pi/6, 4 pi; others have no next")
+      if (allocated(error)) return
+      call expect_close(error, events%threshold, [1.0_wp, high, 1.0_wp], bound, "threshold")
+      call expect_close(error, events%onset, pi*[2.0_wp, 13.0_wp/6.0_wp, 4.0_wp], bound, "onset")
+      call expect_close(error, events%duration, [pi, time, pi], bound, "duration")
+      call expect_close(error, events(2:2)%slip, &
+                        [time/parts*sum([(exp(sin(pi/6.0_wp + time*(i - 0.5_wp)/parts)), &
+                                          i=1, parts)])], bound, "slip")
+      call expect_close(error, events(2:2)%least_velocity, [exp(-1.0_wp)], bound, "least")
+   end subroutine test_two_thresholds
+
    !> Only events that begin after the transient count, and only with the loading after them.
    subroutine test_ends(error)
       type(error_type), allocatable, intent(out) :: error
       type(slip_event_type), allocatable :: events(:)
 
-      call events_of(1.0_wp, 0.0_wp, 2.1_wp*pi, 7.9_wp*pi, events, error)
+      call events_of(1.0_wp, 0.0_wp, [1.0_wp], 2.1_wp*pi, 7.9_wp*pi, events, error)
       if (allocated(error)) return
       call expect(error, size(events%onset) == 1, "the event from 4 pi to 5 pi")
       if (allocated(error)) return
@@ -113,8 +136,8 @@ contains
       type(failure_type), allocatable :: failure
       type(slip_event_type), allocatable :: events(:)
 
-      call find_slip_events(build_block(1.0_wp, 0.1_wp, 0.5_wp, 0.8_wp), 0.0_wp, 50.0_wp, &
-                            at_tolerance(tolerance), events, failure)
+      call find_slip_events(build_block(1.0_wp, 0.1_wp, 0.5_wp, 0.8_wp), [1.0_wp], 0.0_wp, &
+                            50.0_wp, at_tolerance(tolerance), events, failure)
       call expect_success(error, failure)
       call expect(error, size(events%onset) == 0, "none")
    end subroutine test_none
