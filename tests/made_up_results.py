@@ -222,5 +222,7 @@ def run_row(**given) -> dict:
         "error": 1e-9,
         "reference": "same source in quadruple precision",
         "error_expected": 1e-8,
+        "t_end": 100.0,
+        "amplification": 10.0,
         **given,
     }

@@ -54,12 +54,13 @@ def test_equal_events(times, verdict):
         ({"peak_velocity": 1e3, "duration": 0.4}, YES),
         ({"peak_velocity": 1e2, "duration": 0.4}, NO),
         ({"peak_velocity": 1e3, "duration": 2.0}, NO),
-        ({"peak_velocity": np.array([1e3, 1e3, 2.0]), "duration": 0.4}, NO),
+        ({"peak_velocity": np.array([1e3, 1e3, 2.0]), "duration": 0.4}, YES),
+        ({"peak_velocity": np.array([1e3, 2.0, 2.0]), "duration": 0.4}, NO),
         ({"peak_velocity": np.array([])}, NO),
     ],
 )
 def test_relaxation(given, verdict):
-    """Every event must be large and short, in one scene at least."""
+    """The median event must be large and the stick long, in one scene at least."""
     made = Results(slip_events={"small": slip_events(), "mine": slip_events(**given)})
     found = relaxation(made, scenes=["small", "mine"], ratio=1e3, stick=0.9)
     assert found.verdict == verdict

@@ -102,7 +102,7 @@ def equal_events(results: Results, *, scenes: Scenes) -> Finding:
 @tested_with(scenes=["oscillation", "chaos", "stick_slip", "no_delay_less"], ratio=1e3, stick=0.9)
 @reads("slip_events")
 def relaxation(results: Results, *, scenes: Scenes, ratio: Ratio, stick: Share) -> Finding:
-    """Whether in some scene v spans this ratio in every event, and the block mostly sticks."""
+    """Whether in some scene half of the events span this ratio of v, and the block mostly sticks."""
     parts, holds = [], False
     for scene in scenes:
         events = results.events_of(scene)
@@ -111,15 +111,17 @@ def relaxation(results: Results, *, scenes: Scenes, ratio: Ratio, stick: Share) 
             continue
         spans = events.peak_velocity.values / events.least_velocity.values
         slower = 1 - float(events.duration.sum() / events.recurrence_time.sum())
-        holds = holds or bool(spans.min() >= ratio and slower >= stick)
+        middle, large = float(np.median(spans)), float((spans >= ratio).mean())
+        holds = holds or (middle >= ratio and slower >= stick)
         parts.append(
             f"Scene {scene} ({equations(events.attrs, ['tau', 'gamma'])}) has {spans.size} events."
-            f" In each of them $v$ spans a factor of at least {short(spans.min(), 2)}. The block"
-            f" is slower than the plate for {percent(slower)} of the time."
+            f" $v$ spans a factor of {short(middle, 2)} in the median event, and of at least"
+            f" {ratio:g} in {percent(large)} of them. The block is slower than the plate for"
+            f" {percent(slower)} of the time."
         )
     return decided(
         holds,
-        f"{' '.join(parts)} The test asks for a factor of {ratio:g} in every event, and for"
+        f"{' '.join(parts)} The test asks for a factor of {ratio:g} in the median event, and for"
         f" {percent(stick)} of the time.",
         "In none of the scenes does the block stick and slip like this.",
     )

@@ -14,6 +14,8 @@ CORRECTED = "reproduced with a correction"
 NOT_REPRODUCED = "not reproduced"
 NOT_TESTABLE = "not testable"
 VERDICTS = [REPRODUCED, CORRECTED, NOT_REPRODUCED, NOT_TESTABLE]
+ANSWERS = {REPRODUCED: "yes", CORRECTED: "in part", NOT_REPRODUCED: "no"}
+"""What a verdict is as the answer to a question of ours."""
 
 FILES = {
     "friction": "<results>/friction/velocity_step.nc",

@@ -3,7 +3,6 @@
 import math
 from collections.abc import Callable
 
-from scripts.claims.claims_of_laws import LAWS
 from scripts.claims.claims_results import short
 from scripts.figures.wording import count
 from scripts.namelists.laws import spoken
@@ -150,7 +149,7 @@ FINDINGS: dict[Callable, list[str]] = {
     ],
     describe_torus: ["figure_5a", "figure_6b", "second_hopf"],
     describe_real_faults: ["real_gamma_left_out", "very_stiff_at_real_gamma"],
-    describe_laws: [f"delay_alone_makes_chaos_{law}" for law in LAWS],
+    describe_laws: ["chaos_depends_on_place_of_delay"],
     describe_chains: ["more_blocks", "gutenberg_richter", "omori_utsu"],
 }
 """Functions that describe the findings, each with its claims."""
