@@ -1,6 +1,5 @@
 # Tables of results.
 from scripts.claims.ledger import inputs_for
-from scripts.results import paths
 
 FAMILIES = {
     name: family["reference"]
@@ -107,8 +106,12 @@ TABLES = {
         slips=paths.slips_of_chains(config),
         events=paths.events_of_chains(config),
     ),
-    "dimensions_table": table(
-        "dimensions.tsv", "dimensions_table", {"presets": config["dimensions"]}
+    "si_table": table("si.tsv", "si_table", {"scenes": config["scenes"]}),
+    "si_events": table(
+        "events/{si_scene}.csv",
+        "si_events_table",
+        {"si": lambda wildcards: config["scenes"][wildcards.si_scene]["si"]},
+        events="<results>/slip_events/{si_scene}.nc",
     ),
     "stability_table": table(
         "stability.tsv",
@@ -141,7 +144,7 @@ for name, (path, module, parameters, inputs) in TABLES.items():
         output:
             f"<results>/tables/{path}",
         log:
-            f"<results>/logs/tables/{path.removesuffix('.tsv')}.log",
+            f"<results>/logs/tables/{path.rpartition('.')[0]}.log",
         priority: PAPER if name == "attractors_table" else 0
         localrule: True
         params:
