@@ -21,10 +21,8 @@ SMALL = """
 scenes:
   my_scene: { t_end: 300.0, t_transient: 100.0, sample_interval: 0.1, exponents: {} }
   my_fault:
-    si: { a: 0.01, b: 0.02, sigma: 50 MPa, D_c: 1 cm, v0: 1e-9 m/s, k: 20 MPa/m, M: 3e6 kg/m^2 }
-    tau: 2.2 years
-    t_end: 100 years
-    t_transient: 30 years
+    { si: { a: 0.01, b: 0.02, sigma: 50 MPa, D_c: 1 cm, v0: 1e-9 m/s, k: 20 MPa/m, M: 3e6 kg/m^2 },
+      tau: 2.2 years, t_end: 100 years, t_transient: 30 years }
 hopf_curves:
   my_plane: { cells: 20 }
 routes:
@@ -60,14 +58,8 @@ attractors:
 """
 """Settings over the file that `./reproduce new` writes: small, and with what it does not have."""
 FIGURES = [
-    *(
-        "scenes/my_scene",
-        "scenes/my_fault",
-        "exponents/my_scene",
-        "planes/my_plane",
-        "routes/my_route",
-    ),
-    *("routes/my_start", "cycles/my_cycles", "atlas/my_atlas"),
+    *("scenes/my_scene", "exponents/my_scene", "planes/my_plane", "routes/my_route"),
+    *("routes/my_start", "cycles/my_cycles", "atlas/my_atlas", "scenes/my_fault"),
 ]
 MY_SCENE = """
 scenes:

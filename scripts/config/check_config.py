@@ -36,8 +36,12 @@ def checked(config: dict) -> dict:
         _fill_in_ends_of_exponents(config)
         problems = list(_contradictions(config))
     if problems:
-        lines = sorted({si.with_texts(line, texts) for line in problems})
-        raise ConfigError("\n".join(["the configuration is refused:", *lines]))
+        for place, words, text in texts:
+            problems = [
+                line.replace(words, f"{words} ({text})") if line.startswith(place) else line
+                for line in problems
+            ]
+        raise ConfigError("\n".join(["the configuration is refused:", *sorted(set(problems))]))
     return config
 
 

@@ -77,7 +77,7 @@ def parameters_of(values: dict[str, float]) -> dict[str, float]:
     """epsilon = (B - A)/A, xi = k L/A, gamma = sqrt(k/M) L/v0; A = a sigma, B = b sigma."""
     units = units_of(values)
     return {
-        "epsilon": _rounded((values["b"] - values["a"]) / values["a"]),
+        "epsilon": _rounded(values["b"] / values["a"] - 1),
         "xi": _rounded(values["k"] * units["m"] / units["Pa"]),
         "gamma": _rounded(math.sqrt(values["k"] / values["M"]) * units["s"]),
     }
@@ -124,11 +124,3 @@ def _problems(place: str, si) -> Iterator[str]:
         if not LEAST <= value <= MOST:
             expected = f"a number with its unit, in [{LEAST}, {MOST}] {(UNITS | OF_SLAB)[key]}"
             yield f"{place}: {key} = {si[key]!r}; expected {expected.strip()}"
-
-
-def with_texts(line: str, texts: list[tuple[str, str, str]]) -> str:
-    """A problem in which the numbers of texts are followed by these."""
-    for place, words, text in texts:
-        if line.startswith(place):
-            line = re.sub(rf"\b{re.escape(words)}(?![\d.e])", f"{words} ({text})", line)
-    return line

@@ -2,7 +2,6 @@
 
 import math
 import warnings
-from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
@@ -12,7 +11,7 @@ from matplotlib.figure import Figure
 
 from scripts.config.si import in_si, units_of
 from scripts.drawing import parameters
-from scripts.drawing.si_axes import add_scaled, add_time
+from scripts.drawing.si_axes import add_axis, add_time
 from scripts.drawing.spectra import label_peaks, lines_in_words
 from scripts.drawing.style import FAINT
 from scripts.drawing.trajectories import MOST_MISSED, draw_portrait, draw_velocity, share_missed
@@ -74,7 +73,12 @@ def draw(
     draw_portrait(portrait, trajectory, ATTRACTOR)
     draw_section(section, attractors, row)
     if si:
-        add_si_axes((start, end), portrait, units_of(in_si(si)))
+        units = units_of(in_si(si))
+        add_time(start, units["s"])
+        add_time(end, units["s"])
+        add_axis(end, units["m/s"], "", "m/s")
+        add_axis(portrait, units["m/s"], "", "m/s")
+        add_axis(portrait, units["m"], "displacement", "m")
     draw_exponents(exponents, attractors)
     draw_spectrum(powers, spectrum)
     titles = {
@@ -94,15 +98,6 @@ def draw(
         fontsize=8,
     )
     return figure
-
-
-def add_si_axes(over_time: Sequence[Axes], portrait: Axes, units: dict[str, float]) -> None:
-    """Time, velocity and displacement with their units."""
-    for axes in over_time:
-        add_time(axes, units["s"])
-    for axes in (over_time[-1], portrait):
-        add_scaled(axes, units["m/s"], "velocity", "m/s", "right")
-    add_scaled(portrait, units["m"], "displacement", "m")
 
 
 def end_shown(row: dict, last: float) -> float:
@@ -242,8 +237,7 @@ def numbers(
         "exponents": [value for value in exponents if value != "not measured"],
         "lines": as_formulas(spectrum_in_words(spectrum, row)),
         "roots": as_formulas(roots_in_words(roots)),
-        "units": units_of(in_si(si)) if si else {},
-        "scene": trajectory.attrs["scene"],
+        "si": trajectory.attrs["scene"] if si else "",
     }
 
 

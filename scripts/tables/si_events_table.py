@@ -7,15 +7,6 @@ from scripts.files.inputs import read
 from scripts.files.outputs import logged
 from scripts.files.tsv import as_digits, write_table
 
-COLUMNS = {
-    "onset_s": ("onset", "s"),
-    "duration_s": ("duration", "s"),
-    "recurrence_time_s": ("recurrence_time", "s"),
-    "slip_m": ("slip", "m"),
-    "peak_velocity_m_per_s": ("peak_velocity", "m/s"),
-}
-"""For each column its variable in the results, and its unit."""
-
 
 def columns_of(events: xr.Dataset, si: dict) -> dict:
     """Values of all events by column.
@@ -25,16 +16,21 @@ def columns_of(events: xr.Dataset, si: dict) -> dict:
     """
     values = in_si(si)
     units = units_of(values)
-    columns = {name: events[key].values * units[unit] for name, (key, unit) in COLUMNS.items()}
-    grown = columns["slip_m"] - values["v0"] * columns["duration_s"]
-    return {**columns, "stress_drop_Pa": values["k"] * grown}
+    duration, slip = events.duration.values * units["s"], events.slip.values * units["m"]
+    return {
+        "onset_s": events.onset.values * units["s"],
+        "duration_s": duration,
+        "slip_m": slip,
+        "peak_velocity_m_per_s": events.peak_velocity.values * units["m/s"],
+        "stress_drop_Pa": values["k"] * (slip - values["v0"] * duration),
+    }
 
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         found = columns_of(read(snakemake.input.events), snakemake.params.si)
-        rows = [
-            {key: as_digits(value, 12, zero=0) for key, value in zip(found, row, strict=True)}
-            for row in zip(*found.values(), strict=True)
-        ]
+        rows = zip(
+            *([as_digits(x, 12, zero=0) for x in one] for one in found.values()), strict=True
+        )
+        rows = [dict(zip(found, row, strict=True)) for row in rows]
         write_table(snakemake.output[0], rows, list(found))
