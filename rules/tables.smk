@@ -6,6 +6,7 @@ FAMILIES = {
     for name, family in config["stability"]["families"].items()
 }
 """What each family of cases is compared with."""
+SCENES_IN_SI = {n: one for n, one in config["scenes"].items() if "si" in one}
 
 # For each rule its table.
 TABLES = {
@@ -106,11 +107,11 @@ TABLES = {
         slips=paths.slips_of_chains(config),
         events=paths.events_of_chains(config),
     ),
-    "si_table": table("si.tsv", "si_table", {"scenes": config["scenes"]}),
+    "si_table": table("si.tsv", "si_table", {"scenes": SCENES_IN_SI}),
     "si_events": table(
         "events/{si_scene}.csv",
         "si_events_table",
-        {"si": lambda wildcards: config["scenes"][wildcards.si_scene]["si"]},
+        {"si": lambda wildcards: SCENES_IN_SI[wildcards.si_scene]["si"]},
         events="<results>/slip_events/{si_scene}.nc",
     ),
     "stability_table": table(

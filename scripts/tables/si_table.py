@@ -25,5 +25,4 @@ def row_of(name: str, scene: dict) -> dict:
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        scenes = snakemake.params.scenes.items()
-        write_table(snakemake.output[0], [row_of(*one) for one in scenes if "si" in one[1]])
+        write_table(snakemake.output[0], [row_of(*one) for one in snakemake.params.scenes.items()])
