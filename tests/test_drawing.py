@@ -45,20 +45,6 @@ def test_dense_oscillations_are_drawn_as_their_envelope():
     np.testing.assert_allclose(axes.lines[-1].get_ydata(), run.v[:4001])
 
 
-def test_some_loops_of_a_long_transient_are_drawn():
-    """Whole loops with gaps between them; a short one is drawn as it is."""
-    t = 0.1 * np.arange(6000)
-    size = np.exp(-t / 4000)
-    run = a_trajectory(1 + size * np.cos(t), size * np.sin(t))
-    thinned = trajectories.some_loops(run)
-    there = np.isfinite(thinned.v.values)
-    loops = np.count_nonzero(np.diff(there.astype(int)) == 1) + there[0]
-    assert 0.3 * trajectories.MOST_LOOPS < loops <= trajectories.MOST_LOOPS
-    assert np.count_nonzero(there) == pytest.approx(loops * 20 * np.pi, rel=0.1)
-    np.testing.assert_array_equal(thinned.v[there], run.v[there])
-    assert trajectories.some_loops(run.isel(t=slice(3000))).equals(run.isel(t=slice(3000)))
-
-
 def test_missed_part_of_a_maximum():
     """Exact for a parabola, at uneven times; 1 - cos(h/2) at most for a cosine of step h."""
     t = np.array([0.0, 1.0, 1.2, 1.9, 2.5])

@@ -17,7 +17,7 @@ from scripts.figures.wording import joined, place_in_words, short
 from scripts.tables.attractor_tables import same_attractor
 from scripts.tables.motion_rows import UNDECIDED, count_in_words, has_problem, parameter_of
 
-HEIGHT, OF_RUN = 2.1, 0.15
+HEIGHT, OF_RUN = 1.75, 0.12
 """Of a route without its strips, and of each strip, in inches."""
 COLOURS = ("C6", "C2", "C3", "C7")
 """Of runs; none is that of a class."""

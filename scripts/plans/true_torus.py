@@ -6,13 +6,14 @@ VARIABLES = ("v",)
 
 
 def inputs(config: dict) -> dict:
-    """Trajectories, attractors and spectra of the rows, and classes of motion."""
+    """Trajectories, attractors, spectra and roots of the rows, and classes of motion."""
     scenes = scenes_of(config, "true_torus")
     return {
         "table": "<results>/tables/attractors.tsv",
         "trajectories": paths_of_scenes("trajectories", scenes),
         "attractors": paths_of_scenes("attractors/scenes", scenes),
         "spectra": paths_of_scenes("spectra", scenes),
+        "roots": paths_of_scenes("linear_stability", scenes),
     }
 
 
