@@ -33,7 +33,7 @@ def draw(
     trajectories: list[xr.Dataset],
     attractors: list[xr.Dataset],
     spectra: list[xr.Dataset],
-    roots: list[xr.Dataset],
+    roots: xr.Dataset,
     settings: dict,
 ) -> Figure:
     """Rows a, b, ...: v(t) and its spectrum; at the end the section of all.
@@ -46,8 +46,8 @@ def draw(
     )
     known = own_rows(table)
     section = panels[-1]
-    for i, ((label, shown), trajectory, attractor, powers, pairs) in enumerate(
-        zip(settings["rows"].items(), trajectories, attractors, spectra, roots, strict=True)
+    for i, ((label, shown), trajectory, attractor, powers) in enumerate(
+        zip(settings["rows"].items(), trajectories, attractors, spectra, strict=True)
     ):
         velocity, spectrum = panels[2 * i : 2 * i + 2]
         last = float(trajectory.t[-1])
@@ -55,8 +55,9 @@ def draw(
         place = parameters.in_words(trajectory.attrs)
         velocity.set_title(f"$\\bf{{{label}}}$  {title_of(known[shown['scene']], place)}")
         draw_spectrum(spectrum, powers, settings["frequency_shown"])
-        spectrum.plot(*early_spectrum(trajectory), color=FAINT, lw=0.7, zorder=0)
-        spectrum.axvline(damped_pair(pairs)[0], color="C1", lw=0.7, ls=":", zorder=0)
+        if i == 0:
+            spectrum.plot(*early_spectrum(trajectory), color=FAINT, lw=0.7, zorder=0)
+            spectrum.axvline(damped_pair(roots)[0], 0, 0.45, color="C1", lw=0.9, ls=":", zorder=0)
         draw_section(section, attractor, label)
         for panel, first in ((velocity, panels[0]), (spectrum, panels[1])):
             if i > 0:
@@ -138,24 +139,24 @@ def numbers(
     table: list[dict],
     trajectories: list[xr.Dataset],
     spectra: list[xr.Dataset],
-    roots: list[xr.Dataset],
+    roots: xr.Dataset,
     settings: dict,
 ) -> dict:
-    """Delay, class, second exponent and frequencies of each scene, also those that die out."""
+    """Delay, class, second exponent and frequencies of each scene, and a peak that dies out."""
     known = own_rows(table)
     rows = {}
-    for (label, shown), trajectory, spectrum, pairs in zip(
-        settings["rows"].items(), trajectories, spectra, roots, strict=True
-    ):
+    for (label, shown), spectrum in zip(settings["rows"].items(), spectra, strict=True):
         row = known[shown["scene"]]
-        damped, rate = damped_pair(pairs)
-        early, height = peak_near(damped, *early_spectrum(trajectory))
         rows[label] = {
             "tau": short(row["tau"]),
             "motion": class_in_words(row),
             "second": with_error(row["exponent_2"], row["error_2"]),
             **peaks_in_words(spectrum),
-            **{"damped": short(damped, 4), "rate": short(rate), "early": short(early, 4)},
-            "early_share": short(100 * height, 2),
         }
-    return {"rows": rows, "time": short(EARLY)}
+    damped, rate = damped_pair(roots)
+    early, height = peak_near(damped, *early_spectrum(trajectories[0]))
+    return {
+        "rows": rows,
+        **{"damped": short(damped, 4), "rate": short(rate), "time": short(EARLY)},
+        **{"early": short(early, 4), "early_share": short(100 * height, 2)},
+    }
