@@ -136,7 +136,8 @@ def numbers(table: list[dict], dimensions: dict) -> dict:
     laws = list(dict.fromkeys(row["law"] for row in rows))
     by_plane: dict[str, list[str]] = {}
     for share in shares_of(rows):
-        place = f"chaos at {place_in_words(share, 'tau', 'epsilon')}"
+        fixed = {key: share[key] for key in ("gamma", "xi")}
+        place = f"chaos at {place_in_words(fixed, 'tau', 'epsilon')}"
         unsure = f", {number} undecided" if (number := share["kinds"][UNDECIDED]) else ""
         cells = by_plane.setdefault(place, [place, *("" for _ in laws)])
         cells[1 + laws.index(share["law"])] = f"{share['kinds']['chaos']}{unsure}"

@@ -137,6 +137,9 @@ def numbers(tables: list[list[dict]]) -> dict:
                     {"names": f"run{'s' * (len(names) > 1)} {joined(names)}", "first": first}
                     for first, names in runs.items()
                 ],
+                "parted": [
+                    short(place, 4) for place, there in sorted(places.items()) if parted(there)
+                ],
                 "places": len(places),
                 "several": [
                     short(place) for place, there in sorted(places.items()) if coexist(there)
@@ -153,6 +156,11 @@ def first_appearances(rows: list[dict], along: str) -> str:
         if row["class"] != UNDECIDED:
             first.setdefault(row["class"], row[along])
     return joined([f"{kind} {place:g}" for kind, place in first.items()]) or "none is decided"
+
+
+def parted(rows: list[dict]) -> bool:
+    """Whether runs at the same parameters have different classes."""
+    return len({row["class"] for row in rows} - {UNDECIDED}) > 1
 
 
 def coexist(rows: list[dict]) -> bool:
