@@ -118,7 +118,7 @@ def draw_exponent(axes: Axes, rows: list[dict], along: str, style: dict) -> None
 
 
 def numbers(tables: list[list[dict]]) -> dict:
-    """Where each class first appears along each route, run by run, and where motions coexist."""
+    """Where each class first appears along each route, run by run, and where runs differ."""
     routes = []
     for letter, rows in zip(ascii_lowercase, tables, strict=False):
         along = parameter_of(rows)
@@ -138,7 +138,9 @@ def numbers(tables: list[list[dict]]) -> dict:
                     for first, names in runs.items()
                 ],
                 "parted": [
-                    short(place, 4) for place, there in sorted(places.items()) if parted(there)
+                    short(place, 4)
+                    for place, there in sorted(places.items())
+                    if len({row["class"] for row in there} - {UNDECIDED}) > 1
                 ],
                 "places": len(places),
                 "several": [
@@ -156,11 +158,6 @@ def first_appearances(rows: list[dict], along: str) -> str:
         if row["class"] != UNDECIDED:
             first.setdefault(row["class"], row[along])
     return joined([f"{kind} {place:g}" for kind, place in first.items()]) or "none is decided"
-
-
-def parted(rows: list[dict]) -> bool:
-    """Whether runs at the same parameters have different classes."""
-    return len({row["class"] for row in rows} - {UNDECIDED}) > 1
 
 
 def coexist(rows: list[dict]) -> bool:
