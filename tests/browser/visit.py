@@ -198,6 +198,7 @@ def network(chrome: Chrome) -> dict:
 
 def visit_single(chrome: Chrome, page: Path) -> dict:
     """Whether the page as one file draws its pictures and runs its scripts."""
+    emulate(chrome, WIDTHS[-1])
     chrome.get(page.resolve().as_uri())
     chrome.execute_async_script(DRAWN)
     met = {
