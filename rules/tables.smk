@@ -107,6 +107,9 @@ TABLES = {
         slips=paths.slips_of_chains(config),
         events=paths.events_of_chains(config),
     ),
+    "velocity_step_table": table(
+        "velocity-step.tsv", "velocity_step_table", {"step": config["velocity_step"]}
+    ),
     "dimensions_table": table(
         "dimensions.tsv", "dimensions_table", {"presets": config["dimensions"]}
     ),

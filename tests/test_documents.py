@@ -276,7 +276,7 @@ def test_number_is_looked_up_in_its_table(tmp_path, monkeypatch):
     assert document_numbers.look_up("a; kind = one; x .2f") == "0.12"
     assert document_numbers.look_up("a; kind = other; count") == "2"
     assert document_numbers.look_up("a; largest x g") == "2"
-    with pytest.raises(ValueError, match="2 rows of .*; expected one"):
+    with pytest.raises(ValueError, match="2 rows of a"):
         document_numbers.look_up("a; kind = other; x g")
 
 

@@ -85,7 +85,6 @@ def test_namelists_hold_the_config(smoke, smoke_config):
     assert values_in("spectra/torus")["trajectory"] == "results/trajectories/torus.nc"
     plane = smoke_config["hopf_curves"]["xi_of_epsilon"]
     assert values_in("hopf/xi_of_epsilon") == plane
-    assert values_in("friction/velocity_step") == smoke_config["velocity_step"]
     assert values_in("exponents/torus")["count"] == 6
     cycles = values_in("cycles/torus_in_tau")
     assert (cycles["along"], cycles["intervals"], cycles["starts"]) == ("tau", 20, 10.0)

@@ -102,7 +102,7 @@ def equal_events(results: Results, *, scenes: Scenes) -> Finding:
 @tested_with(scenes=["oscillation", "chaos", "stick_slip", "no_delay_less"], ratio=1e3, stick=0.9)
 @reads("slip_events")
 def relaxation(results: Results, *, scenes: Scenes, ratio: Ratio, stick: Share) -> Finding:
-    """Whether in some scene half of the events span this ratio of v, and the block mostly sticks."""
+    """Whether half of the events of a scene span this ratio of v, and the block mostly sticks."""
     parts, holds = [], False
     for scene in scenes:
         events = results.events_of(scene)
