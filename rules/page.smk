@@ -85,8 +85,6 @@ rule single_page:
     """The page as one file, which opens at any place and without network."""
     input:
         rules.page.output.assets,
-        rules.page.input.figures,
-        rules.page.input.play,
         page=rules.page.output.page,
     output:
         "<results>/single-page.html",

@@ -132,8 +132,7 @@ def tables_of_findings() -> dict[str, list[dict]]:
     runs = ((1e4, "auto", "ok"), (1e12, "explicit", "stopped"), (0.8, "auto", "stopped"))
     limit = {"xi": 0.5, "without_delay": 0.25}
     plane = {"gamma": 0.8, "xi": 0.5, "of": "plane", "place": "a"}
-    laws = ("slip_delayed_logarithm", "chaos"), ("slip_delayed_logarithm", "torus")
-    laws += ("ageing_delayed_logarithm", "chaos"), ("ageing_delayed_velocity", "cycle")
+    laws = ("slip_delayed_logarithm", "chaos"), ("ageing_delayed_velocity", "cycle")
     return {
         "attractors": [torus, true_torus],
         "hopf_points": [{"of": of, "kind": kind} for of, kind in kinds],
@@ -146,8 +145,7 @@ def tables_of_findings() -> dict[str, list[dict]]:
             for gamma, depth in ((0.8, 0.0481), (1e4, 9.3e-18))
         ],
         "friction_laws": [
-            {**plane, "law": law, "class": kind, "period": 1.0}
-            for law, kind in laws
+            {**plane, "law": law, "class": kind, "period": 1.0} for law, kind in laws
         ],
         "chain_motions": [
             {**limit, "gamma": 0.8, "epsilon": 0.5, "blocks": blocks, "tau": tau}
@@ -169,14 +167,10 @@ def test_findings_follow_the_tables(holds):
         tables["chain_motions"] = tables["chain_motions"][:1]
     limit, torus, faults, laws, chains = findings.list_findings([claim("figure_5a")], tables)
     assert ("not on the law of friction" in laws["title"]) is holds
-    chaotic = f"1 chaotic points if the delay stands in the logarithm, and {0 if holds else 1} if"
-    assert (
-        f"Planes have 1 to 2 points, each with one history. At $gamma = 0.8$ a plane has {chaotic}"
-        in (laws["words"])
-    )
+    assert f"points if the delay stands in the logarithm, and {1 - holds} if" in laws["words"]
     assert torus["title"] == f"The paper's torus is a {'limit cycle' if holds else 'torus'}."
     assert ("not" in faults["title"]) is not holds
-    assert ("In 1 the problem itself magnifies errors beyond 0.001" in faults["words"]) is holds
+    assert ("In 1 of them the problem magnifies errors beyond 0.001" in faults["words"]) is holds
     assert chains["title"].startswith("In chains" if holds else "Chains of blocks are not")
     assert ("9 blocks with $tau = 7$ have 5 positive Lyapunov" in chains["words"]) is holds
     assert ("Without delay 11 blocks have 2 positive" in chains["words"]) is holds
@@ -259,9 +253,8 @@ def test_every_claim_stands_in_the_page_once(smoke, page):
         count = sum(row["verdict"] == verdict for row in claims)
         assert (f"{verdict} {count} claim" in shown.text) is (count > 0)
     questions = page[page.index('id="questions"') : page.index('id="equations"')]
-    ours = [row["id"] for row in claims if row["whose"] == "ours"]
-    assert ours
-    assert re.findall(r'id="claim-(\w+)"', questions) == ours
+    ours = re.findall(r'id="claim-(\w+)"', questions)
+    assert ours == [row["id"] for row in claims if row["whose"] == "ours"]
     assert f"The paper does not ask these {len(ours)}." in questions
     start, end = page.index('id="findings"'), page.index('id="questions"')
     for name in findings.MAIN_CLAIMS:
@@ -274,21 +267,15 @@ def test_every_figure_stands_in_the_page(smoke, page):
     sentences = {name: captions.first_sentence(caption_of(smoke, name)) for name in FIGURES}
     assert images == {f"figures/{name}.svg": sentences[name] for name in FIGURES}
     assert all(f"Rule {name}." in shown.text for name in FIGURES)
-    # labels of the Hopf curves stand at their right, and a phone cuts a wider figure there
-    for name in ("figure_2", "figure_3"):
-        drawing = smoke.folder / "results" / "figures" / f"{name}.svg"
-        assert page_content.size_of(drawing)[0] <= page_content.PHONE
+    # a phone would cut the labels at the right of the Hopf curves
+    assert page.count('class="scroll drawn fits"') >= 4
 
 
 def test_single_page_names_no_other_file(smoke, page):
-    """Its links lead to places in it, pictures and scripts are in it, scripts by their digests."""
-    found = Elements(in_one_file(page, smoke.folder / "results")).found
-    links = [given["href"] for tag, given in found if tag == "a"]
-    assert len(links) > 20
-    assert all(link.startswith("#") for link in links)
-    assert {given["src"][:19] for tag, given in found if tag == "img"} == {"data:image/svg+xml,"}
-    assert [tag for tag, given in found if tag == "script" and "src" in given] == []
-    assert [given["rel"] for tag, given in found if tag == "link"] == ["icon"]
+    """Its links lead to places in it; the rest is data."""
+    shown = Elements(in_one_file(page, smoke.folder / "results"))
+    assert {link[:1] for link in shown.values("href")} == {"#", "d"}
+    assert {link[:19] for link in shown.values("src")} == {"data:image/svg+xml,"}
 
 
 def test_no_heading_is_empty(page):

@@ -65,17 +65,15 @@ def test_single_page_needs_no_other_file(seen):
     """It lies alone in a folder: all pictures are drawn, the view of the delay shows a motion."""
     single = seen["single"]
     assert single["console"] == []
-    assert single["play"] == seen["play"]["first"]
-    assert len(single["images"]) == len(seen["images"])
-    assert all(image["width"] > 0 for image in single["images"])
+    assert single["first"] == seen["play"]["first"]
+    assert [i["width"] for i in single["images"]] == [i["width"] for i in seen["images"]]
     outside = [url for url in single["requests"] if not url.startswith("data:")]
     assert [url.rpartition("/")[2] for url in outside] == ["any-name.html"]
 
 
 def test_no_drawing_is_white_on_a_dark_screen(seen):
     """Colours of classes in figures and in the view of the delay change alike."""
-    (drawn,) = set(seen["dark"])
-    assert drawn.startswith("invert")
+    assert [filters[:6] for filters in set(seen["dark"])] == ["invert"]
 
 
 def test_every_image_is_drawn_and_said_in_words(seen):
@@ -130,7 +128,7 @@ def test_claims_are_chosen_by_verdict_and_words(seen):
     assert 1 <= claims["searched"] < claims["all"]
     assert claims["said"] == f"{claims['searched']} of {claims['all']} are shown."
     # the search was for a claim, not for a question of ours
-    assert sum(int(words.split()[0]) for words in claims["left"]) == claims["searched"]
+    assert claims["left"] == claims["searched"]
 
 
 def test_link_to_a_claim_leads_there(seen):

@@ -12,7 +12,7 @@ from scripts.tables.fault_limit_table import FAULTS, PAPER
 from scripts.tables.friction_laws_table import shares_of
 from scripts.tables.motion_rows import class_in_words, own_rows
 
-TABLES = (*("chain_motions", "fault_limit", "friction_laws", "hopf_points", "stability"),)
+TABLES = ("chain_motions", "fault_limit", "friction_laws", "hopf_points", "stability")
 """Tables that findings read beside that of the attractors."""
 TORUS, TRUE_TORUS = "torus", "true_torus"
 """The scene that the paper calls a torus, and one that has a longer delay."""
@@ -76,7 +76,7 @@ def describe_real_faults(tables: dict[str, list[dict]]) -> dict:
     started = sum(row["method"] == "auto" for row in runs)
     steps = max((row["steps"] for row in done["auto"]), default=0)
     large = sum(row["error"] > SMALL for row in done["auto"])
-    magnified = f" In {large} the problem itself magnifies errors beyond {SMALL:g}." * (large > 0)
+    magnified = f" In {large} of them the problem magnifies errors beyond {SMALL:g}." * (large > 0)
     share = "All" if len(done["auto"]) == started else f"{len(done['auto'])} of"
     return {
         "title": "The paper's range of $gamma$ is accessible."
@@ -91,21 +91,16 @@ def describe_real_faults(tables: dict[str, list[dict]]) -> dict:
 def describe_laws(tables: dict[str, list[dict]]) -> dict:
     """How many points of a plane are chaotic, by the place of the delay in the law."""
     shares = shares_of(tables["friction_laws"])
-    counts = {
-        (share["gamma"], place): [
-            one["kinds"]["chaos"]
-            for one in shares
-            if one["gamma"] == share["gamma"] and one["law"].endswith(place)
-        ]
-        for share in shares
-        for place in (CHAOTIC, PERIODIC)
-    }
-    decides = all(counts[PAPER, CHAOTIC]) and not any(counts[PAPER, PERIODIC])
+    counts = {}
+    for share in shares:
+        place = CHAOTIC if share["law"].endswith(CHAOTIC) else PERIODIC
+        counts.setdefault(share["gamma"], {CHAOTIC: [], PERIODIC: []})
+        counts[share["gamma"]][place].append(share["kinds"]["chaos"])
+    decides = all(counts[PAPER][CHAOTIC]) and not any(counts[PAPER][PERIODIC])
     words = [
-        f"At $gamma = {short(gamma)}$ a plane has {span(counts[gamma, CHAOTIC])} chaotic points if"
-        f" the delay stands in the logarithm, and {span(counts[gamma, PERIODIC])} if the velocity"
-        " itself is delayed."
-        for gamma in dict.fromkeys(share["gamma"] for share in shares)
+        f"At $gamma = {short(gamma)}$ a plane has {span(of[CHAOTIC])} chaotic points if the delay"
+        f" stands in the logarithm, and {span(of[PERIODIC])} if the velocity itself is delayed."
+        for gamma, of in counts.items()
     ]
     return {
         "title": f"At $gamma = {short(PAPER)}$ whether there is chaos depends on where the delay"
@@ -119,30 +114,30 @@ def describe_laws(tables: dict[str, list[dict]]) -> dict:
 
 def span(numbers: list[int]) -> str:
     """The least and the largest of some numbers."""
-    least, most = min(numbers), max(numbers)
-    return f"{least}" if least == most else f"{least} to {most}"
+    return " to ".join(map(str, sorted({min(numbers), max(numbers)})))
 
 
 def describe_chains(tables: dict[str, list[dict]]) -> dict:
     """How many exponents of a chain are positive, with a delay and without."""
     chaotic = [row for row in tables["chain_motions"] if row["positive_exponents"] > 0]
-    delayed = sorted(
-        (row for row in chaotic if row["tau"] > 0), key=lambda row: row["positive_exponents"]
-    )
+    delayed = [row for row in chaotic if row["tau"] > 0]
+    most = max(delayed, key=lambda row: row["positive_exponents"], default=None)
     words = [
-        f"{row['blocks']:g} blocks with $tau = {short(row['tau'])}$ have"
-        f" {row['positive_exponents']:g} positive Lyapunov exponents."
-        for row in delayed[-1:]
-    ] + [
         f"Without delay {row['blocks']:g} blocks have {row['positive_exponents']:g} positive"
         f" exponents at $epsilon = {short(row['epsilon'])}$, $xi = {short(row['xi'])}$ and"
         f" $gamma = {short(row['gamma'])}$: chaos in a chain needs no delay."
         for row in chaotic
         if row["tau"] == 0
     ]
+    if most:
+        words = [
+            f"{most['blocks']:g} blocks with $tau = {short(most['tau'])}$ have"
+            f" {most['positive_exponents']:g} positive Lyapunov exponents.",
+            *words,
+        ]
     return {
         "title": "In chains of blocks chaos has many dimensions."
-        if delayed and delayed[-1]["positive_exponents"] > 1
+        if most and most["positive_exponents"] > 1
         else "Chains of blocks are not more chaotic than one.",
         "words": " ".join(words),
     }

@@ -39,11 +39,9 @@ def content(given, params, folder: Path) -> dict:
     claims = page_content.read_claims(given.claims, folder) if given.claims else []
     paper = {} if params.is_users else content_of_paper(given, claims)
     placed = {claim["id"] for key in paper if key.endswith("_claims") for claim in paper[key]}
-    questions = [
-        {**claim, "figure": page_content.figure_of(claim, params.figures)}
-        for claim in claims
-        if claim["whose"] == OURS
-    ]
+    questions = [claim for claim in claims if claim["whose"] == OURS]
+    for claim in questions:
+        claim["figure"] = page_content.figure_of(claim, params.figures)
     claims = [claim for claim in claims if claim["whose"] != OURS]
     others = [claim for claim in claims if claim["id"] not in placed]
     figures = page_content.describe_figures(params.figures, others, folder)

@@ -10,36 +10,33 @@ from scripts.files.outputs import logged
 from scripts.page.write_page import write_text
 
 NOTE = """<p class="place">This is the page in one file. Files that it names are in the folder
-<code>results/</code> after a run.</p>"""
+<code>results/</code> after a run.</p>
+</header>"""
 
 
 def in_one_file(page: str, folder: Path) -> str:
-    """The page with the styles, pictures and scripts of its folder inside; other links are words.
+    """The page with styles, pictures and scripts of its folder inside; other links are words."""
 
-    Its policy allows these scripts alone, by their digests.
-    """
-    digests = []
+    def put_in(pattern: str, before: str, after: str, change=str) -> None:
+        nonlocal page
+        page = re.sub(
+            pattern, lambda at: before + change((folder / at[1]).read_text()) + after, page
+        )
 
-    def script(found: re.Match) -> str:
-        text = (folder / found[1]).read_text()
-        digest = hashlib.sha256(text.encode()).digest()
-        digests.append(f"'sha256-{base64.b64encode(digest).decode()}'")
-        return f"<script>{text}</script>"
+    def picture(text: str) -> str:
+        return quote(text, safe=" =:/<>;,()'")
 
-    def picture(found: re.Match) -> str:
-        text = quote((folder / found[1]).read_text(), safe=" =:/<>;,()'")
-        return f'<img src="data:image/svg+xml,{text}"'
+    def script(text: str) -> str:
+        digest = base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
+        allowed.append(f"'sha256-{digest}'")
+        return text
 
-    page = re.sub(r'(?s)<a href="(?!#)[^"]*">(.*?)</a>', r"\1", page)
-    page = re.sub(
-        r'<link rel="stylesheet" href="([^"]+)">',
-        lambda found: f"<style>{(folder / found[1]).read_text()}</style>",
-        page,
-    )
-    page = re.sub(r'<img src="([^"]+)"', picture, page)
-    page = re.sub(r'<script src="([^"]+)"></script>', script, page)
-    page = page.replace("script-src 'self' file:", f"script-src {' '.join(digests)}", 1)
-    return page.replace("</header>", f"{NOTE}\n</header>", 1)
+    allowed = ["script-src"]
+    page = re.sub(r'(?s)<a href="(?!#)[^"]*">(.*?)</a>', r"\1", page).replace("</header>", NOTE, 1)
+    put_in(r'<link rel="stylesheet" href="([^"]+)">', "<style>", "</style>")
+    put_in(r'<img src="([^"]+)"', '<img src="data:image/svg+xml,', '"', picture)
+    put_in(r'<script src="([^"]+)">', "<script>", "", script)
+    return page.replace("script-src 'self' file:", " ".join(allowed), 1)
 
 
 if __name__ == "__main__":

@@ -21,15 +21,11 @@ return {
   images: [...document.images].map((i) => ({ src: i.src, alt: i.alt, width: i.naturalWidth })),
 };
 """
-
-
 INVERTED = """
 return [...document.querySelectorAll('figure img, .play-map image, .legend svg')].map(
   (drawing) => getComputedStyle(drawing).filter);
 """
 """How drawings and the colours of classes are changed for a dark screen."""
-
-
 DRAWN = "const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(done))"
 """Waits until what follows an event or the size of the window has been drawn."""
 
@@ -175,9 +171,8 @@ def visit_claims(chrome: Chrome) -> dict:
     search = chrome.find_element(By.CSS_SELECTOR, ".filter input")
     search.send_keys(chrome.find_element(By.CLASS_NAME, "claim").get_dom_attribute("id")[6:])
     met |= {"searched": chrome.execute_script(shown), "said": status.text}
-    met["left"] = [
-        button.text for button in chrome.find_elements(By.CSS_SELECTOR, ".filter button span")
-    ]
+    counts = chrome.find_elements(By.CSS_SELECTOR, ".filter button span")
+    met["left"] = sum(int(count.text.split()[0]) for count in counts)
     place = chrome.find_elements(By.CSS_SELECTOR, ".appendix .claim")[-1].get_dom_attribute("id")
     chrome.execute_script("location.hash = arguments[0]", place)
     chrome.execute_async_script(DRAWN)
@@ -200,16 +195,9 @@ def visit_single(chrome: Chrome, page: Path) -> dict:
     """Whether the page as one file draws its pictures and runs its scripts."""
     emulate(chrome, WIDTHS[-1])
     chrome.get(page.resolve().as_uri())
-    chrome.execute_async_script(DRAWN)
-    met = {
-        **chrome.execute_script(FACTS),
-        "play": shown_motion(chrome.find_element(By.ID, "play-view")),
-    }
-    return {
-        **met,
-        "console": [entry["message"] for entry in chrome.get_log("browser")],
-        **network(chrome),
-    }
+    first = shown_motion(chrome.find_element(By.ID, "play-view"))
+    seen = {**chrome.execute_script(FACTS), "first": first, "console": chrome.get_log("browser")}
+    return {**seen, **network(chrome)}
 
 
 def visit(chrome: Chrome, page: Path) -> dict:
