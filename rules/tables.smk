@@ -1,12 +1,12 @@
 # Tables of results.
 from scripts.claims.ledger import inputs_for
-from scripts.results import paths
 
 FAMILIES = {
     name: family["reference"]
     for name, family in config["stability"]["families"].items()
 }
 """What each family of cases is compared with."""
+SCENES_IN_SI = {n: one for n, one in config["scenes"].items() if "si" in one}
 
 # For each rule its table.
 TABLES = {
@@ -110,8 +110,12 @@ TABLES = {
     "velocity_step_table": table(
         "velocity-step.tsv", "velocity_step_table", {"step": config["velocity_step"]}
     ),
-    "dimensions_table": table(
-        "dimensions.tsv", "dimensions_table", {"presets": config["dimensions"]}
+    "si_table": table("si.tsv", "si_table", {"scenes": SCENES_IN_SI}),
+    "si_events": table(
+        "events/{si_scene}.csv",
+        "si_events_table",
+        {"si": lambda wildcards: SCENES_IN_SI[wildcards.si_scene]["si"]},
+        events="<results>/slip_events/{si_scene}.nc",
     ),
     "stability_table": table(
         "stability.tsv",
@@ -144,7 +148,7 @@ for name, (path, module, parameters, inputs) in TABLES.items():
         output:
             f"<results>/tables/{path}",
         log:
-            f"<results>/logs/tables/{path.removesuffix('.tsv')}.log",
+            f"<results>/logs/tables/{path.rpartition('.')[0]}.log",
         priority: PAPER if name == "attractors_table" else 0
         localrule: True
         params:

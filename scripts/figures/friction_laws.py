@@ -7,24 +7,20 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from scripts.config.si import in_si, units_of
 from scripts.drawing import parameters
 from scripts.drawing.class_map import draw_classes, legend_of
+from scripts.drawing.si_axes import TIMES, add_axis
 from scripts.drawing.style import INK
 from scripts.namelists.laws import spoken
-from scripts.tables.dimensions_table import row_of
-from scripts.tables.friction_laws_table import (
-    SECONDS_OF_YEAR,
-    rows_of_planes,
-    scenes_of,
-    shares_of,
-)
+from scripts.tables.friction_laws_table import rows_of_planes, scenes_of, shares_of
 from scripts.tables.motion_rows import COLOURS, kind_of, planes_of
 
 MARKS = ["o", "s", "^", "D", "v", "P"]
 DELAY = r"delay $\tau$ ($L/v_0$)"
 
 
-def draw(table: list[dict], dimensions: dict) -> Figure:
+def draw(table: list[dict], natural_fault: dict, laboratory: dict) -> Figure:
     """A law a row, a plane a column; below, motions over tau at the largest epsilon."""
     rows = rows_of_planes(table)
     laws = list(dict.fromkeys(row["law"] for row in rows))
@@ -57,9 +53,8 @@ def draw(table: list[dict], dimensions: dict) -> Figure:
         fastest[column].semilogy()
         fastest[column].axhline(1, color=INK, lw=0.5)
         draw_over_delay(recurrence[column], by_law, "recurrence_variation")
-        add_dimensional_axis(fastest[column], years_of_unit(dimensions), "years on a fault")
-        unit = time_unit("laboratory", dimensions)
-        add_dimensional_axis(recurrence[column], unit, "seconds in a laboratory")
+        add_axis(fastest[column], unit_of_time(natural_fault) / TIMES["years"], "years on a fault")
+        add_axis(recurrence[column], unit_of_time(laboratory), "seconds in a laboratory")
     fastest[0].set_ylabel("largest $v$ ($v_0$)")
     recurrence[0].set_ylabel("variation of\nrecurrence")
     for axes in (*fastest, *recurrence):
@@ -110,24 +105,12 @@ def draw_over_delay(axes: Axes, by_law: dict[str, list[dict]], column: str) -> N
     axes.set_xlabel(DELAY)
 
 
-def add_dimensional_axis(axes: Axes, scale: float, words: str) -> None:
-    """Delays above the panel in another unit."""
-    above = axes.secondary_xaxis("top", functions=(lambda t: t * scale, lambda t: t / scale))
-    above.set_xlabel(words, fontsize=7, labelpad=2)
-    above.tick_params(labelsize=7)
+def unit_of_time(si: dict) -> float:
+    """The unit of time, L/v0, in s."""
+    return units_of(in_si(si))["s"]
 
 
-def time_unit(preset: str, dimensions: dict) -> float:
-    """The unit of time, L/v0, in seconds."""
-    return row_of(preset, **dimensions[preset])["time_unit"]
-
-
-def years_of_unit(dimensions: dict) -> float:
-    """The unit of time on a fault, in years."""
-    return time_unit("fault", dimensions) / SECONDS_OF_YEAR
-
-
-def numbers(table: list[dict], dimensions: dict) -> dict:
+def numbers(table: list[dict], natural_fault: dict, laboratory: dict) -> dict:
     """Shares of the classes of each law in each plane, and the classes of scenes."""
     return {
         "shares": [
@@ -138,8 +121,8 @@ def numbers(table: list[dict], dimensions: dict) -> dict:
             {"scene": scene.replace("_", " "), "motions": motions}
             for scene, motions in motions_of(table).items()
         ],
-        "years": years_of_unit(dimensions),
-        "seconds": time_unit("laboratory", dimensions),
+        "years": unit_of_time(natural_fault) / TIMES["years"],
+        "seconds": unit_of_time(laboratory),
     }
 
 

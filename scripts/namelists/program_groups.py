@@ -29,7 +29,8 @@ def nested(values: dict, name: str, keys: list[str]) -> dict:
 def scene_groups(config: dict, scene: str) -> dict[str, dict]:
     """A scene: for its trajectory and its slip events."""
     settings = config["scenes"][scene]
-    own = {key: value for key, value in settings.items() if key not in ("exponents", "attractors")}
+    studies = ("exponents", "attractors", "si")
+    own = {key: value for key, value in settings.items() if key not in studies}
     return {"scene": with_parameters(config, {"name": scene, **own})}
 
 

@@ -7,5 +7,5 @@ def inputs(_config: dict) -> dict:
 
 
 def params(config: dict) -> dict:
-    """The values for (2) by which nondimensional times are those of a fault and a laboratory."""
-    return {"dimensions": config["dimensions"]}
+    """Quantities in SI by which nondimensional times are those of a fault and a laboratory."""
+    return {name: config["scenes"][name]["si"] for name in ("natural_fault", "laboratory")}

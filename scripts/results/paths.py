@@ -19,7 +19,7 @@ def paths_of_scenes(kind: str, scenes: list[str]) -> list[str]:
 
 
 def scenes_with(config: dict, key: str) -> list[str]:
-    """Scenes that ask for `exponents` or for `attractors`."""
+    """Scenes that ask for `exponents` or `attractors`, or that are given in `si`."""
     return [name for name, scene in config["scenes"].items() if key in scene]
 
 

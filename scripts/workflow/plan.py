@@ -32,7 +32,6 @@ SECTIONS = {
     "cycles": ("cycles", "lines"),
     "basins": ("basins", "places"),
     "families": ("stability", "families"),
-    "dimensions": ("dimensions",),
     "measured_scenes": ("work_precision", "scenes"),
     "measured_cases": ("work_precision", "cases"),
 }
@@ -103,7 +102,10 @@ class Plan:
         there = {section for section, path in SECTIONS.items() if _inside(self.config, path)}
         names = [table for table, section in TABLES.items() if section in there]
         names += ["claims"] * bool(self.claims)
-        return [f"<results>/tables/{name}.tsv" for name in names]
+        in_si = paths.scenes_with(self.config, "si")
+        tables = [f"{name}.tsv" for name in names + ["si"] * bool(in_si)]
+        tables += [f"events/{scene}.csv" for scene in in_si]
+        return [f"<results>/tables/{table}" for table in tables]
 
 
 TABLES = {
@@ -113,7 +115,6 @@ TABLES = {
     "cycle-points": "cycles",
     "basins": "basins",
     "stability": "families",
-    "dimensions": "dimensions",
     "chain-modes": "mode_planes",
     "event-sizes": "event_chains",
     "tolerance-proportionality": "measured_scenes",
