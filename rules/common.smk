@@ -186,7 +186,6 @@ def figures_on_page():
             "category": registry.find(name).category,
             "caption": f"{plan.results}/figures/{name}.rst",
             "drawing": f"{plan.results}/figures/{name}.svg",
-            "shows_classes": registry.shows_classes(name),
             "data": fill_in(
                 [
                     path

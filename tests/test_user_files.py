@@ -130,6 +130,10 @@ def test_everything_that_the_file_adds_is_made(made):
     assert [link for link in files if not (page.parent / link).is_file()] == []
     for part in ('id="trajectory-view"', 'id="claim-my_claim"', 'id="play-view"'):
         assert part in page.read_text()
+    # figures of one scene have entries of their own; of four verdicts one was reached
+    entries = re.findall(r'<li><a href="#[^"]*">([^<]*)</a>', page.read_text())
+    assert {"Scenes: My scene", "Exponents: My scene"} <= set(entries)
+    assert len(re.findall(r"<span>\d claims?</span>", page.read_text())) == 1
 
 
 def test_one_key_of_a_scene_can_be_changed(tmp_path):

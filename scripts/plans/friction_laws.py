@@ -1,7 +1,5 @@
 """Figure of other laws of friction: classes of motion over epsilon and tau, and fastest slip."""
 
-SHOWS_CLASSES = True
-
 
 def inputs(_config: dict) -> dict:
     """Motions of each law in each plane, and in scenes of the paper."""
