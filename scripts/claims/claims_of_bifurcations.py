@@ -108,7 +108,7 @@ def hopf_only_by_delay(results: Results, *, plane: Plane, scenes: Scenes) -> Fin
 @question(3, "hopf_by_delay_at_faults", look_at="fault_limit")
 @says(
     "Does a delay make stable steady sliding unstable at the $gamma$ of real faults, 1e4 to 1e12,"
-    " in an interval of $epsilon$ that matters?"
+    " in an interval of $epsilon$ wider than a millionth?"
 )
 @tested_with(least=1e4, most=1e12, limit=1e-06)
 @reads("fault_limit")

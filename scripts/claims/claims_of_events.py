@@ -12,8 +12,17 @@ from scripts.claims.claims_results import (
     equations,
     short,
 )
-from scripts.claims.declare import Scene, Scenes, claim, number, reads, says, tested_with
-from scripts.namelists.study_cases import HISTORY
+from scripts.claims.declare import (
+    Scene,
+    Scenes,
+    claim,
+    number,
+    question,
+    reads,
+    says,
+    tested_with,
+)
+from scripts.namelists.study_cases import HISTORY, PARAMETERS
 
 FEWEST = 100
 """Events that a statement about their distribution needs."""
@@ -57,20 +66,31 @@ def aperiodic_events(results: Results, *, scene: Scene, periodic: Scene) -> Find
     )
 
 
-@claim(
-    7,
-    "chaos_by_delay_alone",
-    "abstract; section 1 (Erickson, Birnir and Lavallee 2008)",
-    look_at="linear-stability.tsv",
+@question(7, "periodic_without_delay", look_at="cycles")
+@says(
+    "Without delay, does one block with one state variable move periodically, and never"
+    " chaotically?"
 )
-@says("It is the delay that makes a single block chaotic.")
 @tested_with(
     scenes=["no_delay", "no_delay_stuck", "no_delay_fast", "no_delay_less", "no_delay_more"]
 )
-@reads("slip_events")
-def equal_events(results: Results, *, scenes: Scenes) -> Finding:
-    """Whether all events of each scene come after the same time: a cycle of one event, no chaos."""
+@reads("slip_events", "cycles")
+def periodic_without_delay(results: Results, *, scenes: Scenes) -> Finding:
+    """Whether the cycles followed at tau = 0 are stable, and all events of each scene are equal."""
     parts, holds = [], True
+    for cycles in results.cycles.values():
+        if cycles.attrs.get("tau") != 0:
+            continue
+        along = cycles.attrs["along"]
+        values, stable = cycles[along].values, cycles.unstable.values == 0
+        holds = holds and bool(stable.all())
+        parts.append(
+            f"At {equations(cycles.attrs, [key for key in PARAMETERS if key != along])} the cycle"
+            f" was followed along ${along}$ from {short(values.min())} to {short(values.max())}:"
+            f" {stable.sum()} of {stable.size} orbits are stable, with"
+            f" {cycles.sizes['special']} folds, doublings or torus bifurcations. The multiplier 1 is"
+            f" wrong by up to {short(cycles.multiplier_error.max(), 1)}."
+        )
     for scene in scenes:
         events = results.events_of(scene)
         times, place = events.recurrence_time.values, events.attrs
@@ -90,7 +110,7 @@ def equal_events(results: Results, *, scenes: Scenes) -> Finding:
         f"{' '.join(parts)} Erickson, Birnir and Lavallee (2008) report a cascade of period"
         " doublings to chaos without delay, near $epsilon = 11$."
         f"{' It is not found here.' if holds else ''}",
-        "Without delay events do not repeat, either.",
+        "Cycles without delay lose their stability, or events do not repeat.",
     )
 
 
