@@ -151,7 +151,11 @@ def test_bad_claim_is_refused(accept, given, words):
         ("equation_10", {"scene": "x", **PLANE}, "unknown key ['scene']; allowed: plane, limit"),
         ("equation_10", {"plane": "x"}, "plane = 'x'; expected name of a plane, one of: tau_of_ep"),
         ("hopf_curves", {"planes": []}, "planes = []; expected names of planes, at least one"),
-        ("relaxation", {"scenes": ["torus"] * 2}, "'torus']; expected names of scenes, at least"),
+        (
+            "hopf_by_delay",
+            {"scenes": ["torus"] * 2},
+            "'torus']; expected names of scenes, at least",
+        ),
         ("chaos_by_a_and_b", {"routes": ["x"]}, "0 = 'x'; expected name of a route, one of: chaos"),
         ("equation_10", {**PLANE, "limit": 0.1}, "limit = 0.1; expected residual"),
         ("equation_10", {**PLANE, "limit": "1e-9"}, "write 1e-9 without quotes"),

@@ -88,8 +88,8 @@ def periodic_without_delay(results: Results, *, scenes: Scenes) -> Finding:
             f"At {equations(cycles.attrs, [key for key in PARAMETERS if key != along])} the cycle"
             f" was followed along ${along}$ from {short(values.min())} to {short(values.max())}:"
             f" {stable.sum()} of {stable.size} orbits are stable, with"
-            f" {cycles.sizes['special']} folds, doublings or torus bifurcations. The multiplier 1 is"
-            f" wrong by up to {short(cycles.multiplier_error.max(), 1)}."
+            f" {cycles.sizes['special']} folds, doublings or torus bifurcations. The error of the"
+            f" multiplier 1 is at most {short(cycles.multiplier_error.max(), 1)}."
         )
     for scene in scenes:
         events = results.events_of(scene)
