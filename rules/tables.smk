@@ -149,7 +149,7 @@ for name, (path, module, parameters, inputs) in TABLES.items():
             f"<results>/tables/{path}",
         log:
             f"<results>/logs/tables/{path.rpartition('.')[0]}.log",
-        priority: PAPER if name == "attractors_table" else 0
+        priority: PAPER if name in ("attractors_table", "velocity_step_table") else 0
         localrule: True
         params:
             **parameters,
