@@ -1,20 +1,26 @@
-"""A figure at half its size and with 256 colours, small enough to be committed.
+"""Figures at half their size and with 256 colours, small enough to be committed.
 
-    python docs/small_picture.py FIGURE.png PICTURE.png
+    python docs/small_picture.py
 
-draws docs/work-precision.png from results/figures/work_precision.png, docs/atlas.png from
-results/figures/atlas.png, docs/chain.png from results/figures/chain.png, docs/event-sizes.png
-from results/figures/event_sizes.png, and docs/dense-output.png from results/tables/dense-output.png
-of `benchmarks/run dense`. For docs/page.png, after `setup/setup.sh tests/browser`:
+draws docs/NAME.png of all `FIGURES` from results/figures/. Given a picture and what to write,
+
+    python docs/small_picture.py PICTURE.png docs/NAME.png
+
+it draws docs/dense-output.png from results/tables/dense-output.png of `benchmarks/run dense`, and
+docs/page.png from build/page.png: after `setup/setup.sh tests/browser`
 
     tests/browser/.venv/bin/python docs/page_picture.py results/index.html build/page.png
-    python docs/small_picture.py build/page.png docs/page.png
 """
 
 import sys
 from pathlib import Path
 
 from PIL import Image
+
+FIGURES = [
+    *(f"figure-{number}" for number in range(1, 9)),
+    *("atlas", "chain", "event-sizes", "work-precision"),
+]
 
 
 def shrink(figure: Path, picture: Path) -> None:
@@ -25,4 +31,6 @@ def shrink(figure: Path, picture: Path) -> None:
 
 
 if __name__ == "__main__":
-    shrink(Path(sys.argv[1]), Path(sys.argv[2]))
+    made = {f"docs/{name}.png": f"results/figures/{name.replace('-', '_')}.png" for name in FIGURES}
+    for picture, figure in {sys.argv[2]: sys.argv[1]}.items() if sys.argv[1:] else made.items():
+        shrink(Path(figure), Path(picture))

@@ -14,15 +14,21 @@ function claimFilter(filter) {
     const words = search.value.toLowerCase().split(/\s+/).filter(Boolean);
     const filtering = verdicts.length + words.length > 0;
     document.documentElement.classList.toggle("filtering", filtering);
-    for (const claim of claims) {
+    const found = claims.filter((claim) => {
       const text = `${claim.dataset.words} ${claim.textContent}`.toLowerCase();
-      const wanted = !verdicts.length || verdicts.includes(claim.dataset.verdict);
-      claim.hidden = !(wanted && words.every((word) => text.includes(word)));
+      return words.every((word) => text.includes(word));
+    });
+    for (const claim of claims) {
+      claim.hidden = !found.includes(claim) || (verdicts.length > 0 && !verdicts.includes(claim.dataset.verdict));
+    }
+    for (const button of buttons) {
+      const count = found.filter((claim) => claim.dataset.verdict === button.dataset.verdict).length;
+      button.querySelector("span").textContent = `${count} claim${count === 1 ? "" : "s"}`;
     }
     for (const part of parts) part.classList.toggle("empty", filtering && !part.querySelector(".claim:not([hidden])"));
     for (const [part, open] of folded) part.open = filtering || open;
     const shown = claims.filter((claim) => !claim.hidden).length;
-    read.textContent = filtering ? `${shown} of ${claims.length} claims are shown.` : "";
+    read.textContent = filtering ? `${shown} of ${claims.length} are shown.` : "";
   }
 
   for (const button of buttons) {

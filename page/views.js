@@ -31,13 +31,17 @@ function trajectoryView(view, runs) {
     labelsDiv: view.querySelector(".values"),
     legend: "always",
     legendFormatter: legendOf,
-    xlabel: "time t",
+    xlabel: "time t (units of L/v₀)",
+    series: { u: { axis: "y2" } },
+    axes: { y2: { independentTicks: true, drawGrid: false } },
     digitsAfterDecimal: 4,
     strokeWidth: 1,
     axisLabelFontSize: 13,
   });
   function show(run) {
-    graph.updateOptions({ file: rowsOf(run), labels: labelsOf(run), dateWindow: null, valueRange: null });
+    const titles = run.series.map((one) => ({ v: "velocity v (units of v₀)", u: "displacement u (units of L)" })[one.name]);
+    const axes = { ylabel: titles[0], y2label: titles[1] || "" };
+    graph.updateOptions({ file: rowsOf(run), labels: labelsOf(run), dateWindow: null, valueRange: null, ...axes });
     const thinned = run.every > 1 ? ` One sample in ${run.every} is drawn.` : "";
     read.textContent = `${run.words}.${thinned}`;
   }

@@ -10,7 +10,7 @@ from scripts.namelists.chains import motion_chains, stiffness_of_modes
 from scripts.plans import registry
 from scripts.namelists.study_cases import measured_study
 from scripts.namelists.write_namelist import end_at_horizons, text_of
-from scripts.results import models
+from scripts.results import models, paths
 from scripts.results.programs import BUILD, PAPER, RUNS
 from scripts.workflow.script_imports import modules_of
 
@@ -21,6 +21,7 @@ wildcard_constraints:
     quad="|_quad",
     model=r"\w+",
     scene="|".join(config["scenes"]),
+    si_scene="|".join(paths.scenes_with(config, "si")),
     chain="|".join(config["chains"]),
     motion="|".join(motion_chains(config)),
     event_chain="|".join(config["event_sizes"]["chains"]),
@@ -185,7 +186,6 @@ def figures_on_page():
             "category": registry.find(name).category,
             "caption": f"{plan.results}/figures/{name}.rst",
             "drawing": f"{plan.results}/figures/{name}.svg",
-            "shows_classes": registry.shows_classes(name),
             "data": fill_in(
                 [
                     path

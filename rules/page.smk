@@ -79,3 +79,19 @@ rule page:
         code=code_of("page/write_page.py", *page_assets.list_files()),
     script:
         "../scripts/page/write_page.py"
+
+
+rule single_page:
+    """The page as one file, which opens at any place and without network."""
+    input:
+        rules.page.output.assets,
+        page=rules.page.output.page,
+    output:
+        "<results>/single-page.html",
+    log:
+        "<results>/logs/single-page.log",
+    localrule: True
+    params:
+        code=code_of("page/write_single_page.py"),
+    script:
+        "../scripts/page/write_single_page.py"

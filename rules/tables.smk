@@ -1,12 +1,12 @@
 # Tables of results.
 from scripts.claims.ledger import inputs_for
-from scripts.results import paths
 
 FAMILIES = {
     name: family["reference"]
     for name, family in config["stability"]["families"].items()
 }
 """What each family of cases is compared with."""
+SCENES_IN_SI = {n: one for n, one in config["scenes"].items() if "si" in one}
 
 # For each rule its table.
 TABLES = {
@@ -107,8 +107,15 @@ TABLES = {
         slips=paths.slips_of_chains(config),
         events=paths.events_of_chains(config),
     ),
-    "dimensions_table": table(
-        "dimensions.tsv", "dimensions_table", {"presets": config["dimensions"]}
+    "velocity_step_table": table(
+        "velocity-step.tsv", "velocity_step_table", {"step": config["velocity_step"]}
+    ),
+    "si_table": table("si.tsv", "si_table", {"scenes": SCENES_IN_SI}),
+    "si_events": table(
+        "events/{si_scene}.csv",
+        "si_events_table",
+        {"si": lambda wildcards: SCENES_IN_SI[wildcards.si_scene]["si"]},
+        events="<results>/slip_events/{si_scene}.nc",
     ),
     "stability_table": table(
         "stability.tsv",
@@ -141,8 +148,8 @@ for name, (path, module, parameters, inputs) in TABLES.items():
         output:
             f"<results>/tables/{path}",
         log:
-            f"<results>/logs/tables/{path.removesuffix('.tsv')}.log",
-        priority: PAPER if name == "attractors_table" else 0
+            f"<results>/logs/tables/{path.rpartition('.')[0]}.log",
+        priority: PAPER if name in ("attractors_table", "velocity_step_table") else 0
         localrule: True
         params:
             **parameters,

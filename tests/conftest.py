@@ -41,7 +41,7 @@ ROOT = Path(__file__).parent.parent
 SMOKE = ("--configfile", "config/smoke.yaml")
 """Arguments for a run in smoke size; further config files may follow, targets must stand before."""
 COMMANDS = [
-    *("trajectory", "spectrum", "hopf", "linear_stability", "velocity_step", "exponents", "cycles"),
+    *("trajectory", "spectrum", "hopf", "linear_stability", "exponents", "cycles"),
     *("attractors", "measure", "reference", "slip_events", "synchrony"),
 ]
 GROUPS = {
@@ -50,7 +50,6 @@ GROUPS = {
     "hopf": "hopf_curves",
     "cycles": "cycles",
     "linear_stability": "linear_stability",
-    "velocity_step": "velocity_step",
     "slip_events": "scene",
 }
 """Namelist group of each command that reads one alone, as tests name it."""
@@ -377,7 +376,6 @@ def good_inputs(filled_config, trajectory_file) -> dict[str, dict]:
             **{key: scene[key] for key in ("tau", "epsilon", "xi", "gamma", "law")},
             **config["linear_stability"],
         },
-        "velocity_step": config["velocity_step"],
         "slip_events": {**scene, "variables": ["theta", "u", "v"]},
     }
 

@@ -7,9 +7,9 @@ from scripts.claims.claims_results import VERDICTS
 
 
 def claim(name: str, verdict: str = VERDICTS[0], **values) -> dict:
-    row = {"id": name, "place": "section 1", "claim": f"It is {name}.", "verdict": verdict}
+    row = {"id": name, "whose": "the paper", "claim": f"It is {name}.", "verdict": verdict}
     row |= {"evidence": "0 < 1 & so on", "instead": "", "look_at": "", "table": ""}
-    return {**row, **values}
+    return {**row, "place": "section 1", **values}
 
 
 def attractor(epsilon: float, tau: float, **given) -> dict:

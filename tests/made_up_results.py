@@ -143,6 +143,7 @@ def cycles_to_a_torus(along: str = "tau", cusps: int = 0, **fixed: float) -> xr.
         "v_most": [1.1, 1.2, 1.3, 1.4],
         "branch": [1] * 4,
         "unstable": [0, 0, 2, 2],
+        "multiplier_error": [1e-12] * 4,
     }
     points = {
         "kind": ["torus"],
@@ -222,5 +223,7 @@ def run_row(**given) -> dict:
         "error": 1e-9,
         "reference": "same source in quadruple precision",
         "error_expected": 1e-8,
+        "t_end": 100.0,
+        "amplification": 10.0,
         **given,
     }

@@ -4,7 +4,7 @@ Tests name the keys of a group without the groups within it.
 """
 
 from scripts.namelists.laws import PAPER
-from scripts.namelists.program_groups import LAW, case_groups, nested
+from scripts.namelists.program_groups import case_groups, nested
 from scripts.namelists.study_cases import HISTORY, PARAMETERS
 
 PARTS = {
@@ -13,7 +13,6 @@ PARTS = {
     "cycles": {"parameters": [*PARAMETERS, "law"]},
     "hopf_curves": {"parameters": [*PARAMETERS, "law"]},
     "points": {"parameters": [*PARAMETERS, "law", "own_names", "own"]},
-    "velocity_step": {"law": LAW},
 }
 """For a group: the groups within it and their keys."""
 BESIDE = {

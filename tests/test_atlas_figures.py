@@ -158,6 +158,7 @@ def test_sweeps_and_planes_of_lines_are_found_by_their_parameters(filled_config)
         "across": {"along": "epsilon", "tau": 7.0, "xi": 0.5, "gamma": 0.8, **law},
         "in_xi": {"along": "xi", "tau": 7.0, "epsilon": 0.9, "gamma": 0.8, **law},
     }
+    config["routes"]["lines"]["part"] = {**at, "window": [5.8, 6.1]}
     folder = "<results>/attractors/routes"
     assert paths.sweeps_on_lines(config) == {
         "mine": [f"{folder}/chaos_in_tau/up.nc", f"{folder}/chaos_in_tau/down.nc"],

@@ -65,7 +65,10 @@ def test_exponents_are_those_of_the_long_run():
         for value, error in long
     ]
     found = attractor_class(made, scene="mine", expected="chaos")
-    assert "(exponents 0.019 +- 0.0007, 0 (along the flow), -0.0145 +- 0.001)" in found.evidence
+    assert (
+        "(exponents of its long run 0.019 +- 0.0007, 0 (along the flow), -0.0145 +- 0.001)"
+        in found.evidence
+    )
     found = positive_exponent(made, scene="mine")
     assert "of scene mine is 0.019 +- 0.0007 $v0/L$." in found.evidence
 

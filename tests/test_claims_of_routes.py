@@ -143,8 +143,13 @@ def test_torus_route(point, verdict):
 def test_quasiperiodic_route(first, second, verdict):
     """Torus breakdown and a third frequency, one of them, or neither."""
     rows = twice(*first) + twice(*second, name="other")
+    rows += route_rows("torus", "cycle/42", "chaos", name="fine")
+    rows += route_rows("torus", "cycle/42", "cycle/38", name="fine", run="up")
     made = Results(routes=rows, cycle_points=[torus_point()])
-    assert quasiperiodic_route(made, routes=["mine", "other"]).verdict == verdict
+    found = quasiperiodic_route(made, routes=["mine", "other"], fine="fine")
+    assert found.verdict == verdict
+    locked = "cycle with 42 loops in 2 runs at 0.2; chaos in 1 runs, cycle with 38 loops in 1 runs"
+    assert locked in found.evidence
 
 
 @pytest.mark.parametrize(

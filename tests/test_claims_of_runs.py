@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-import xarray as xr
 from made_up_results import NO, PARTLY, YES, Results, run_row, spectrum
 
 from scripts.claims.claims_of_friction import (
@@ -80,14 +79,11 @@ def test_spectrum_class(kind):
 
 def a_step(direct=0.006, evolution=-0.009, theta=10.0, end=0.0, first=0.6, faster=1.0) -> Results:
     """Friction through a step of the velocity and back, at velocities `faster` than usual."""
-    attributes = {"direct_effect": direct, "evolution_effect": evolution, "mu0": 0.6, "dc": 1e-5}
-    attributes |= {"a": 0.01, "b": 0.015, "b_state": 10.0, "v0": 1e-6, "delta_v": 9e-6}
-    data = {
-        "mu": ("sample", [first, 0.606, 0.597, 0.6 + end]),
-        "theta": ("sample", [theta] * 4),
-        "velocity": ("sample", [faster * v for v in (1e-6, 1e-5, 1e-5, 1e-6)]),
-    }
-    return Results(friction={"velocity_step": xr.Dataset(data, attrs=attributes)})
+    law = {"mu0": 0.6, "dc": 1e-5, "a": 0.01, "b": 0.015, "b_state": 10.0, "v0": 1e-6}
+    mu = [first, first + direct, first + direct + evolution, 0.6 + end]
+    velocity = [faster * v for v in (1e-6, 1e-5, 1e-5, 1e-6)]
+    rows = [{"mu": m, "velocity": v, "theta": theta} for m, v in zip(mu, velocity, strict=True)]
+    return Results(velocity_step=[{**row, **law, "delta_v": 9e-6} for row in rows])
 
 
 @pytest.mark.parametrize(
@@ -132,8 +128,8 @@ def test_same_state_law():
     # theta = 10 s at v = 1e-5 m/s: x = 10, 1 - x and -x ln x
     assert "most at $x = 10$: $d theta/dt = -9$ by (1.2) and -23.03 by (2)" in found.evidence
     made = a_step()
-    steady = made.friction["velocity_step"]
-    made.friction["velocity_step"] = steady.assign(velocity=1e-5 / steady.theta)
+    for row in made.velocity_step:
+        row["velocity"] = 1e-5 / row["theta"]
     assert same_state_law(made, limit=1e-6).verdict == YES
 
 

@@ -79,7 +79,8 @@ def whole(config) -> dict:
 def test_default_config_is_accepted_as_it_stands(config, default_config):
     scenes = checked(config)["scenes"]
     for name, scene in default_config["scenes"].items():
-        assert {key: scenes[name][key] for key in scene} == scene
+        given = {key: value for key, value in scene.items() if not isinstance(value, str)}
+        assert {key: scenes[name][key] for key in given} == given
 
 
 @pytest.mark.parametrize("name", ["smoke", "fine_atlas"])
@@ -112,6 +113,8 @@ def test_every_number_must_be_one(whole):
     """In place of any number text, truth, nothing, lists, NaN and infinity are refused."""
     places = list(numbers_in(whole))
     assert len(places) > 300
+    # of those in SI: tests/test_si.py
+    places = [path for path in places if "si" not in whole["scenes"].get(path[1], ())]
     for value in NO_NUMBERS:
         spoiled = copy.deepcopy(whole)
         for path in places:
@@ -195,7 +198,7 @@ def test_bad_value_is_refused(whole, path, value, words):
 
 def test_unknown_keys_are_refused(whole):
     """In every section of fixed keys: the line names section and key, and lists what is known."""
-    named = ["scenes", "chains", "hopf_curves", "dimensions", "claims", "laws"]
+    named = ["scenes", "chains", "hopf_curves", "si", "claims", "laws"]
     named += ["parameters", "planes", "families", "histories", "lines", "places", "cases", "rows"]
     sections = [path for path in sections_in(whole) if not path or path[-1] not in named]
     sections = [path for path in sections if path[:1] != ("claims",)]

@@ -2,6 +2,7 @@
 code; and no sentence stands twice."""
 
 import copy
+import json
 import re
 import subprocess
 from fnmatch import fnmatch
@@ -17,7 +18,7 @@ from scripts.config.check_config import checked
 from scripts.files.read_config import parse, read
 from scripts.namelists.laws import built_in
 from scripts.plans.registry import FIGURES
-from scripts.results import run_times
+from scripts.results import document_numbers
 from scripts.results.programs import RUNS
 
 RESULTS = "results/README.md"
@@ -229,7 +230,7 @@ def test_every_picture_is_shown_and_has_its_command():
     for picture in [name for name in project_files() if fnmatch(name, "docs/*.png")]:
         name = PurePath(picture).name
         assert any(f"{name})" in text_of(document) for document in DOCUMENTS)
-        assert name in drawing
+        assert name in drawing or f'"{name.removesuffix(".png")}"' in drawing or "figure-" in name
 
 
 def cffconvert(*arguments: str) -> str:
@@ -259,7 +260,28 @@ def test_laws_on_the_page_are_those_of_the_project():
     assert set(built_in()) <= set(rows)
 
 
-def test_readme_says_the_times_that_were_measured():
-    text = (ROOT / "README.md").read_text()
-    assert run_times.put_sentence(text) == text
-    assert run_times.sentence_of(run_times.MEASURED) in text
+def test_numbers_are_those_of_the_results():
+    """As the record has them, which has no others; one that is typed over is found."""
+    record = json.loads(document_numbers.RECORD.read_text())
+    texts = [path.read_text() for path in document_numbers.documents()]
+    used = [source for text in texts for source in document_numbers.sources_in(text)]
+    assert set(used) == set(record)
+    assert all(document_numbers.fill(text, record) == text for text in texts)
+    assert document_numbers.fill("0<!-- a; count -->", {"a; count": "26"}) == "26<!-- a; count -->"
+
+
+def test_number_is_looked_up_in_its_table(tmp_path, monkeypatch):
+    (tmp_path / "a.tsv").write_text("kind\tx\none\t0.125\nother\t0.5\nother\t2\n")
+    monkeypatch.setattr(document_numbers, "FOLDERS", [tmp_path])
+    assert document_numbers.look_up("a; kind = one; x .2f") == "0.12"
+    assert document_numbers.look_up("a; kind = other; count") == "2"
+    assert document_numbers.look_up("a; largest x g") == "2"
+    with pytest.raises(ValueError, match="2 rows of a"):
+        document_numbers.look_up("a; kind = other; x g")
+
+
+@each
+def test_rows_of_tables_have_as_many_cells_as_their_heading(document):
+    for table in re.findall(r"(?:^\|.*\n)+", text_of(document), re.MULTILINE):
+        cells = {len(re.findall(r"(?<!\\)\|", row)) for row in table.splitlines()}
+        assert len(cells) == 1, table

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 
 from scripts.drawing import trajectories
 from scripts.drawing.style import METADATA, STYLE, break_titles, logged, save
-from scripts.figures import figure_6
+from scripts.figures import figure_6, true_torus
 
 
 @pytest.fixture(autouse=True)
@@ -45,18 +45,18 @@ def test_dense_oscillations_are_drawn_as_their_envelope():
     np.testing.assert_allclose(axes.lines[-1].get_ydata(), run.v[:4001])
 
 
-def test_some_loops_of_a_long_transient_are_drawn():
-    """Whole loops with gaps between them; a short one is drawn as it is."""
-    t = 0.1 * np.arange(6000)
-    size = np.exp(-t / 4000)
-    run = a_trajectory(1 + size * np.cos(t), size * np.sin(t))
-    thinned = trajectories.some_loops(run)
-    there = np.isfinite(thinned.v.values)
-    loops = np.count_nonzero(np.diff(there.astype(int)) == 1) + there[0]
-    assert 0.3 * trajectories.MOST_LOOPS < loops <= trajectories.MOST_LOOPS
-    assert np.count_nonzero(there) == pytest.approx(loops * 20 * np.pi, rel=0.1)
-    np.testing.assert_array_equal(thinned.v[there], run.v[there])
-    assert trajectories.some_loops(run.isel(t=slice(3000))).equals(run.isel(t=slice(3000)))
+def test_a_damped_pair_is_found_in_the_spectrum_of_the_beginning():
+    """A wave that dies out beside a lasting one: its height follows from its mean in the window."""
+    t = 0.1 * np.arange(20_001)
+    dying = 0.1 * np.exp(-0.015 * t)
+    run = a_trajectory(np.cos(0.62 * t) + dying * np.cos(1.11 * t), 0 * t)
+    pairs = {"root_real": ("root", [0.01, -0.015, -0.08]), "root_imag": ("root", [0.62, 1.11, 0.2])}
+    frequency, rate = true_torus.damped_pair(xr.Dataset(pairs))
+    assert (frequency, rate) == (1.11 / (2 * np.pi), -0.015)
+    found, height = true_torus.peak_near(frequency, *true_torus.early_spectrum(run))
+    assert found == pytest.approx(frequency, abs=1e-3)
+    mean = np.average(dying[:2001], weights=np.hanning(2001))
+    assert height == pytest.approx(mean**2, rel=0.05)
 
 
 def test_missed_part_of_a_maximum():

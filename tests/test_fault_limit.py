@@ -1,16 +1,14 @@
-"""The least epsilon of all Hopf curves, and the quantities of (2) in SI units."""
+"""The least epsilon of all Hopf curves."""
 
 from decimal import Decimal, localcontext
 
-import numpy as np
 import pytest
 import xarray as xr
 
-from scripts.tables import dimensions_table, fault_limit_table
+from scripts.tables import fault_limit_table
 from scripts.workflow.plan import read_plan
 
 CONFIG = read_plan({}).config
-PRESETS = CONFIG["dimensions"]
 
 
 def least_by_6(gamma: float, xi: float) -> tuple[Decimal, Decimal]:
@@ -79,32 +77,3 @@ def test_no_delay_destabilises_at_large_gamma(smoke):
         stable = curves.map_unstable_pairs[:, curves.map_epsilon.values < row["without_delay"]]
         assert stable.sizes["map_epsilon"] > 5
         assert bool((stable > 0).any()) is unstable
-
-
-@pytest.mark.parametrize("preset", PRESETS)
-def test_dimensions_are_those_of_2(preset):
-    """(2) about steady sliding, in SI units and without delay, has the roots of (5) over L/v0."""
-    q, epsilon = PRESETS[preset], 0.7
-    row = dimensions_table.row_of(preset, **q)
-    b = (1 + epsilon) * q["a"]
-    # theta, u and v; the unknowns in units of A, L and v0, time in seconds
-    second = np.array(
-        [
-            [-q["v0"] / q["length"], 0, -b * q["v0"] / (q["length"] * q["a"])],
-            [0, 0, q["v0"] / q["length"]],
-            -np.array([q["a"], q["k"] * q["length"], q["a"]]) / (q["m"] * q["v0"]),
-        ]
-    )
-    square, xi = row["gamma"] ** 2, row["xi"]
-    of_5 = [1, 1 + square / xi, square * (1 + 1 / xi) - (1 + epsilon) * square / xi, square]
-    assert np.poly(second * row["time_unit"]) == pytest.approx(of_5, rel=1e-6)
-
-
-def test_dimensions_of_a_clock():
-    """A mass of 1 kg on 4 pi^2 N/m swings once a second; 7 L/v0 of 3 s are 21 s."""
-    quantities = {"length": 6.0, "v0": 2.0, "k": 4 * np.pi**2, "a": 1.0, "m": 1.0}
-    row = dimensions_table.row_of("clock", **quantities)
-    assert row["inertial_period"] == pytest.approx(1.0)
-    assert (row["time_unit"], row["delay"]) == (3.0, 21.0)
-    assert row["gamma"] * row["inertial_period"] == pytest.approx(2 * np.pi * row["time_unit"])
-    assert row["inertial_period_of_paper"] == pytest.approx(7.5 * np.pi)

@@ -50,7 +50,7 @@ def check_labels(figure: Figure) -> None:
     """Every axes with data says what its two axes are, itself or through those it shares."""
     for axes in figure.axes:
         if axes.get_label() == "<colorbar>":
-            assert axes.get_ylabel()
+            assert axes.get_xlabel() or axes.get_ylabel()
             continue
         below = axes.get_shared_x_axes().get_siblings(axes)
         beside = axes.get_shared_y_axes().get_siblings(axes)

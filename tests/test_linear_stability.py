@@ -12,7 +12,7 @@ from scripts.tables.linear_stability_table import amplitude_death, row_of
 SCENES = {"fixed_point": 0, "oscillation": 1, "torus": 1, "chaos": 1}
 SCENES |= {"true_torus": 1, "stick_slip": 1}
 SCENES |= dict.fromkeys(["no_delay", "no_delay_stuck", "no_delay_fast"], 1)
-SCENES |= {"no_delay_less": 1, "no_delay_more": 1}
+SCENES |= {"no_delay_less": 1, "no_delay_more": 1, "laboratory": 2, "natural_fault": 2}
 """Number of unstable pairs."""
 
 

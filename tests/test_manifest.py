@@ -102,7 +102,7 @@ def test_run_makes_damaged_and_removed_results_again(smoke, scratch):
     the removed part alone is computed."""
     results = scratch.folder / "results"
     before = scratch.outputs()
-    os.truncate(results / "friction" / "velocity_step.nc", 1000)
+    os.truncate(results / "hopf" / "xi_of_epsilon.nc", 1000)
     with open(results / "tables" / "claims.tsv", "a") as table:
         table.write("edited\n")
     assert verify(scratch.folder)[0] == 1
@@ -113,7 +113,7 @@ def test_run_makes_damaged_and_removed_results_again(smoke, scratch):
     written = other.stat().st_mtime_ns
     run = scratch.reproduce("--configfile", "config/smoke.yaml")
     assert run.returncode == 0, run.stdout
-    for name in ("friction/velocity_step.nc", "tables/claims.tsv"):
+    for name in ("hopf/xi_of_epsilon.nc", "tables/claims.tsv"):
         assert f"results/{name}: was changed or damaged since a run made it" in run.stdout
     assert scratch.outputs() == before
     assert other.stat().st_mtime_ns == written

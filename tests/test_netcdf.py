@@ -9,7 +9,7 @@ from conftest import ROOT
 CHECKER = ROOT / "tests" / "formats" / ".venv" / "bin" / "compliance-checker"
 KINDS = {
     *("trajectories", "spectra", "exponents", "slip_events", "linear_stability", "hopf", "cycles"),
-    *("friction", "measurements/stability", "measurements/trust", "measurements/work_precision"),
+    *("measurements/stability", "measurements/trust", "measurements/work_precision"),
     *("attractors/scenes", "attractors/basins", "attractors/routes", "attractors/atlas"),
     *("attractors/laws", "chains", "modes", "synchrony"),
     *("chain_exponents", "chain_motions", "chain_slips"),

@@ -1,6 +1,7 @@
 """The page: what it says of made-up results, and the page of the smoke run as a file."""
 
 import base64
+import itertools
 import json
 import re
 from collections import Counter
@@ -18,6 +19,7 @@ from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, NOT_TESTABL
 from scripts.claims.ledger import paper_claims
 from scripts.files.marked_words import to_html
 from scripts.page import captions, findings, page_content, page_provenance, page_views, write_page
+from scripts.page.write_single_page import in_one_file
 from scripts.plans.registry import FIGURES
 
 
@@ -57,6 +59,14 @@ def test_caption_with_formulas(tmp_path):
     assert "<math" in markup
     assert "1 ±\N{NO-BREAK SPACE}2\N{NO-BREAK SPACE}%" in markup
     assert captions.first_sentence(markup) == "Curves τ=2 & 1 ± 2 %."
+
+
+def test_caption_with_a_table(tmp_path):
+    """It is below the first paragraph, in a frame that scrolls by keyboard, too."""
+    (tmp_path / "caption.rst").write_text("Events.\n\n=  =\nN  c\n=  =\n5  9\n=  =\n\nEnd.")
+    markup = captions.as_html(tmp_path / "caption.rst")
+    (table,) = re.findall(r'(?s)</p>\s*<div class="scroll" tabindex="0">(.*?)</div>\s*<p', markup)
+    assert captions.as_words(table).split() == ["N", "c", "5", "9"]
 
 
 def test_caption_that_cannot_be_read_is_an_error(tmp_path):
@@ -122,11 +132,12 @@ def tables_of_findings() -> dict[str, list[dict]]:
     runs = ((1e4, "auto", "ok"), (1e12, "explicit", "stopped"), (0.8, "auto", "stopped"))
     limit = {"xi": 0.5, "without_delay": 0.25}
     plane = {"gamma": 0.8, "xi": 0.5, "of": "plane", "place": "a"}
+    laws = ("slip_delayed_logarithm", "chaos"), ("ageing_delayed_velocity", "cycle")
     return {
         "attractors": [torus, true_torus],
         "hopf_points": [{"of": of, "kind": kind} for of, kind in kinds],
         "stability": [
-            {"gamma": gamma, "method": method, "status": status, "steps": 7.0}
+            {"gamma": gamma, "method": method, "status": status, "steps": 7.0, "error": 15.0}
             for gamma, method, status in runs
         ],
         "fault_limit": [
@@ -134,17 +145,12 @@ def tables_of_findings() -> dict[str, list[dict]]:
             for gamma, depth in ((0.8, 0.0481), (1e4, 9.3e-18))
         ],
         "friction_laws": [
-            {**plane, "law": law, "class": kind, "period": 1.0}
-            for law, kind in (("slip", "chaos"), ("slip", "torus"), ("ageing", "cycle"))
+            {**plane, "law": law, "class": kind, "period": 1.0} for law, kind in laws
         ],
         "chain_motions": [
             {**limit, "gamma": 0.8, "epsilon": 0.5, "blocks": blocks, "tau": tau}
             | {"positive_exponents": count}
             for blocks, tau, count in ((2, 7.0, 1), (9, 7.0, 5), (11, 0.0, 2))
-        ],
-        "event_sizes": [
-            {"blocks": 50, "gamma": 0.8, "size_exponent": 1.7, "size_cutoff": 2000.0},
-            {"blocks": 5, "gamma": 0.8, "size_exponent": np.nan, "size_cutoff": np.nan},
         ],
     }  # fmt: skip
 
@@ -157,19 +163,21 @@ def test_findings_follow_the_tables(holds):
         _, true_torus = tables["attractors"]
         tables["attractors"] = [true_torus | {"scene": "torus"}, true_torus]
         tables["stability"] = tables["stability"][1:]
-        tables["friction_laws"] = tables["friction_laws"][:2]
+        tables["friction_laws"][-1]["class"] = "chaos"
         tables["chain_motions"] = tables["chain_motions"][:1]
     limit, torus, faults, laws, chains = findings.list_findings([claim("figure_5a")], tables)
-    assert laws["title"].startswith("Whether" if holds else "A delay makes chaos under every law")
-    assert "1 (slip)" in laws["words"]
+    assert ("not on the law of friction" in laws["title"]) is holds
+    assert f"points if the delay stands in the logarithm, and {1 - holds} if" in laws["words"]
     assert torus["title"] == f"The paper's torus is a {'limit cycle' if holds else 'torus'}."
     assert ("not" in faults["title"]) is not holds
+    assert ("In 1 of them the problem magnifies errors beyond 0.001" in faults["words"]) is holds
     assert chains["title"].startswith("In chains" if holds else "Chains of blocks are not")
     assert ("9 blocks with $tau = 7$ have 5 positive Lyapunov" in chains["words"]) is holds
-    assert chains["words"].count("cut off") == 1
     assert ("Without delay 11 blocks have 2 positive" in chains["words"]) is holds
     assert [given["id"] for given in torus["claims"]] == ["figure_5a"]
-    for words in ("$epsilon = 0.25$ for $xi = 0.5$", "by 0.048 there, but by 9e-18 only at"):
+    # 10^3 (1 + 10)/(2 10^16) = 5.5e-13
+    assert limit["title"].endswith("narrower than 1e-12.")
+    for words in ("$epsilon = 0.25$ for $xi = 0.5$", "by 0.048.", "9.3e-18 for", "5.5e-13 for"):
         assert words in limit["words"]
     assert "Along the Hopf curves of 2 planes" in limit["words"]
 
@@ -229,7 +237,10 @@ def test_page_loads_nothing_from_elsewhere(page):
 
 
 def test_every_claim_stands_in_the_page_once(smoke, page):
-    """With its verdict and its evidence; the main ones stand with the findings."""
+    """With its verdict and its evidence; the main ones stand with the findings.
+
+    Our questions have a section and a count of their own.
+    """
     claims = json.loads((smoke.folder / "results/tables/claims.json").read_text())
     shown = Elements(page)
     ids = Counter(shown.values("id"))
@@ -240,8 +251,12 @@ def test_every_claim_stands_in_the_page_once(smoke, page):
             assert Elements(to_html(words)).text in shown.text
     for verdict in VERDICTS:
         count = sum(row["verdict"] == verdict for row in claims)
-        assert f"{verdict} {count} claim" in shown.text
-    start, end = page.index('id="findings"'), page.index('id="equations"')
+        assert (f"{verdict} {count} claim" in shown.text) is (count > 0)
+    questions = page[page.index('id="questions"') : page.index('id="equations"')]
+    ours = re.findall(r'id="claim-(\w+)"', questions)
+    assert ours == [row["id"] for row in claims if row["whose"] == "ours"]
+    assert f"The paper does not ask these {len(ours)}." in questions
+    start, end = page.index('id="findings"'), page.index('id="questions"')
     for name in findings.MAIN_CLAIMS:
         assert start < page.index(f'id="claim-{name}"') < end
 
@@ -252,6 +267,22 @@ def test_every_figure_stands_in_the_page(smoke, page):
     sentences = {name: captions.first_sentence(caption_of(smoke, name)) for name in FIGURES}
     assert images == {f"figures/{name}.svg": sentences[name] for name in FIGURES}
     assert all(f"Rule {name}." in shown.text for name in FIGURES)
+    # a phone would cut the labels at the right of the Hopf curves
+    assert page.count('class="scroll drawn fits"') >= 4
+
+
+def test_single_page_names_no_other_file(smoke, page):
+    """Its links lead to places in it; the rest is data."""
+    shown = Elements(in_one_file(page, smoke.folder / "results"))
+    assert {link[:1] for link in shown.values("href")} == {"#", "d"}
+    assert {link[:19] for link in shown.values("src")} == {"data:image/svg+xml,"}
+
+
+def test_no_heading_is_empty(page):
+    """Something stands between two headings of a kind; levels leave none out."""
+    assert not re.search(r"</h2>\s*(<section[^>]*>\s*)?<h2", page)
+    order = re.findall(r"<h([1-6])", page)
+    assert all(int(below) <= int(above) + 1 for above, below in itertools.pairwise(order))
 
 
 def test_every_link_of_the_page_resolves(smoke, page):

@@ -9,6 +9,7 @@ import pytest
 from conftest import ROOT
 
 from scripts.claims.claims_results import VERDICTS
+from scripts.page.write_single_page import in_one_file
 
 BROWSER = ROOT / "tests" / "browser"
 PYTHON = BROWSER / ".venv" / "bin" / "python"
@@ -32,8 +33,10 @@ def mailed(smoke, folder: Path) -> Path:
 def visited(smoke, tmp_path_factory) -> tuple[Path, dict]:
     """The page of the smoke run, unpacked from a mail, and what the browser saw of it."""
     page = mailed(smoke, tmp_path_factory.mktemp("page"))
+    single = tmp_path_factory.mktemp("single") / "any-name.html"
+    single.write_text(in_one_file(page.read_text(), page.parent))
     run = subprocess.run(
-        [PYTHON, BROWSER / "visit.py", page], capture_output=True, text=True, timeout=300
+        [PYTHON, BROWSER / "visit.py", page, single], capture_output=True, text=True, timeout=300
     )
     assert run.returncode == 0, run.stderr
     return page, json.loads(run.stdout)
@@ -56,6 +59,21 @@ def test_nothing_is_asked_of_elsewhere(visited):
     assert len(seen["requests"]) >= 6
     outside = [url for url in seen["requests"] if not url.startswith((folder, "data:"))]
     assert outside == []
+
+
+def test_single_page_needs_no_other_file(seen):
+    """It lies alone in a folder: all pictures are drawn, the view of the delay shows a motion."""
+    single = seen["single"]
+    assert single["console"] == []
+    assert single["first"] == seen["play"]["first"]
+    assert [i["width"] for i in single["images"]] == [i["width"] for i in seen["images"]]
+    outside = [url for url in single["requests"] if not url.startswith("data:")]
+    assert [url.rpartition("/")[2] for url in outside] == ["any-name.html"]
+
+
+def test_no_drawing_is_white_on_a_dark_screen(seen):
+    """Colours of classes in figures and in the view of the delay change alike."""
+    assert [filters[:6] for filters in set(seen["dark"])] == ["invert"]
 
 
 def test_every_image_is_drawn_and_said_in_words(seen):
@@ -95,6 +113,8 @@ def test_trajectories_are_zoomed_and_read(seen):
     assert within[-1] - within[0] < 0.5 * (before[-1] - before[0])
     assert len(view["values"]) == len(view["said"])
     assert all(word in view["values"][0] for word in ("t = ", "v = ", "u = "))
+    # each with an axis of its own
+    assert view["titles"][0] == ["velocity v (units of v₀)", "displacement u (units of L)"]
 
 
 def test_claims_are_chosen_by_verdict_and_words(seen):
@@ -104,9 +124,11 @@ def test_claims_are_chosen_by_verdict_and_words(seen):
     for met in claims["verdicts"].values():
         assert met["pressed"] == "true"
         assert met["shown"] == met["listed"]
-        assert met["said"] == f"{met['listed']} of {claims['all']} claims are shown."
+        assert met["said"] == f"{met['listed']} of {claims['all']} are shown."
     assert 1 <= claims["searched"] < claims["all"]
-    assert claims["said"] == f"{claims['searched']} of {claims['all']} claims are shown."
+    assert claims["said"] == f"{claims['searched']} of {claims['all']} are shown."
+    # the search was for a claim, not for a question of ours
+    assert claims["left"] == claims["searched"]
 
 
 def test_link_to_a_claim_leads_there(seen):

@@ -21,7 +21,7 @@ def write(descriptor=os.open(os.environ["COUNTS"], os.O_WRONLY | os.O_CREAT), wr
 atexit.register(write)
 """
 """Counts the files that a process opens, and names the modules that it has loaded."""
-HEAVY = {"matplotlib", "scipy", "powerlaw", "sympy", "xarray", "pandas"}
+HEAVY = {"matplotlib", "scipy.linalg", "powerlaw", "sympy", "xarray", "pandas"}
 
 
 def test_dry_run_opens_no_file_of_the_project_more_than_three_times(fresh, tmp_path):

@@ -26,7 +26,6 @@ REFUSED = {
     "hopf": ("hopf_curves", "gamma", 0.0, "gamma = 0.0; expected a finite number > 0"),
     "cycles": ("cycles", "degree", 2, "degree = 2; expected a whole number >= 3"),
     "linear_stability": ("linear_stability", "xi", -1.0, "xi = -1.0; expected a finite number > 0"),
-    "velocity_step": ("velocity_step", "samples", 1, "samples = 1; expected a whole number >= 2"),
     "slip_events": ("scene", "xi", -1.0, "scene 'torus': xi = -1.0; expected a finite number > 0"),
     "exponents": ("exponents", "blocks", 1, "exponents%blocks = 1; expected a whole number >= 2"),
     "synchrony": ("synchrony", "count", 1, "synchrony%count = 1; expected a whole number >= 2"),

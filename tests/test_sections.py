@@ -11,13 +11,18 @@ from scripts.workflow.plan import read_plan
 
 PLACE = {"tau": 7.0, "epsilon": 0.7, "xi": 0.5, "gamma": 0.8}
 AT_REST = {**PLACE, "tau": 1.0, "epsilon": 0.1}
+SLAB = {"a": 0.01, "b": 0.02, "sigma": "50 MPa", "D_c": "1 cm", "v0": "1e-9 m/s"}
+SLAB |= {"G": "30 GPa", "W": "1.5 km", "rho": "2700 kg/m^3"}
 PLANE = {"xi": 0.5, "gamma": 0.8}
 LINE = {"along": "tau", "epsilon": 0.7, **PLANE}
 OBSERVED = {"t_transient": 100.0, "t_observed": 100.0, "t_lasting": 50.0, "t_turning": 20.0}
 QUICK = {"observation": {**OBSERVED, "doublings": 0}}
 SHORT = {"t_end": 200.0, "t_transient": 50.0}
 SECTIONS = {
-    "scenes": {"s": {**PLACE, **SHORT, "sample_interval": 0.1, "exponents": {}}},
+    "scenes": {
+        "s": {**PLACE, **SHORT, "sample_interval": 0.1, "exponents": {}},
+        "in_si": {"si": SLAB, "tau": "2.2 years", **SHORT, "sample_interval": "10 days"},
+    },
     "hopf_curves": {
         "p": {"ordinate": "tau", **PLANE, "epsilon_window": [0, 1], "ordinate_window": [0, 10]}
     },
@@ -27,7 +32,6 @@ SECTIONS = {
         **{**QUICK, "epsilon_count": 3, "ordinate_count": 3, "parts": 1},
         "planes": {"a": {**PLANE, "ordinate_window": [0, 10]}},
     },
-    "dimensions": {"d": {"length": 0.1, "v0": 1e-9, "k": 1e7, "a": 1e6, "m": 1e6}},
     "claims": {
         "k": {
             **{"place": "here", "claim": "It is chaos.", "look_at": "attractors.tsv"},

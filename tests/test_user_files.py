@@ -6,6 +6,7 @@ import re
 import subprocess
 from pathlib import Path
 
+import pandas as pd
 import pytest
 import xarray as xr
 from conftest import ROOT, Project, rules_in, write_script
@@ -19,6 +20,9 @@ from scripts.workflow.plan import CONFIG, added, name_of, read_plan
 SMALL = """
 scenes:
   my_scene: { t_end: 300.0, t_transient: 100.0, sample_interval: 0.1, exponents: {} }
+  my_fault:
+    { si: { a: 0.01, b: 0.02, sigma: 50 MPa, D_c: 1 cm, v0: 1e-9 m/s, k: 20 MPa/m, M: 3e6 kg/m^2 },
+      tau: 2.2 years, t_end: 100 years, t_transient: 30 years }
 hopf_curves:
   my_plane: { cells: 20 }
 routes:
@@ -47,8 +51,6 @@ atlas:
   observation: *quick
   planes:
     my_atlas: { xi: 0.5, gamma: 0.8, ordinate_window: [0.0, 10.0] }
-dimensions:
-  my_fault: { length: 0.1, v0: 1.0e-9, k: 1.0e+7, a: 1.0e+6, m: 1.0e+6 }
 exponents: { t_turning: 50.0, blocks: 3 }
 spectra: { segments: 3 }
 attractors:
@@ -57,7 +59,7 @@ attractors:
 """Settings over the file that `./reproduce new` writes: small, and with what it does not have."""
 FIGURES = [
     *("scenes/my_scene", "exponents/my_scene", "planes/my_plane", "routes/my_route"),
-    *("routes/my_start", "cycles/my_cycles", "atlas/my_atlas"),
+    *("routes/my_start", "cycles/my_cycles", "atlas/my_atlas", "scenes/my_fault"),
 ]
 MY_SCENE = """
 scenes:
@@ -97,18 +99,21 @@ def test_everything_that_the_file_adds_is_made(made):
     endings = ("pdf", "png", "svg", "rst")
     assert figures == {Path(f"{name}.{end}") for name in FIGURES for end in endings}
     tables = {
-        "attractors": ("scene", "my_scene"),
-        "linear-stability": ("scene", "my_scene"),
+        "attractors": ("scene", "my_scene", "my_fault"),
+        "linear-stability": ("scene", "my_scene", "my_fault"),
         "exponents": ("scene", "my_scene"),
         "routes/my_route": ("route", "my_route"),
         "routes/my_start": ("route", "my_start"),
-        "dimensions": ("preset", "my_fault"),
+        "si": ("scene", "my_fault"),
         "claims": ("id", "my_claim"),
     }
-    for table, (column, name) in tables.items():
+    for table, (column, *names) in tables.items():
         with open(results / "tables" / f"{table}.tsv", newline="") as file:
             rows = list(csv.DictReader(file, delimiter="\t"))
-        assert {row[column] for row in rows} == {name}
+        assert {row[column] for row in rows} == set(names)
+    events = pd.read_csv(results / "tables" / "events" / "my_fault.csv")
+    assert (events[["duration_s", "slip_m", "stress_drop_Pa"]] > 0).all(axis=None)
+    assert len(events) > 1
     assert rows[0]["verdict"] in ("reproduced", "not reproduced")
     assert rows[0]["look_at"] == "results/mine/figures/scenes/my_scene.png"
     assert xr.load_dataset(results / "exponents" / "my_scene.nc").attrs["t_end"] == 300.0
@@ -125,6 +130,10 @@ def test_everything_that_the_file_adds_is_made(made):
     assert [link for link in files if not (page.parent / link).is_file()] == []
     for part in ('id="trajectory-view"', 'id="claim-my_claim"', 'id="play-view"'):
         assert part in page.read_text()
+    # figures of one scene have entries of their own; of four verdicts one was reached
+    entries = re.findall(r'<li><a href="#[^"]*">([^<]*)</a>', page.read_text())
+    assert {"Scenes: My scene", "Exponents: My scene"} <= set(entries)
+    assert len(re.findall(r"<span>\d claims?</span>", page.read_text())) == 1
 
 
 def test_one_key_of_a_scene_can_be_changed(tmp_path):

@@ -1,70 +1,44 @@
-"""The velocity_step program: against the exact solution of (1.2) at constant velocity.
-
-The suite velocity_step shows the direct and the evolution effect, and the rest of the state.
-"""
-
-from itertools import pairwise
+"""The velocity step of Figure 8 against SciPy, with (1.1) and (1.2) written again."""
 
 import numpy as np
 import pytest
-import xarray as xr
+from scipy.integrate import solve_ivp
+
+from scripts.tables.velocity_step_table import effects_of, respond
 
 
 @pytest.fixture
-def protocol(config) -> dict:
-    return config["velocity_step"]
+def step(default_config) -> dict:
+    return default_config["velocity_step"]
 
 
-@pytest.fixture
-def response(programs, protocol) -> xr.Dataset:
-    return programs.made_by("velocity_step", protocol)
+def test_response_is_that_of_scipy(step):
+    """Each phase by integration of (1.2) from the end of the one before; friction is (1.1)."""
+    found, n, dc, v0 = respond(step), step["samples"], step["dc"], step["v0"]
+    theta, start, passed = dc / v0, 0.0, 0.0
+    for phase, (v, length) in enumerate(
+        [(v0, step["slip_before"]), *[(v, step["slip_after"]) for v in (v0 + step["delta_v"], v0)]]
+    ):
+        part = {name: values[phase * n : (phase + 1) * n] for name, values in found.items()}
+        times = np.linspace(start, start + length * dc / v, n)
+        run = solve_ivp(
+            lambda _, y, v=v: 1 - v * y / dc, times[[0, -1]], [theta], "DOP853", times,
+            rtol=1e-12, atol=1e-12,
+        )  # fmt: skip
+        np.testing.assert_allclose(part["time"], times, rtol=1e-12)
+        np.testing.assert_allclose(part["slip"], passed + v * (times - start), rtol=1e-12)
+        np.testing.assert_array_equal(part["velocity"], v)
+        np.testing.assert_allclose(part["theta"], run.y[0], rtol=1e-9)
+        direct = step["a"] * np.log(v0 / v + 1)
+        mu = step["mu0"] - direct + step["b"] * np.log(run.y[0] / step["b_state"] + 1)
+        np.testing.assert_allclose(part["mu"], mu, rtol=1e-9)
+        theta, start, passed = run.y[0, -1], times[-1], passed + length * dc
 
 
-def velocities(protocol: dict) -> list[float]:
-    slow, fast = protocol["v0"], protocol["v0"] + protocol["delta_v"]
-    return [slow, fast, slow]
-
-
-def friction(protocol: dict, v, theta):
-    """Equation (1.1)."""
-    law = protocol
-    direct = law["a"] * np.log(law["v0"] / v + 1)
-    return law["mu0"] - direct + law["b"] * np.log(theta / law["b_state"] + 1)
-
-
-def exact_states(protocol: dict, response: xr.Dataset) -> np.ndarray:
-    """(1.2) solved: the state decays exponentially to Dc/v in each phase."""
-    n, dc = protocol["samples"], protocol["dc"]
-    theta, states = dc / protocol["v0"], []
-    for phase, v in enumerate(velocities(protocol)):
-        t = response.time.values[phase * n : (phase + 1) * n]
-        states.append(dc / v + (theta - dc / v) * np.exp(-v * (t - t[0]) / dc))
-        theta = states[-1][-1]
-    return np.concatenate(states)
-
-
-def test_response_is_the_exact_one(protocol, response):
-    """The state decays exponentially, to 100 x tolerance; friction is (1.1) at that state."""
-    expected = exact_states(protocol, response)
-    np.testing.assert_allclose(response.theta, expected, rtol=100 * protocol["tolerance"])
-    v = np.repeat(velocities(protocol), protocol["samples"])
-    of_law = friction(protocol, v, response.theta.values)
-    np.testing.assert_allclose(response.mu, of_law, rtol=1e-9)
-
-
-def test_steps_are_imposed_by_the_protocol(protocol, response):
-    n, dc = protocol["samples"], protocol["dc"]
-    v = np.array(velocities(protocol))
-    slip = dc * np.array([protocol["slip_before"], protocol["slip_after"], protocol["slip_after"]])
-    np.testing.assert_array_equal(response.velocity, np.repeat(v, n))
-    for name, lengths in (("slip", slip), ("time", slip / v)):
-        ends = np.cumsum([0.0, *lengths])
-        expected = [np.linspace(*span, n) for span in pairwise(ends)]
-        np.testing.assert_allclose(response[name], np.concatenate(expected), rtol=1e-12)
-
-
-def test_effects_are_the_jumps_of_friction(protocol, response):
-    """The direct effect as the velocity rises, and the evolution effect after it."""
-    n, mu = protocol["samples"], response.mu.values
-    assert response.attrs["direct_effect"] == pytest.approx(mu[n] - mu[n - 1], rel=1e-9)
-    assert response.attrs["evolution_effect"] == pytest.approx(mu[2 * n - 1] - mu[n], rel=1e-3)
+def test_effects_are_those_of_the_law_where_all_slip_has_passed(step):
+    """From one steady state to the other, but for exp(-9) of the evolution effect."""
+    v = step["v0"] + step["delta_v"]
+    direct, evolution = effects_of(respond(step))
+    assert direct == pytest.approx(step["a"] * np.log(2 / (step["v0"] / v + 1)), rel=1e-12)
+    states = [step["dc"] / step["b_state"] / speed + 1 for speed in (v, step["v0"])]
+    assert evolution == pytest.approx(step["b"] * np.log(states[0] / states[1]), rel=1e-3)

@@ -11,7 +11,6 @@ program spring_block_program
    use spectrum_command, only: run_spectrum
    use synchrony_command, only: run_synchrony
    use trajectory_command, only: run_trajectory
-   use velocity_step_command, only: run_velocity_step
    implicit none (type, external)
 
    call run_command([ &
@@ -33,8 +32,6 @@ program spring_block_program
                                  "Cycles along a line, and curves of their special points"), &
                     command_type("synchrony", run_synchrony, &
                                  "Growth of disturbances of chains that move as one block"), &
-                    command_type("velocity_step", run_velocity_step, &
-                                 "Response of friction to steps of the velocity"), &
                     command_type("measure", run_measure, &
                                  "Errors and costs of several methods on given cases")])
 end program spring_block_program

@@ -6,6 +6,7 @@ from collections import Counter
 from scripts.claims.claims_results import Finding, Results, decided, equations, join, short
 from scripts.claims.declare import Class, Scene, claim, reads, says, tested_with
 from scripts.namelists.study_cases import PARAMETERS
+from scripts.tables.motion_rows import UNDECIDED
 
 MOTIONS = {
     "fixed point": "rest",
@@ -34,9 +35,12 @@ def attractor_class(results: Results, *, scene: Scene, expected: Class) -> Findi
     met = Counter(in_words(row) for row in others)
     where = equations(results.stability_of(scene), PARAMETERS)
     exponents = exponents_of(own, results.exponents_of(scene))
+    # the spectrum is not looked at where the section confirms the class
+    confirmed = own["by_section"] == own["class"] and own["by_spectrum"] == UNDECIDED
+    by_spectrum = "not needed" if confirmed else own["by_spectrum"]
     evidence = (
         f"Scene {scene} ({where}). Class from its own history: {in_words(own)}{exponents}."
-        f" Class by the section: {own['by_section']}. Class by the spectrum: {own['by_spectrum']}."
+        f" Class by the section: {own['by_section']}. Class by the spectrum: {by_spectrum}."
         f" Classes from {len(others)} other histories:"
         f" {join([f'{count} {name}' for name, count in sorted(met.items())])}."
     )
@@ -87,7 +91,7 @@ def exponents_of(row: dict, long: list[tuple[float, float]]) -> str:
     number = 4 if row["class"] == "3-torus" else 3
     short_run = [(row[f"exponent_{i}"], row[f"error_{i}"]) for i in range(1, number + 1)]
     parts = [with_error(*pair) for pair in (long or short_run)[:number] if not math.isnan(pair[0])]
-    return f" (exponents {', '.join(parts)})" if parts else ""
+    return f" (exponents{' of its long run' if long else ''} {', '.join(parts)})" if parts else ""
 
 
 def with_error(exponent: float, error: float) -> str:

@@ -24,6 +24,7 @@ from scripts.claims.declare import (
     Spread,
     claim,
     number,
+    question,
     reads,
     says,
     some,
@@ -37,6 +38,8 @@ KINDS = {"supercritical": -1, "subcritical": 1}
 """Kinds of a Hopf bifurcation by the sign of the first Lyapunov coefficient."""
 Kinds = Annotated[list[str], some("kinds of Hopf bifurcations", list(KINDS))]
 Share = Annotated[float, number("interval of epsilon, over its end, up to which it counts as none")]
+STIFFEST = 10.0
+"""A xi beyond that of any fault: steady sliding is unstable there if b is 11 a or more."""
 Motion = Annotated[float, number("largest v - 1 up to which the block is at rest")]
 
 
@@ -102,20 +105,25 @@ def hopf_only_by_delay(results: Results, *, plane: Plane, scenes: Scenes) -> Fin
     )
 
 
-@claim(3, "hopf_by_delay_at_faults", "abstract; section 3, below (10)", look_at="fault_limit")
+@question(3, "hopf_by_delay_at_faults", look_at="fault_limit")
 @says(
-    "At the $gamma$ of real faults, 1e4 to 1e12, too, a delay makes stable steady sliding unstable."
+    "Does a delay make stable steady sliding unstable at the $gamma$ of real faults, 1e4 to 1e12,"
+    " in an interval of $epsilon$ wider than a millionth?"
 )
 @tested_with(least=1e4, most=1e12, limit=1e-06)
 @reads("fault_limit")
 def hopf_by_delay_at_faults(
     results: Results, *, least: Gamma, most: Gamma, limit: Share
 ) -> Finding:
-    """Whether a delay makes steady sliding unstable at an epsilon where it is stable without."""
+    """Whether a delay makes steady sliding unstable at an epsilon where it is stable without.
+
+    The interval of such epsilon has the width xi^3 (1 + xi)/(2 gamma^4), docs/method.md.
+    """
     rows = [row for row in results.fault_limit if least <= row["gamma"] <= most]
     if not rows:
         raise ValueError(f"fault-limit.tsv: no gamma from {short(least)} to {short(most)}")
     widest = max(rows, key=lambda row: row["depth"] / row["without_delay"])
+    stiffest = STIFFEST**3 * (1 + STIFFEST) / (2 * least**4)
     return decided(
         widest["depth"] > limit * widest["without_delay"],
         f"The least $epsilon$ of all Hopf curves is computed at {equations(widest, ['xi'])} and"
@@ -123,9 +131,11 @@ def hopf_by_delay_at_faults(
         f" Hopf point without delay by at most {short(widest['depth'], 2)}, at"
         f" {equations(widest, ['gamma'])}, where that point has"
         f" $epsilon = {short(widest['without_delay'])}$. To leading order the difference is"
-        " $xi^3 (1 + xi)/(2 gamma^4)$.",
-        "Below $epsilon = xi$, for a spring stiffer than $k_c = (B - A)/L$, steady sliding is"
-        " stable at every delay. Above it is unstable without delay.",
+        f" $xi^3 (1 + xi)/(2 gamma^4)$. At the same $gamma$ and $xi = {short(STIFFEST)}$ it is"
+        f" {short(stiffest, 2)}; there $b = {short(1 + STIFFEST)} a$ is the limit of stability.",
+        f"The interval is at most {short(widest['depth'], 2)} wide at {equations(widest, ['xi'])}."
+        " Below it, for a spring stiffer than $k_c = (B - A)/L$, steady sliding is stable at every"
+        " delay. Above it is unstable without delay.",
     )
 
 

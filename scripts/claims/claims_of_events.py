@@ -12,8 +12,17 @@ from scripts.claims.claims_results import (
     equations,
     short,
 )
-from scripts.claims.declare import Scene, Scenes, claim, number, reads, says, tested_with
-from scripts.namelists.study_cases import HISTORY
+from scripts.claims.declare import (
+    Scene,
+    Scenes,
+    claim,
+    number,
+    question,
+    reads,
+    says,
+    tested_with,
+)
+from scripts.namelists.study_cases import HISTORY, PARAMETERS
 
 FEWEST = 100
 """Events that a statement about their distribution needs."""
@@ -57,20 +66,31 @@ def aperiodic_events(results: Results, *, scene: Scene, periodic: Scene) -> Find
     )
 
 
-@claim(
-    7,
-    "chaos_by_delay_alone",
-    "abstract; section 1 (Erickson, Birnir and Lavallee 2008)",
-    look_at="linear-stability.tsv",
+@question(7, "periodic_without_delay", look_at="cycles")
+@says(
+    "Without delay, does one block with one state variable move periodically, and never"
+    " chaotically?"
 )
-@says("It is the delay that makes a single block chaotic.")
 @tested_with(
     scenes=["no_delay", "no_delay_stuck", "no_delay_fast", "no_delay_less", "no_delay_more"]
 )
-@reads("slip_events")
-def equal_events(results: Results, *, scenes: Scenes) -> Finding:
-    """Whether all events of each scene come after the same time: a cycle of one event, no chaos."""
+@reads("slip_events", "cycles")
+def periodic_without_delay(results: Results, *, scenes: Scenes) -> Finding:
+    """Whether the cycles followed at tau = 0 are stable, and all events of each scene are equal."""
     parts, holds = [], True
+    for cycles in results.cycles.values():
+        if cycles.attrs.get("tau") != 0:
+            continue
+        along = cycles.attrs["along"]
+        values, stable = cycles[along].values, cycles.unstable.values == 0
+        holds = holds and bool(stable.all())
+        parts.append(
+            f"At {equations(cycles.attrs, [key for key in PARAMETERS if key != along])} the cycle"
+            f" was followed along ${along}$ from {short(values.min())} to {short(values.max())}:"
+            f" {stable.sum()} of {stable.size} orbits are stable, with"
+            f" {cycles.sizes['special']} folds, doublings or torus bifurcations. The error of the"
+            f" multiplier 1 is at most {short(cycles.multiplier_error.max(), 1)}."
+        )
     for scene in scenes:
         events = results.events_of(scene)
         times, place = events.recurrence_time.values, events.attrs
@@ -90,7 +110,7 @@ def equal_events(results: Results, *, scenes: Scenes) -> Finding:
         f"{' '.join(parts)} Erickson, Birnir and Lavallee (2008) report a cascade of period"
         " doublings to chaos without delay, near $epsilon = 11$."
         f"{' It is not found here.' if holds else ''}",
-        "Without delay events do not repeat, either.",
+        "Cycles without delay lose their stability, or events do not repeat.",
     )
 
 
@@ -102,7 +122,7 @@ def equal_events(results: Results, *, scenes: Scenes) -> Finding:
 @tested_with(scenes=["oscillation", "chaos", "stick_slip", "no_delay_less"], ratio=1e3, stick=0.9)
 @reads("slip_events")
 def relaxation(results: Results, *, scenes: Scenes, ratio: Ratio, stick: Share) -> Finding:
-    """Whether in some scene v spans this ratio in every event, and the block mostly sticks."""
+    """Whether half of the events of a scene span this ratio of v, and the block mostly sticks."""
     parts, holds = [], False
     for scene in scenes:
         events = results.events_of(scene)
@@ -111,15 +131,17 @@ def relaxation(results: Results, *, scenes: Scenes, ratio: Ratio, stick: Share) 
             continue
         spans = events.peak_velocity.values / events.least_velocity.values
         slower = 1 - float(events.duration.sum() / events.recurrence_time.sum())
-        holds = holds or bool(spans.min() >= ratio and slower >= stick)
+        middle, large = float(np.median(spans)), float((spans >= ratio).mean())
+        holds = holds or (middle >= ratio and slower >= stick)
         parts.append(
             f"Scene {scene} ({equations(events.attrs, ['tau', 'gamma'])}) has {spans.size} events."
-            f" In each of them $v$ spans a factor of at least {short(spans.min(), 2)}. The block"
-            f" is slower than the plate for {percent(slower)} of the time."
+            f" $v$ spans a factor of {short(middle, 2)} in the median event, and of at least"
+            f" {ratio:g} in {percent(large)} of them. The block is slower than the plate for"
+            f" {percent(slower)} of the time."
         )
     return decided(
         holds,
-        f"{' '.join(parts)} The test asks for a factor of {ratio:g} in every event, and for"
+        f"{' '.join(parts)} The test asks for a factor of {ratio:g} in the median event, and for"
         f" {percent(stick)} of the time.",
         "In none of the scenes does the block stick and slip like this.",
     )

@@ -6,6 +6,7 @@ import numpy as np
 
 from scripts.claims.claims_results import Finding, Results, decided, decided_after_correction, short
 from scripts.claims.declare import claim, number, reads, says, tested_with
+from scripts.tables.velocity_step_table import columns_of, effects_of
 
 Difference = Annotated[float, number("largest difference that counts as none")]
 
@@ -13,21 +14,22 @@ Difference = Annotated[float, number("largest difference that counts as none")]
 @claim(13, "mu0_is_steady_friction", "section 1, below (1.2)", look_at="figure_8")
 @says("In (1.1) $mu0$ is the steady friction at $v = v0$.")
 @tested_with(limit=1e-06)
-@reads("friction")
+@reads("velocity_step")
 def mu0_is_steady_friction(results: Results, *, limit: Difference) -> Finding:
     """Whether steady friction at v0 is mu0."""
-    friction = results.friction["velocity_step"]
+    friction = columns_of(results.velocity_step)
     a, b, mu0, v0, dc, unit = (
-        friction.attrs[key] for key in ("a", "b", "mu0", "v0", "dc", "b_state")
+        float(friction[key][0]) for key in ("a", "b", "mu0", "v0", "dc", "b_state")
     )
     # the block slides steadily at v0 before the step
-    off = float(friction.mu[0]) - mu0
+    steady = float(friction["mu"][0])
+    off = steady - mu0
     of_v, of_theta = -a * np.log(2), b * np.log(dc / (v0 * unit) + 1)
     # rounded: theta at v0 may be b but for the last digit
     without = round(b * np.log(dc / (v0 * unit)), 12) + 0.0
     return decided(
         abs(off) <= limit,
-        f"By (1.1) steady friction at $v0 = {short(v0)}$ m/s is {short(float(friction.mu[0]), 6)}"
+        f"By (1.1) steady friction at $v0 = {short(v0)}$ m/s is {short(steady, 6)}"
         f" and $mu0$ is {short(mu0)}. The difference is ${short(off)} = -A ln 2 + B ln(theta/b +"
         f" 1)$ with $-A ln 2 = {short(of_v)}$ and $B ln(theta/b + 1) = {short(of_theta)}$. Without"
         f" the 1 in both logarithms it is $B ln(theta/b) = {short(without)}$.",
@@ -38,11 +40,11 @@ def mu0_is_steady_friction(results: Results, *, limit: Difference) -> Finding:
 @claim(14, "same_state_law", "section 2, above (2)", look_at="figure_8")
 @says("The equations of motion (2) are coupled with the friction law (1.1) and (1.2).")
 @tested_with(limit=1e-06)
-@reads("friction")
+@reads("velocity_step")
 def same_state_law(results: Results, *, limit: Difference) -> Finding:
     """Whether the state law of (2) is (1.2), with theta of (2) as B ln(theta v0/Dc) of (1.2)."""
-    friction = results.friction["velocity_step"]
-    x = friction.velocity.values * friction.theta.values / friction.attrs["dc"]
+    friction = columns_of(results.velocity_step)
+    x = friction["velocity"] * friction["theta"] / friction["dc"]
     ageing, slip = 1 - x, -x * np.log(x)
     off = np.abs(ageing - slip)
     largest = int(off.argmax())
@@ -58,21 +60,20 @@ def same_state_law(results: Results, *, limit: Difference) -> Finding:
     )
 
 
-@claim(46, "figure_8", "Figure 8", look_at="figure_8")
-@says(
-    "After a step up of the velocity, friction jumps up and then falls over the slip that follows."
-)
-@reads("friction")
+@claim(46, "figure_8", "Figure 8, caption", look_at="figure_8")
+@says("Friction responds to a step of the imposed velocity.")
+@reads("velocity_step")
 def velocity_step(results: Results) -> Finding:
     """Whether friction rises with a sudden velocity and then falls to below its first value."""
-    friction = results.friction["velocity_step"]
-    direct, evolution = (friction.attrs[f"{name}_effect"] for name in ("direct", "evolution"))
-    last = float(friction.mu[-1] - friction.mu[0])
+    friction = columns_of(results.velocity_step)
+    direct, evolution = effects_of(friction)
+    last = float(friction["mu"][-1] - friction["mu"][0])
+    v0, step = friction["v0"][0], friction["delta_v"][0]
     return decided(
         direct > 0 > direct + evolution and abs(last) < abs(direct + evolution),
-        f"$v$ rises from {short(friction.attrs['v0'])} m/s by {short(friction.attrs['delta_v'])}"
-        f" m/s. Friction jumps by {short(direct)}, then changes by {short(evolution)}. After the"
-        f" step back it ends {short(last)} from its first value.",
+        f"$v$ rises from {short(v0)} m/s by {short(step)} m/s. Friction jumps by {short(direct)},"
+        f" then changes by {short(evolution)}. After the step back it ends {short(last)} from"
+        " its first value.",
         f"Friction changes by {short(direct)} at the step and by {short(evolution)} over the slip"
         " that follows.",
     )
@@ -80,16 +81,16 @@ def velocity_step(results: Results) -> Finding:
 
 @claim(45, "friction_falls_with_epsilon", "section 4", look_at="figure_8")
 @says("A larger $epsilon$ means a smaller friction on the contact.")
-@reads("friction")
+@reads("velocity_step")
 def friction_falls_with_epsilon(results: Results) -> Finding:
     """Whether friction falls with epsilon: by (1.1) in any state, by (2) in steady sliding.
 
     In steady sliding theta of (2) is -B ln(v/v0), and its friction is -(B - A) ln(v/v0).
     """
-    friction = results.friction["velocity_step"]
-    by_b = np.log(friction.theta.values / friction.attrs["b_state"] + 1)
-    by_a = np.log(friction.attrs["v0"] / friction.velocity.values + 1)
-    most = float(abs(friction.velocity).max()) / friction.attrs["v0"]
+    friction = columns_of(results.velocity_step)
+    by_b = np.log(friction["theta"] / friction["b_state"] + 1)
+    by_a = np.log(friction["v0"] / friction["velocity"] + 1)
+    most = float((abs(friction["velocity"]) / friction["v0"]).max())
     return decided_after_correction(
         bool((by_b < 0).all() and (by_a < 0).all()),
         most > 1,

@@ -1,81 +1,55 @@
-"""Claims of the paper under other laws of friction than its own."""
-
-from typing import Annotated
+"""What of the paper's conclusion depends on its law of friction."""
 
 from scripts.claims.claims_results import Finding, Results, decided, short
-from scripts.claims.declare import among, claim, reads, says, tested_with
+from scripts.claims.declare import Gamma, question, reads, says, tested_with
+from scripts.namelists.laws import spoken
 from scripts.tables.friction_laws_table import rows_of_planes, scenes_of, shares_of
 from scripts.tables.motion_rows import kind_of
 
-LAWS = ["ageing_delayed_velocity", "ageing_delayed_logarithm", "slip_delayed_velocity"]
-Law = Annotated[str, among("law of friction", LAWS)]
+CHAOTIC, PERIODIC = "delayed_logarithm", "delayed_velocity"
+"""Places of the delay, as the names of laws end: those with chaos, and those without."""
 
 
-@claim(
-    61,
-    "delay_alone_makes_chaos_ageing_delayed_velocity",
-    "abstract, under another law",
-    look_at="friction_laws",
-)
+@question(61, "chaos_depends_on_place_of_delay", look_at="friction_laws")
 @says(
-    "A longer delay makes the motion chaotic, with all other parameters the same, also under the "
-    "ageing law (1.2) with the delayed velocity."
+    "Does the place of the delay, and not the law of friction, decide whether there is chaos at"
+    " $gamma = 0.8$?"
 )
-@tested_with(law="ageing_delayed_velocity")
-@claim(
-    62,
-    "delay_alone_makes_chaos_ageing_delayed_logarithm",
-    "abstract, under another law",
-    look_at="friction_laws",
-)
-@says(
-    "A longer delay makes the motion chaotic, with all other parameters the same, also under the "
-    "ageing law with the delay in the logarithm alone."
-)
-@tested_with(law="ageing_delayed_logarithm")
-@claim(
-    63,
-    "delay_alone_makes_chaos_slip_delayed_velocity",
-    "abstract, under another law",
-    look_at="friction_laws",
-)
-@says(
-    "A longer delay makes the motion chaotic, with all other parameters the same, also under the "
-    "slip law with both velocities delayed."
-)
-@tested_with(law="slip_delayed_velocity")
+@tested_with(gamma=0.8)
 @reads("friction_laws")
-def delay_makes_chaos_under(results: Results, *, law: Law) -> Finding:
-    """Whether at some epsilon of each plane chaos is met beyond a fixed point as tau grows."""
-    rows = [row for row in rows_of_planes(results.friction_laws) if row["law"] == law]
-    parts, holds = [], []
-    for share in shares_of(rows):
-        here = [row for row in rows if (row["gamma"], row["xi"]) == (share["gamma"], share["xi"])]
-        epsilons = {row["epsilon"] for row in here}
-        met = [epsilon for epsilon in epsilons if turns(here, epsilon)]
-        holds.append(bool(met))
-        chaotic = share["kinds"]["chaos"]
-        parts.append(
-            f"At $gamma = {short(share['gamma'])}$ and $xi = {short(share['xi'])}$ {chaotic} of"
-            f" {share['points']} points are chaotic, and at {len(met)} of"
-            f" {len(epsilons)} values of $epsilon$ a longer delay leads from rest to chaos."
+def place_of_delay_decides(results: Results, *, gamma: Gamma) -> Finding:
+    """Whether in all planes at this gamma chaos is found if the delay stands in the logarithm.
+
+    And in none under the laws with the delayed velocity itself.
+    """
+    shares = shares_of(rows_of_planes(results.friction_laws))
+    chaotic = {
+        place: [
+            share["kinds"]["chaos"] > 0
+            for share in shares
+            if share["gamma"] == gamma and share["law"].endswith(place)
+        ]
+        for place in (CHAOTIC, PERIODIC)
+    }
+    words = []
+    for place in dict.fromkeys((share["gamma"], share["xi"]) for share in shares):
+        here = [share for share in shares if (share["gamma"], share["xi"]) == place]
+        counts = [f"{share['kinds']['chaos']} ({spoken(share['law'])})" for share in here]
+        words.append(
+            f"At $gamma = {short(place[0])}$, $xi = {short(place[1])}$ of {here[0]['points']}"
+            f" points these are chaotic: {', '.join(counts)}."
         )
-    scenes = ", ".join(
-        f"{scene} {kind_of(row)}"
-        for scene, of_scene in scenes_of(results.friction_laws).items()
-        for row in of_scene
-        if row["law"] == law
+    return decided(
+        bool(chaotic[CHAOTIC]) and all(chaotic[CHAOTIC]) and not any(chaotic[PERIODIC]),
+        f"{' '.join(words)} Each point has one history. {scenes_in_words(results)}",
+        "Laws with the delay in the same place differ.",
     )
-    instead = "No longer delay leads from rest to chaos under this law, in any of the planes."
-    if any(holds):
-        instead = f"It does in {sum(holds)} of {len(holds)} planes."
-    evidence = f"{' '.join(parts)} Scenes of the paper under this law: {scenes or 'none'}."
-    return decided(bool(holds) and all(holds), evidence, instead, partly=any(holds))
 
 
-def turns(rows: list[dict], epsilon: float) -> bool:
-    """Whether at this epsilon chaos is met at a longer delay than rest."""
-    line = [row for row in rows if row["epsilon"] == epsilon]
-    rest = [row["tau"] for row in line if row["class"] == "fixed point"]
-    chaos = [row["tau"] for row in line if row["class"] == "chaos"]
-    return bool(rest and chaos) and min(rest) < max(chaos)
+def scenes_in_words(results: Results) -> str:
+    """Classes of the paper's scenes under each law."""
+    parts = []
+    for scene, rows in scenes_of(results.friction_laws).items():
+        kinds = [f"{kind_of(row)} ({spoken(row['law'])})" for row in rows]
+        parts.append(f"Scene {scene}: {', '.join(kinds)}.")
+    return " ".join(parts)

@@ -79,30 +79,48 @@ def torus_route(results: Results, *, routes: Routes, expected: Classes) -> Findi
 
 @claim(5, "quasiperiodic_route", "abstract; section 3, below Figure 2", look_at="routes")
 @says("The route to chaos is quasiperiodic, that of Ruelle, Takens and Newhouse.")
-@tested_with(routes=["chaos_in_tau", "torus_in_tau"])
+@tested_with(routes=["chaos_in_tau", "torus_in_tau"], fine="torus_breaks")
 @reads("routes", "cycle_points", "atlas")
-def quasiperiodic_route(results: Results, *, routes: Routes) -> Finding:
+def quasiperiodic_route(results: Results, *, routes: Routes, fine: Route) -> Finding:
     """Whether chaos follows a torus of two frequencies, and one of three, along the routes.
 
-    The first is torus breakdown, the second the route of Ruelle, Takens and Newhouse. Where both
-    are found the claim holds, with a correction where one is.
+    The first is torus breakdown. The theorem of Ruelle, Takens and Newhouse is about the second: a
+    flow on a torus of three frequencies can be perturbed into one with a strange attractor. Where
+    both are found the claim holds, with a correction where one is. The fine route shows how.
     """
     breakdown = torus_route(results, routes=routes, expected=["cycle", "torus", "chaos"])
     strict = route(results, routes=routes, expected=["torus", THREE, "chaos"])
     found = {
         "torus breakdown (cycle, torus of two frequencies, chaos)": breakdown.verdict,
-        "the third frequency of Ruelle, Takens and Newhouse": strict.verdict,
+        "a third frequency, of which Ruelle, Takens and Newhouse speak": strict.verdict,
     }
     fails = [name for name, verdict in found.items() if verdict != REPRODUCED]
     holds = [name for name in found if name not in fails]
     evidence = (
-        f"Torus breakdown: {breakdown.evidence} A torus of three frequencies between torus and"
-        f" chaos: {strict.evidence} {three_tori_in_atlas(results.atlas)}"
+        f"Torus breakdown: {breakdown.evidence} {locking_in_words(results.route(fine))} A torus of"
+        f" three frequencies between torus and chaos: {strict.evidence}"
+        f" {three_tori_in_atlas(results.atlas)}"
     )
     instead = f"The routes show neither {' nor '.join(fails)}."
     if holds and fails:
         instead = f"The routes show {holds[0]}, but not {fails[0]}."
     return decided(not fails, evidence, instead, partly=bool(holds))
+
+
+def locking_in_words(rows: list[dict]) -> str:
+    """Where a torus is locked to a cycle of several loops, and where runs differ."""
+    along = parameter_of(rows)
+    places: dict[float, Counter] = {}
+    for row in sorted(rows, key=lambda row: row[along]):
+        places.setdefault(row[along], Counter())[in_words(row)] += 1
+    parts = [
+        f"{', '.join(f'{motion} in {n} runs' for motion, n in motions.items())} at {short(place)}"
+        for place, motions in places.items()
+        if len(motions) > 1 or "loops" in next(iter(motions))
+    ]
+    if not parts:
+        return f"Along ${along}$ in fine steps no locking was met."
+    return f"Along ${along}$ in fine steps runs lock or differ: {'; '.join(parts)}."
 
 
 def three_tori_in_atlas(atlas: list[dict]) -> str:

@@ -48,18 +48,29 @@ def stiffness_forbids(results: Results, *, method: Method, least: Gamma, most: G
     done = [row for row in runs if row["status"] == "ok"]
     compared = [row for row in done if row["error_expected"] > 0]
     solved = sum(row["error"] <= WITHIN_EXPECTED * row["error_expected"] for row in compared)
-    small = sum(row["error"] <= SMALL for row in compared)
+    large = [row for row in compared if row["error"] > SMALL]
+    small = len(compared) - len(large)
     most_steps = max((row["steps"] for row in done), default=0)
     evidence = (
         f"{len(done)} of {len(runs)} runs by the method {method} with $gamma$ from {least:g} to"
         f" {most:g} reach their end. They take at most {most_steps:.0f} steps each. {solved} have"
         f" an error within what is expected: {WITHIN_EXPECTED:g} times tolerance times"
-        f" amplification. {small} have an error of at most {SMALL:g}. References are in quadruple"
-        " precision."
+        f" amplification. {small} have an error of at most {SMALL:g}.{in_words(large)}"
+        " References are in quadruple precision."
     )
     all_solved = bool(runs) and solved == len(runs)
     instead = "Stiffness does not prevent a solution." if all_solved else "Some are solved."
     return decided(not solved, evidence, instead, partly=not all_solved)
+
+
+def in_words(rows: list[dict]) -> str:
+    """Runs whose errors a figure shows, with what magnifies them."""
+    parts = [
+        f" {row['case']} has an error of {short(row['error'], 2)} at $t = {short(row['t_end'])}$:"
+        f" it magnifies a disturbance of its history {short(row['amplification'], 2)} times."
+        for row in rows
+    ]
+    return "".join(parts)
 
 
 def runs_between(results: Results, method: str, least: float, most: float) -> list[dict]:

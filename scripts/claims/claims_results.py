@@ -14,9 +14,10 @@ CORRECTED = "reproduced with a correction"
 NOT_REPRODUCED = "not reproduced"
 NOT_TESTABLE = "not testable"
 VERDICTS = [REPRODUCED, CORRECTED, NOT_REPRODUCED, NOT_TESTABLE]
+ANSWERS = {REPRODUCED: "yes", CORRECTED: "in part", NOT_REPRODUCED: "no"}
+"""What a verdict is as the answer to a question of ours."""
 
 FILES = {
-    "friction": "<results>/friction/velocity_step.nc",
     "curves": "<results>/hopf/{plane}.nc",
     "cycles": "<results>/cycles/{line}.nc",
     "chains": "<results>/chains/{chain}.nc",
@@ -27,7 +28,8 @@ FILES = {
         name.replace("-", "_"): f"<results>/tables/{name}.tsv"
         for name in (
             *("hopf-points", "fault-limit", "linear-stability", "stability", "attractors"),
-            *("exponents", "atlas", "basins", "cycle-points", "friction-laws", "event-sizes"),
+            *("velocity-step", "exponents", "atlas", "basins", "cycle-points", "friction-laws"),
+            "event-sizes",
         )
     },
 }

@@ -11,6 +11,7 @@ such as `$gamma^2 <= 1e-06$`.
 """
 
 import inspect
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Annotated, get_type_hints
@@ -89,6 +90,10 @@ class Test:
         ]
 
 
+PAPER, OURS = "the paper", "ours"
+"""Whose a claim is; what the user asks has neither."""
+PLACE = re.compile(r"(abstract|sections? [1-5]|Figures? [1-8][ab]?)\b")
+"""How a place in the paper begins: a part of its text or a figure that it has."""
 TESTS: dict[str, Test] = {}
 """All tests by the names of their functions."""
 _CLAIMS: dict[str, tuple[int, dict]] = {}
@@ -135,11 +140,17 @@ def claim(number: int, name: str, place: str, *, look_at: str) -> Callable:
     """
 
     def register(find: Callable) -> Callable:
-        noted = find.__dict__.pop("noted")
-        parameters = {**TESTS[find.__name__].defaults, **noted.get("parameters", {})}
-        test = {find.__name__: parameters}
-        about = {"place": place, "claim": noted["claim"], "test": test, "look_at": look_at}
-        _add(name, number, about)
+        _add_tested(find, name, number, place, look_at)
+        return find
+
+    return register
+
+
+def question(number: int, name: str, *, look_at: str) -> Callable:
+    """Declare a question that the paper does not ask, as a claim otherwise."""
+
+    def register(find: Callable) -> Callable:
+        _add_tested(find, name, number, "", look_at)
         return find
 
     return register
@@ -147,18 +158,32 @@ def claim(number: int, name: str, place: str, *, look_at: str) -> Callable:
 
 def not_testable(number: int, name: str, place: str, words: str, reason: str) -> None:
     """Declare a claim of the paper that no test can decide, and why."""
-    _add(name, number, {"place": place, "claim": words, "not_testable": reason})
+    _add(name, number, place, {"claim": words, "not_testable": reason})
 
 
-def _add(name: str, number: int, about: dict) -> None:
-    """Add a claim; raise ValueError if its name or its number is taken."""
+def _add_tested(find: Callable, name: str, number: int, place: str, look_at: str) -> None:
+    """Add a claim or a question with what was noted of it, and the test below."""
+    noted = find.__dict__.pop("noted")
+    parameters = {**TESTS[find.__name__].defaults, **noted.get("parameters", {})}
+    test = {find.__name__: parameters}
+    _add(name, number, place, {"claim": noted["claim"], "test": test, "look_at": look_at})
+
+
+def _add(name: str, number: int, place: str, about: dict) -> None:
+    """Add a claim; raise ValueError if its name or number is taken or its place is none."""
     if name in _CLAIMS or number in (taken for taken, _ in _CLAIMS.values()):
         raise ValueError(f"claim {number} '{name}': name or number taken by another claim")
-    _CLAIMS[name] = number, about
+    if place and not PLACE.match(place):
+        raise ValueError(f"claim {number} '{name}': place = '{place}'; expected one of the paper")
+    whose = {"whose": PAPER if place else OURS, "place": place or "not in the paper"}
+    _CLAIMS[name] = number, whose | about
 
 
 def paper_claims() -> dict[str, dict]:
-    """Claims of the paper in the form of a user's file, by name, in the order of their numbers."""
+    """Claims of the paper, and our questions, in the order of their numbers, by name.
+
+    In the form of a user's file; beside it, `whose` they are.
+    """
     return {
         name: about for name, (_, about) in sorted(_CLAIMS.items(), key=lambda item: item[1][0])
     }

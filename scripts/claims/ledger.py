@@ -1,4 +1,4 @@
-"""The ledger: a verdict on every claim of the paper, by tests of files in results/ alone."""
+"""The ledger: verdicts on claims of the paper, answers to our questions, by files in results/."""
 
 import json
 from pathlib import Path
@@ -17,8 +17,15 @@ from scripts.claims import (  # noqa: F401  (they declare the claims)
     claims_of_spectra,
     claims_without_test,
 )
-from scripts.claims.claims_results import FILES, NOT_TESTABLE, Finding, Results, read_results
-from scripts.claims.declare import TESTS, Names, Test, paper_claims  # noqa: F401
+from scripts.claims.claims_results import (
+    ANSWERS,
+    FILES,
+    NOT_TESTABLE,
+    Finding,
+    Results,
+    read_results,
+)
+from scripts.claims.declare import OURS, TESTS, Names, Test, paper_claims  # noqa: F401
 from scripts.config.check_config import in_words, validator_for
 from scripts.files import marked_words
 from scripts.files.outputs import logged, written
@@ -165,13 +172,22 @@ def rows_of(claims: dict[str, dict], results: Results, folder: str) -> list[dict
     return [
         {
             "id": name,
+            "whose": claim.get("whose", "the user"),
             "place": claim["place"],
             "claim": claim["claim"],
-            **vars(find(claim, results)),
+            **found_of(claim, results),
             "look_at": path_of(claim.get("look_at", ""), folder),
         }
         for name, claim in claims.items()
     ]
+
+
+def found_of(claim: dict, results: Results) -> dict:
+    """What the claim's test finds, in columns; of a question of ours its answer."""
+    found = vars(find(claim, results))
+    if claim.get("whose") == OURS:
+        return found | {"verdict": ANSWERS[found["verdict"]]}
+    return found
 
 
 def path_of(shown: str, folder: str) -> str:

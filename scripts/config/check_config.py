@@ -6,7 +6,7 @@ from difflib import get_close_matches
 
 import jsonschema
 
-from scripts.config import check_attractors, check_chains, check_laws
+from scripts.config import check_attractors, check_chains, check_laws, si
 from scripts.config.check_attractors import wrong
 from scripts.config.ranges import range_of, rules
 from scripts.files.read_config import ConfigError, parse
@@ -27,13 +27,20 @@ LONG = 1e4
 
 def checked(config: dict) -> dict:
     """Return `config` with its defaults; raise ConfigError naming place, key, value and range."""
+    texts: list[tuple[str, str, str]] = []
+    problems = list(si.fill_in_parameters(config, texts))
     schema = check_laws.with_own_parameters(rules(), config)
-    problems = [in_words(error) for error in validator_for(schema).iter_errors(config)]
+    problems = problems or [in_words(e) for e in validator_for(schema).iter_errors(config)]
     problems = problems or list(check_laws.contradictions(config))
     if not problems:
         _fill_in_ends_of_exponents(config)
         problems = list(_contradictions(config))
     if problems:
+        for place, words, text in texts:
+            problems = [
+                line.replace(words, f"{words} ({text})") if line.startswith(place) else line
+                for line in problems
+            ]
         raise ConfigError("\n".join(["the configuration is refused:", *sorted(set(problems))]))
     return config
 

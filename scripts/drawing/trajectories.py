@@ -12,8 +12,6 @@ MOST_MISSED = 0.01
 """Maxima of v that exceed their samples by a larger share are mentioned."""
 MOST_TURNS = 150
 """Oscillations that a panel shows one by one; of more it shows the envelope."""
-MOST_LOOPS = 60
-"""Loops of the transient in a phase portrait."""
 MOST_LINEAR = 100.0
 """Largest v on a linear axis: beside a larger one steady sliding, v = 1, looks like rest."""
 RESOLUTION = 1000
@@ -76,19 +74,9 @@ def turns(values: np.ndarray) -> np.ndarray:
     return moves[1:][rising[1:] != rising[:-1]]
 
 
-def some_loops(transient: xr.Dataset) -> xr.Dataset:
-    """A transient of many loops with gaps, so that the loops that stay can be told apart."""
-    begins = turns(transient.v.values)[::2]
-    every = -(-len(begins) // MOST_LOOPS)
-    if every <= 1:
-        return transient
-    loops = np.searchsorted(begins, np.arange(transient.sizes["t"]), side="right")
-    return transient.where(xr.DataArray(loops % every == 0, dims="t"))
-
-
 def draw_portrait(axes: Axes, trajectory: xr.Dataset, shown: float) -> None:
-    """Loops of the transient faint, the last part dark; a dot where the attractor is a point."""
-    transient = some_loops(trajectory.sel(t=slice(0, trajectory.attrs["t_transient"])))
+    """The transient faint, the last part dark; a dot where the attractor is a point."""
+    transient = trajectory.sel(t=slice(0, trajectory.attrs["t_transient"]))
     end = float(trajectory.t[-1])
     start = max(end - shown, trajectory.attrs["t_transient"])
     attractor = trajectory.sel(t=slice(start, end))

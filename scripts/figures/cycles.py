@@ -35,6 +35,8 @@ SWEEPS = {
 on top: both show where they agree."""
 SMALL = 0.015
 """Share of the panel's width below which a branch is smaller than the marks of its points."""
+CUT = 1.5
+"""Dots above this many times the greatest v of all branches are cut."""
 SLIDING = {"color": FAINT, "lw": 0.8, "label": "steady sliding", "zorder": 0}
 
 
@@ -62,7 +64,7 @@ def draw(
         axes.set(xlabel=abscissa, ylabel="maxima of $v$ (units of $v_0$)")
         # the names of scenes stand above the dots
         axes.margins(x=0.01, y=0.18)
-        axes.set_ylim(bottom=0)
+        axes.set_ylim(0, min(axes.get_ylim()[1], CUT * max(line.v_most.values, default=np.inf)))
         mark_scenes(axes, scenes, line.attrs, along)
         words = f"{parameters.in_words(line.attrs, along)}: {count_in_words(line)}"
         axes.set_title(f"$\\bf{{{'abcdefgh'[i % 8]}}}$  {words}")

@@ -1,33 +1,34 @@
 """The drawing of plans/figure_8.py, and the numbers of its caption."""
 
 import numpy as np
-import xarray as xr
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from scripts.drawing.style import FAINT, INK
 from scripts.figures.wording import short
+from scripts.tables.velocity_step_table import columns_of, effects_of
 
 ARROW = {"arrowstyle": "<->", "shrinkA": 0, "shrinkB": 0}
 
 
-def draw(response: xr.Dataset) -> Figure:
+def draw(response: list[dict]) -> Figure:
     """Imposed velocity above, friction below, over slip in units of Dc."""
     figure, (top, bottom) = plt.subplots(
         2, 1, figsize=(5.2, 3.9), sharex=True, height_ratios=[1, 2.4]
     )
-    dc, v0, dv = (response.attrs[key] for key in ("dc", "v0", "delta_v"))
-    slip = response.slip.values / dc
-    top.plot(slip, response.velocity * 1e6, color="C0")
+    columns = columns_of(response)
+    v0, dv = columns["v0"][0], columns["delta_v"][0]
+    slip, mu = columns["slip"] / columns["dc"], columns["mu"]
+    top.plot(slip, columns["velocity"] * 1e6, color="C0")
     top.set(ylabel="imposed $v$ (µm/s)", ylim=(0, 1.25e6 * (v0 + dv)))
-    steps = np.flatnonzero(np.diff(response.velocity)) + 1
+    steps = np.flatnonzero(np.diff(columns["velocity"])) + 1
     top.text(slip[0] + 0.2, 1.3e6 * v0, "$v_0$", va="bottom")
     top.text(slip[steps[0]] + 0.2, 1.03e6 * (v0 + dv), r"$v_0 + \Delta v$", va="bottom")
 
-    bottom.plot(slip, response.mu, color="C1")
-    mark_effects(bottom, slip, response.mu.values, steps)
-    mark_dc(bottom, slip, response.mu.values, steps)
+    bottom.plot(slip, mu, color="C1")
+    mark_effects(bottom, slip, mu, steps)
+    mark_dc(bottom, slip, mu, steps)
     bottom.set(xlabel="slip / $D_c$", ylabel=r"friction coefficient $\mu$")
     bottom.set_xlim(slip[0], slip[-1])
     bottom.margins(y=0.1)
@@ -71,14 +72,16 @@ def mark_dc(axes: Axes, slip: np.ndarray, mu: np.ndarray, steps: np.ndarray) -> 
     )
 
 
-def numbers(response: xr.Dataset) -> dict:
+def numbers(response: list[dict]) -> dict:
     """Sizes of both effects, friction before the step, and velocities in micrometres a second."""
-    attributes = response.attrs
+    columns = columns_of(response)
+    direct, evolution = effects_of(columns)
+    v0 = columns["v0"][0]
     return {
-        "direct": short(attributes["direct_effect"]),
-        "evolution": short(attributes["evolution_effect"]),
-        "before": short(response.mu[0], 4),
-        "mu0": short(attributes["mu0"]),
-        "least": short(1e6 * attributes["v0"]),
-        "most": short(1e6 * (attributes["v0"] + attributes["delta_v"])),
+        "direct": short(direct),
+        "evolution": short(evolution),
+        "before": short(columns["mu"][0], 4),
+        "mu0": short(columns["mu0"][0]),
+        "least": short(1e6 * v0),
+        "most": short(1e6 * (v0 + columns["delta_v"][0])),
     }

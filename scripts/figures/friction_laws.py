@@ -1,30 +1,28 @@
 """The drawing of plans/friction_laws.py, and the numbers of its caption."""
 
-from collections import Counter
 from string import ascii_lowercase
 
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from scripts.config.si import in_si, units_of
 from scripts.drawing import parameters
 from scripts.drawing.class_map import draw_classes, legend_of
+from scripts.drawing.si_axes import TIMES, add_axis
 from scripts.drawing.style import INK
+from scripts.figures.wording import place_in_words
 from scripts.namelists.laws import spoken
-from scripts.tables.dimensions_table import row_of
-from scripts.tables.friction_laws_table import (
-    SECONDS_OF_YEAR,
-    rows_of_planes,
-    scenes_of,
-    shares_of,
-)
-from scripts.tables.motion_rows import COLOURS, kind_of, planes_of
+from scripts.tables.friction_laws_table import rows_of_planes, scenes_of, shares_of
+from scripts.tables.motion_rows import COLOURS, UNDECIDED, kind_of, planes_of
 
 MARKS = ["o", "s", "^", "D", "v", "P"]
+LEAST_OF_FAULTS = 1e4
+"""The least gamma of a real fault, by the paper: at others years and seconds mean nothing."""
 DELAY = r"delay $\tau$ ($L/v_0$)"
 
 
-def draw(table: list[dict], dimensions: dict) -> Figure:
+def draw(table: list[dict], natural_fault: dict, laboratory: dict) -> Figure:
     """A law a row, a plane a column; below, motions over tau at the largest epsilon."""
     rows = rows_of_planes(table)
     laws = list(dict.fromkeys(row["law"] for row in rows))
@@ -57,13 +55,14 @@ def draw(table: list[dict], dimensions: dict) -> Figure:
         fastest[column].semilogy()
         fastest[column].axhline(1, color=INK, lw=0.5)
         draw_over_delay(recurrence[column], by_law, "recurrence_variation")
-        add_dimensional_axis(fastest[column], years_of_unit(dimensions), "years on a fault")
-        unit = time_unit("laboratory", dimensions)
-        add_dimensional_axis(recurrence[column], unit, "seconds in a laboratory")
+        if gamma >= LEAST_OF_FAULTS:
+            years = unit_of_time(natural_fault) / TIMES["years"]
+            add_axis(fastest[column], years, "years on a fault")
+            add_axis(recurrence[column], unit_of_time(laboratory), "seconds in a laboratory")
     fastest[0].set_ylabel("largest $v$ ($v_0$)")
     recurrence[0].set_ylabel("variation of\nrecurrence")
     for axes in (*fastest, *recurrence):
-        axes.set_title(f"$\\bf{{{next(letters)}}}$", fontsize=7, pad=26)
+        axes.set_title(f"$\\bf{{{next(letters)}}}$", fontsize=7, pad=26 if axes.child_axes else 6)
     lines, _ = fastest[0].get_legend_handles_labels()
     handles = [*legend_of(rows), *lines]
     figure.legend(handles=handles, loc="outside lower center", ncols=4, fontsize=7)
@@ -110,47 +109,29 @@ def draw_over_delay(axes: Axes, by_law: dict[str, list[dict]], column: str) -> N
     axes.set_xlabel(DELAY)
 
 
-def add_dimensional_axis(axes: Axes, scale: float, words: str) -> None:
-    """Delays above the panel in another unit."""
-    above = axes.secondary_xaxis("top", functions=(lambda t: t * scale, lambda t: t / scale))
-    above.set_xlabel(words, fontsize=7, labelpad=2)
-    above.tick_params(labelsize=7)
+def unit_of_time(si: dict) -> float:
+    """The unit of time, L/v0, in s."""
+    return units_of(in_si(si))["s"]
 
 
-def time_unit(preset: str, dimensions: dict) -> float:
-    """The unit of time, L/v0, in seconds."""
-    return row_of(preset, **dimensions[preset])["time_unit"]
-
-
-def years_of_unit(dimensions: dict) -> float:
-    """The unit of time on a fault, in years."""
-    return time_unit("fault", dimensions) / SECONDS_OF_YEAR
-
-
-def numbers(table: list[dict], dimensions: dict) -> dict:
-    """Shares of the classes of each law in each plane, and the classes of scenes."""
+def numbers(table: list[dict], natural_fault: dict, laboratory: dict) -> dict:
+    """Chaotic points by plane and law, and the classes of scenes."""
+    rows = rows_of_planes(table)
+    laws = list(dict.fromkeys(row["law"] for row in rows))
+    by_plane: dict[str, list[str]] = {}
+    for share in shares_of(rows):
+        fixed = {key: share[key] for key in ("gamma", "xi")}
+        place = f"chaos at {place_in_words(fixed, 'tau', 'epsilon')}"
+        unsure = f", {number} undecided" if (number := share["kinds"][UNDECIDED]) else ""
+        cells = by_plane.setdefault(place, [place, *("" for _ in laws)])
+        cells[1 + laws.index(share["law"])] = f"{share['kinds']['chaos']}{unsure}"
+    scenes = [
+        [f"scene {scene.replace('_', ' ')}", *map(kind_of, motions)]
+        for scene, motions in scenes_of(table).items()
+    ]
     return {
-        "shares": [
-            {**share, "law": spoken(share["law"]), "kinds": in_words(share["kinds"])}
-            for share in shares_of(table)
-        ],
-        "scenes": [
-            {"scene": scene.replace("_", " "), "motions": motions}
-            for scene, motions in motions_of(table).items()
-        ],
-        "years": years_of_unit(dimensions),
-        "seconds": time_unit("laboratory", dimensions),
-    }
-
-
-def in_words(kinds: Counter) -> str:
-    """Numbers of points by class."""
-    return ", ".join(f"{number} {kind}" for kind, number in kinds.most_common())
-
-
-def motions_of(table: list[dict]) -> dict[str, str]:
-    """What each scene is under each law, in words."""
-    return {
-        scene: ", ".join(f"{kind_of(row)} ({spoken(row['law'])})" for row in rows)
-        for scene, rows in scenes_of(table).items()
+        "cells": [["", *map(spoken, laws)], *by_plane.values(), *scenes],
+        "points": max(share["points"] for share in shares_of(rows)),
+        "years": unit_of_time(natural_fault) / TIMES["years"],
+        "seconds": unit_of_time(laboratory),
     }

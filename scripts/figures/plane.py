@@ -26,7 +26,7 @@ MARKERS = {
 def draw(curves: xr.Dataset, scenes: dict[str, dict[str, float]]) -> Figure:
     """Curves by branch, solid where supercritical, over unstable pairs; scenes of this plane."""
     ordinate = curves.attrs["ordinate"]
-    figure, axes = plt.subplots(figsize=(5.2, 4.4))
+    figure, axes = plt.subplots(figsize=(3.6, 4.6))
     axes.set(xlim=window_of(curves.map_epsilon.values), ylim=window_of(curves.map_ordinate.values))
     shades = shade(axes, curves)
     ends = []
@@ -47,7 +47,7 @@ def draw(curves: xr.Dataset, scenes: dict[str, dict[str, float]]) -> Figure:
     kinds = {"supercritical": "-", "subcritical": SUBCRITICAL} if ends else {}
     handles = [Line2D([], [], color=INK, ls=ls, label=kind) for kind, ls in kinds.items()]
     marked = [Line2D([], [], label="scene", **SCENE)] if scenes else []
-    bar = figure.colorbar(shades, ax=axes, label="unstable pairs", pad=0.03)
+    bar = figure.colorbar(shades, ax=axes, label="unstable pairs", location="bottom")
     bar.set_ticks(range(round(shades.norm.vmax - 0.5) + 1))
     figure.legend(handles=handles + points + marked, loc="outside lower center", ncols=2)
     return figure

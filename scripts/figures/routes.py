@@ -17,7 +17,7 @@ from scripts.figures.wording import joined, place_in_words, short
 from scripts.tables.attractor_tables import same_attractor
 from scripts.tables.motion_rows import UNDECIDED, count_in_words, has_problem, parameter_of
 
-HEIGHT, OF_RUN = 2.1, 0.15
+HEIGHT, OF_RUN = 1.75, 0.12
 """Of a route without its strips, and of each strip, in inches."""
 COLOURS = ("C6", "C2", "C3", "C7")
 """Of runs; none is that of a class."""
@@ -118,7 +118,7 @@ def draw_exponent(axes: Axes, rows: list[dict], along: str, style: dict) -> None
 
 
 def numbers(tables: list[list[dict]]) -> dict:
-    """Where each class first appears along each route, run by run, and where motions coexist."""
+    """Where each class first appears along each route, run by run, and where runs differ."""
     routes = []
     for letter, rows in zip(ascii_lowercase, tables, strict=False):
         along = parameter_of(rows)
@@ -136,6 +136,11 @@ def numbers(tables: list[list[dict]]) -> dict:
                 "runs": [
                     {"names": f"run{'s' * (len(names) > 1)} {joined(names)}", "first": first}
                     for first, names in runs.items()
+                ],
+                "parted": [
+                    short(place, 4)
+                    for place, there in sorted(places.items())
+                    if len({row["class"] for row in there} - {UNDECIDED}) > 1
                 ],
                 "places": len(places),
                 "several": [

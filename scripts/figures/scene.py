@@ -9,7 +9,9 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from scripts.config.si import in_si, units_of
 from scripts.drawing import parameters
+from scripts.drawing.si_axes import add_axis, add_time
 from scripts.drawing.spectra import label_peaks, lines_in_words
 from scripts.drawing.style import FAINT
 from scripts.drawing.trajectories import MOST_MISSED, draw_portrait, draw_velocity, share_missed
@@ -45,13 +47,17 @@ DOTS = {"ls": "", "marker": "o", "color": "C1", "ms": 2.5, "mew": 0}
 
 
 def draw(
-    trajectory: xr.Dataset, spectrum: xr.Dataset, attractors: xr.Dataset, roots: xr.Dataset
+    trajectory: xr.Dataset,
+    spectrum: xr.Dataset,
+    attractors: xr.Dataset,
+    roots: xr.Dataset,
+    si: dict,
 ) -> Figure:
     """v(t) from the start and at the end; portrait, section and exponents; spectrum."""
     missed = share_missed(trajectory)
     if missed > MOST_MISSED:
         warnings.warn(f"maxima of v are about {missed:.0%} higher than their samples", stacklevel=2)
-    figure = plt.figure(figsize=(6.7, 6.6))
+    figure = plt.figure(figsize=(6.7, 7.4 if si else 6.6))
     above, middle, below = figure.subfigures(3, 1, height_ratios=[1.1, 1.2, 1.1])
     start, end = above.subplots(1, 2, sharey=True)
     portrait, section, exponents = middle.subplots(1, 3)
@@ -66,6 +72,13 @@ def draw(
     end.set(ylabel="")
     draw_portrait(portrait, trajectory, ATTRACTOR)
     draw_section(section, attractors, row)
+    if si:
+        units = units_of(in_si(si))
+        add_time(start, units["s"])
+        add_time(end, units["s"])
+        add_axis(end, units["m/s"], "", "m/s")
+        add_axis(portrait, units["m/s"], "", "m/s")
+        add_axis(portrait, units["m"], "displacement", "m")
     draw_exponents(exponents, attractors)
     draw_spectrum(powers, spectrum)
     titles = {
@@ -202,7 +215,11 @@ def roots_in_words(roots: xr.Dataset) -> str:
 
 
 def numbers(
-    trajectory: xr.Dataset, spectrum: xr.Dataset, attractors: xr.Dataset, roots: xr.Dataset
+    trajectory: xr.Dataset,
+    spectrum: xr.Dataset,
+    attractors: xr.Dataset,
+    roots: xr.Dataset,
+    si: dict,
 ) -> dict:
     """Class, end of v, exponents, spectrum and the roots of steady sliding."""
     row = rows_of(attractors)[0]
@@ -220,6 +237,7 @@ def numbers(
         "exponents": [value for value in exponents if value != "not measured"],
         "lines": as_formulas(spectrum_in_words(spectrum, row)),
         "roots": as_formulas(roots_in_words(roots)),
+        "si": trajectory.attrs["scene"] if si else "",
     }
 
 

@@ -7,15 +7,19 @@ import xarray as xr
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from scipy.signal import periodogram
 
 from scripts.drawing import parameters
 from scripts.drawing.spectra import label_peaks, lines_in_words
+from scripts.drawing.style import FAINT
 from scripts.drawing.trajectories import draw_velocity
 from scripts.figures.figure_6 import peaks_in_words
 from scripts.figures.wording import count, short, with_error
 from scripts.tables.motion_rows import class_in_words, own_rows
 
 EXPONENTS = (1, 2, 3)
+EARLY = 200.0
+"""Time before which a spectrum still shows the damped pair of roots of (5)."""
 LETTER = 0.0215
 """How wide a letter is, as a share of the axis."""
 POINT = 1e-3
@@ -29,6 +33,7 @@ def draw(
     trajectories: list[xr.Dataset],
     attractors: list[xr.Dataset],
     spectra: list[xr.Dataset],
+    roots: xr.Dataset,
     settings: dict,
 ) -> Figure:
     """Rows a, b, ...: v(t) and its spectrum; at the end the section of all.
@@ -50,6 +55,9 @@ def draw(
         place = parameters.in_words(trajectory.attrs)
         velocity.set_title(f"$\\bf{{{label}}}$  {title_of(known[shown['scene']], place)}")
         draw_spectrum(spectrum, powers, settings["frequency_shown"])
+        if i == 0:
+            spectrum.plot(*early_spectrum(trajectory), color=FAINT, lw=0.7, zorder=0)
+            spectrum.axvline(damped_pair(roots)[0], 0, 0.45, color="C1", lw=0.9, ls=":", zorder=0)
         draw_section(section, attractor, label)
         for panel, first in ((velocity, panels[0]), (spectrum, panels[1])):
             if i > 0:
@@ -99,6 +107,27 @@ def draw_spectrum(axes: Axes, spectrum: xr.Dataset, frequency_shown: float) -> N
     axes.set_title(lines_in_words(spectrum))
 
 
+def early_spectrum(trajectory: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
+    """Frequencies, finer than peaks are wide, and the power spectral density of v up to EARLY."""
+    v = trajectory.v.sel(t=slice(0, EARLY))
+    step = float(v.t[1] - v.t[0])
+    return periodogram(v.values, 1 / step, window="hann", nfft=16 * v.size)
+
+
+def damped_pair(roots: xr.Dataset) -> tuple[float, float]:
+    """Frequency and growth rate of the least damped pair of stable roots of (5)."""
+    real, imaginary = roots.root_real.values, roots.root_imag.values
+    rate, omega = max(zip(real[real < 0], imaginary[real < 0], strict=True))
+    return abs(omega) / (2 * math.pi), rate
+
+
+def peak_near(frequency: float, frequencies: np.ndarray, power: np.ndarray) -> tuple[float, float]:
+    """The maximum nearest to a frequency, and its height over that of the highest."""
+    tops = np.flatnonzero((power[1:-1] > power[:-2]) & (power[1:-1] > power[2:])) + 1
+    top = tops[np.argmin(abs(frequencies[tops] - frequency))]
+    return frequencies[top], power[top] / power.max()
+
+
 def draw_section(axes: Axes, attractors: xr.Dataset, label: str) -> None:
     """Each maximum of v over the one before: points where dv/dt falls through 0."""
     maxima = attractors.maximum.values[0]
@@ -106,8 +135,14 @@ def draw_section(axes: Axes, attractors: xr.Dataset, label: str) -> None:
     axes.plot(maxima[:-1], maxima[1:], ls="", marker="o", mew=0, label=f"scene {label}", **style)
 
 
-def numbers(table: list[dict], spectra: list[xr.Dataset], settings: dict) -> dict:
-    """Delay, class, second exponent and fundamental frequencies of each scene."""
+def numbers(
+    table: list[dict],
+    trajectories: list[xr.Dataset],
+    spectra: list[xr.Dataset],
+    roots: xr.Dataset,
+    settings: dict,
+) -> dict:
+    """Delay, class, second exponent and frequencies of each scene, and a peak that dies out."""
     known = own_rows(table)
     rows = {}
     for (label, shown), spectrum in zip(settings["rows"].items(), spectra, strict=True):
@@ -116,6 +151,12 @@ def numbers(table: list[dict], spectra: list[xr.Dataset], settings: dict) -> dic
             "tau": short(row["tau"]),
             "motion": class_in_words(row),
             "second": with_error(row["exponent_2"], row["error_2"]),
-            "bases": peaks_in_words(spectrum)["bases"],
+            **peaks_in_words(spectrum),
         }
-    return {"rows": rows}
+    damped, rate = damped_pair(roots)
+    early, height = peak_near(damped, *early_spectrum(trajectories[0]))
+    return {
+        "rows": rows,
+        **{"damped": short(damped, 4), "rate": short(rate), "time": short(EARLY)},
+        **{"early": short(early, 4), "early_share": short(100 * height, 2)},
+    }

@@ -5,7 +5,13 @@ from pathlib import Path
 
 from jinja2 import Environment, StrictUndefined
 
-from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, NOT_TESTABLE, REPRODUCED
+from scripts.claims.claims_results import (
+    ANSWERS,
+    CORRECTED,
+    NOT_REPRODUCED,
+    NOT_TESTABLE,
+    REPRODUCED,
+)
 from scripts.figures.make_figure import call, drawing_of
 from scripts.figures.wording import FILTERS
 from scripts.files.outputs import logged, written
@@ -16,6 +22,7 @@ IN_WORDS = {
     CORRECTED: "**holds with a correction**",
     NOT_REPRODUCED: "**does not hold**",
     NOT_TESTABLE: "**cannot be tested**",
+    **{answer: f"**{answer}**" for answer in ANSWERS.values()},
 }
 ENVIRONMENT = Environment(
     undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True

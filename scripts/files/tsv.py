@@ -1,4 +1,4 @@
-"""Tables as text with tabs between columns; a cell without a value is empty."""
+"""Tables as text with tabs between columns, or commas in .csv; a cell without a value is empty."""
 
 import csv
 import math
@@ -14,7 +14,8 @@ def write_table(path: str | Path, rows: list[dict], columns: list[str] | None = 
     """
     with written(path) as unfinished, open(unfinished, "w", newline="") as file:
         columns = columns or list(dict.fromkeys(key for row in rows for key in row))
-        writer = csv.DictWriter(file, columns, delimiter="\t", lineterminator="\n")
+        delimiter = "," if Path(path).suffix == ".csv" else "\t"
+        writer = csv.DictWriter(file, columns, delimiter=delimiter, lineterminator="\n")
         writer.writeheader()
         for row in rows:
             writer.writerow({key: as_text(value) for key, value in row.items()})

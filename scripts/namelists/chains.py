@@ -132,7 +132,7 @@ def synchrony_groups(config: dict, scene: str) -> dict[str, dict]:
     settings = {
         key: value
         for key, value in config["scenes"][scene].items()
-        if key not in ("exponents", "attractors")
+        if key not in ("exponents", "attractors", "si")
     }
     measured = {key: value for key, value in study.items() if key != "scenes"}
     scene_of_one = {"name": scene, **settings, "t_end": study["t_end"]}

@@ -16,8 +16,6 @@ from scripts.namelists.study_cases import (
     zero_of,
 )
 
-LAW = ["mu0", "a", "b", "dc", "v0", "b_state"]
-"""Parameters of the friction law of Dieterich and Ruina."""
 REFERENCE_STEPS = 10_000_000
 """Most steps of a reference: far above what any needs."""
 
@@ -31,7 +29,8 @@ def nested(values: dict, name: str, keys: list[str]) -> dict:
 def scene_groups(config: dict, scene: str) -> dict[str, dict]:
     """A scene: for its trajectory and its slip events."""
     settings = config["scenes"][scene]
-    own = {key: value for key, value in settings.items() if key not in ("exponents", "attractors")}
+    studies = ("exponents", "attractors", "si")
+    own = {key: value for key, value in settings.items() if key not in studies}
     return {"scene": with_parameters(config, {"name": scene, **own})}
 
 
@@ -69,11 +68,6 @@ def cycles_groups(config: dict, cycle_line: str) -> dict[str, dict]:
     # a namelist has no empty lists
     own = {key: value for key, value in cycles["lines"][cycle_line].items() if value != []}
     return {"cycles": with_parameters(config, {**how, **own})}
-
-
-def velocity_step_groups(config: dict) -> dict[str, dict]:
-    """A velocity step and the friction law that it tries."""
-    return {"velocity_step": nested(config["velocity_step"], "law", LAW)}
 
 
 def attractors_groups(config: dict, survey: str, part: str) -> dict[str, dict]:

@@ -21,9 +21,12 @@ SETTINGS = {
 
 
 def as_html(path: str | Path) -> str:
-    """The caption as paragraphs."""
+    """The caption as paragraphs and tables; a table that is too wide is scrolled."""
     parts = publish_parts(Path(path).read_text(), writer="html5", settings_overrides=SETTINGS)
-    return marked_words.unbroken(parts["body"].strip())
+    body = re.sub(
+        r"(?s)<table.*?</table>", r'<div class="scroll" tabindex="0">\g<0></div>', parts["body"]
+    )
+    return marked_words.unbroken(body.strip())
 
 
 def as_words(markup: str) -> str:

@@ -35,8 +35,7 @@ def read_claims(path: str | Path, folder: Path) -> list[dict]:
 def describe_figures(figures: list[dict], claims: list[dict], folder: Path) -> list[dict]:
     """Figures with captions, sizes and the claims beside them; links begin in the folder.
 
-    A figure is given by its `name`, `category`, `caption`, `drawing` and `data` (files), and by
-    `shows_classes`.
+    A figure is given by its `name`, `category`, `caption`, `drawing` and `data` (files).
     """
     return [
         {

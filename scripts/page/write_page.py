@@ -6,6 +6,7 @@ from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
+from scripts.claims.declare import OURS
 from scripts.files import marked_words
 from scripts.files.inputs import read
 from scripts.files.outputs import logged, written
@@ -38,6 +39,10 @@ def content(given, params, folder: Path) -> dict:
     claims = page_content.read_claims(given.claims, folder) if given.claims else []
     paper = {} if params.is_users else content_of_paper(given, claims)
     placed = {claim["id"] for key in paper if key.endswith("_claims") for claim in paper[key]}
+    questions = [claim for claim in claims if claim["whose"] == OURS]
+    for claim in questions:
+        claim["figure"] = page_content.figure_of(claim, params.figures)
+    claims = [claim for claim in claims if claim["whose"] != OURS]
     others = [claim for claim in claims if claim["id"] not in placed]
     figures = page_content.describe_figures(params.figures, others, folder)
     top = {figure["name"]: figure for figure in figures if paper and not figure["claims"]}
@@ -55,6 +60,7 @@ def content(given, params, folder: Path) -> dict:
         "sections": sections,
         "appendices": groups if paper else {},
         "claims": claims,
+        "questions": questions,
         "verdicts": page_content.tally(claims),
         "unplaced": [one for one in others if not page_content.figure_of(one, figures)],
         "tables": [str(Path(path).relative_to(folder)) for path in given.tables],

@@ -2,8 +2,6 @@
 
 from scripts.results.paths import curves_of_atlas, cycles_in_atlas, places_in_atlas, table_of_atlas
 
-SHOWS_CLASSES = True
-
 
 def inputs(config: dict) -> dict:
     """Classes of motion, and the Hopf curves and curves of cycles in the same planes."""

@@ -3,4 +3,4 @@
 
 def inputs(_config: dict) -> dict:
     """Friction over slip."""
-    return {"response": "<results>/friction/velocity_step.nc"}
+    return {"response": "<results>/tables/velocity-step.tsv"}

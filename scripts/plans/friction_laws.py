@@ -1,7 +1,5 @@
 """Figure of other laws of friction: classes of motion over epsilon and tau, and fastest slip."""
 
-SHOWS_CLASSES = True
-
 
 def inputs(_config: dict) -> dict:
     """Motions of each law in each plane, and in scenes of the paper."""
@@ -9,5 +7,5 @@ def inputs(_config: dict) -> dict:
 
 
 def params(config: dict) -> dict:
-    """The values for (2) by which nondimensional times are those of a fault and a laboratory."""
-    return {"dimensions": config["dimensions"]}
+    """Quantities in SI by which nondimensional times are those of a fault and a laboratory."""
+    return {name: config["scenes"][name]["si"] for name in ("natural_fault", "laboratory")}

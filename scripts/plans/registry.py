@@ -6,8 +6,7 @@ line of its docstring is the title of the figure. It may have
 - inputs(config): results that the figure reads, by name: a path or a list of paths, in which
   `<results>` stands for the folder of the results;
 - params(config): what else it needs of the configuration, by name;
-- VARIABLES: variables that it draws of the trajectories among its inputs;
-- SHOWS_CLASSES: True if its colours are those of classes of motion, which a dark page keeps.
+- VARIABLES: variables that it draws of the trajectories among its inputs.
 
 The figure is drawn by the module of the same name in scripts/figures, with the template NAME.rst of
 its caption beside it. It has
@@ -163,11 +162,6 @@ def files_of(figure: str, config: dict) -> list[str]:
         for paths in inputs_of(figure, config).values()
         for path in ([paths] if isinstance(paths, str) else paths)
     ]
-
-
-def shows_classes(figure: str) -> bool:
-    """Whether the colours of a figure are those of classes of motion."""
-    return getattr(find(figure).module, "SHOWS_CLASSES", False)
 
 
 def title_of(figure: str) -> str:

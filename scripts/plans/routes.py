@@ -2,8 +2,6 @@
 
 from scripts.results.paths import places_in_atlas, runs_of_routes, tables_of_routes
 
-SHOWS_CLASSES = True
-
 
 def inputs(config: dict) -> dict:
     """Classes along each route, and its runs."""

@@ -12,3 +12,9 @@ def inputs(config: dict) -> dict:
         "attractors": f"<results>/attractors/scenes/{scene}.nc",
         "roots": f"<results>/linear_stability/{scene}.nc",
     }
+
+
+def params(config: dict) -> dict:
+    """The quantities of a scene that is given in SI."""
+    (scene,) = config["scenes"].values()
+    return {"si": scene.get("si", {})}

@@ -6,13 +6,14 @@ VARIABLES = ("v",)
 
 
 def inputs(config: dict) -> dict:
-    """Trajectories, attractors and spectra of the rows, and classes of motion."""
+    """Trajectories, attractors, spectra and classes of the rows, and roots of the first."""
     scenes = scenes_of(config, "true_torus")
     return {
         "table": "<results>/tables/attractors.tsv",
         "trajectories": paths_of_scenes("trajectories", scenes),
         "attractors": paths_of_scenes("attractors/scenes", scenes),
         "spectra": paths_of_scenes("spectra", scenes),
+        "roots": f"<results>/linear_stability/{scenes[0]}.nc",
     }
 
 

@@ -19,7 +19,7 @@ def paths_of_scenes(kind: str, scenes: list[str]) -> list[str]:
 
 
 def scenes_with(config: dict, key: str) -> list[str]:
-    """Scenes that ask for `exponents` or for `attractors`."""
+    """Scenes that ask for `exponents` or `attractors`, or that are given in `si`."""
     return [name for name, scene in config["scenes"].items() if key in scene]
 
 
@@ -52,21 +52,25 @@ def cycles_of_lines(config: dict) -> list[str]:
 
 
 def sweeps_on_lines(config: dict) -> dict[str, list[str]]:
-    """Sweeps of the routes that lie on each line of cycles."""
+    """Sweeps on each line of cycles: those of the route with the widest window."""
     keys = ("along", *PARAMETERS)
 
     def place(settings: dict) -> dict:
         return {key: settings.get(key) for key in keys} | own_place(config, settings)
 
-    return {
-        line: [
-            f"<results>/attractors/routes/{name}/{run}.nc"
+    found = {}
+    for line, settings in config["cycles"]["lines"].items():
+        routes = [
+            (route["window"][1] - route["window"][0], name)
             for name, route in config["routes"]["lines"].items()
             if place(route) == place(settings)
+        ]
+        found[line] = [
+            f"<results>/attractors/routes/{name}/{run}.nc"
+            for _, name in sorted(routes)[-1:]
             for run in config["routes"]["sweeps"]
         ]
-        for line, settings in config["cycles"]["lines"].items()
-    }
+    return found
 
 
 def runs_of_basins(config: dict) -> list[str]:

@@ -60,11 +60,6 @@ RUNS = [
     ),
     Run("hopf_curves", "hopf", "hopf/{plane}.nc", groups.hopf_groups, priority=PAPER),
     Run(
-        *("velocity_step", "velocity_step", "friction/velocity_step.nc"),
-        groups.velocity_step_groups,
-        priority=PAPER,
-    ),
-    Run(
         *("linear_stability", "linear_stability", "linear_stability/{scene}.nc"),
         groups.linear_stability_groups,
     ),

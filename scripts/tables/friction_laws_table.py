@@ -9,8 +9,6 @@ from scripts.files.tsv import write_table
 from scripts.tables.attractor_tables import rows_of
 from scripts.tables.motion_rows import kind_of, planes_of
 
-SECONDS_OF_YEAR = 365.25 * 86400.0
-
 
 def law_rows(path: Path, run, scenes: list[str]) -> list[dict]:
     """Rows of a file: those of a plane, or that of a scene."""

@@ -7,6 +7,7 @@ from collections import Counter
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from scripts.claims.declare import OURS
 from scripts.claims.ledger import check_user_claims, names_in, paper_claims
 from scripts.config.check_config import checked
 from scripts.files.read_config import ConfigError, check_size, merge, read
@@ -31,7 +32,6 @@ SECTIONS = {
     "cycles": ("cycles", "lines"),
     "basins": ("basins", "places"),
     "families": ("stability", "families"),
-    "dimensions": ("dimensions",),
     "measured_scenes": ("work_precision", "scenes"),
     "measured_cases": ("work_precision", "cases"),
 }
@@ -70,15 +70,20 @@ class Plan:
         return [*drawn, *self._data_of_figures(), *self.tables(), *pages]
 
     def summary(self) -> str:
-        """How many claims have each verdict, and the page to open, if they are there."""
+        """How many claims have each verdict, and the page to open, if they are there.
+
+        Questions of ours have answers; they are counted by themselves.
+        """
         ledger = Path(self.results, "tables", "claims.json")
         page = Path(self.results, "index.html")
         lines = []
         if self.claims and ledger.exists():
             claims = json.loads(ledger.read_text())
-            counts = Counter(claim["verdict"] for claim in claims).most_common()
-            words = ", ".join(f"{number} {verdict}" for verdict, number in counts)
-            lines.append(f"{len(claims)} claims: {words}; see {ledger.with_suffix('.tsv')}")
+            for ours, kind in ((False, "claims"), (True, "questions of ours")):
+                these = [claim["verdict"] for claim in claims if (claim["whose"] == OURS) == ours]
+                words = ", ".join(f"{n} {verdict}" for verdict, n in Counter(these).most_common())
+                lines += [f"{len(these)} {kind}: {words}"] * bool(these)
+            lines.append(f"see {ledger.with_suffix('.tsv')}")
         lines += [f"open {page}"] * page.exists()
         return "\n".join(lines)
 
@@ -97,7 +102,10 @@ class Plan:
         there = {section for section, path in SECTIONS.items() if _inside(self.config, path)}
         names = [table for table, section in TABLES.items() if section in there]
         names += ["claims"] * bool(self.claims)
-        return [f"<results>/tables/{name}.tsv" for name in names]
+        in_si = paths.scenes_with(self.config, "si")
+        tables = [f"{name}.tsv" for name in names + ["si"] * bool(in_si)]
+        tables += [f"events/{scene}.csv" for scene in in_si]
+        return [f"<results>/tables/{table}" for table in tables]
 
 
 TABLES = {
@@ -107,7 +115,6 @@ TABLES = {
     "cycle-points": "cycles",
     "basins": "basins",
     "stability": "families",
-    "dimensions": "dimensions",
     "chain-modes": "mode_planes",
     "event-sizes": "event_chains",
     "tolerance-proportionality": "measured_scenes",

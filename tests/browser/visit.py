@@ -1,6 +1,6 @@
 """Open the page in a headless Chromium and print, as JSON, what a reader would meet.
 
-visit.py PAGE    the page's index.html
+visit.py PAGE SINGLE    the page's index.html, and the page as one file
 """
 
 import json
@@ -13,7 +13,7 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.support.ui import Select
 
-WIDTHS = [380, 800, 1400]
+WIDTHS = [360, 800, 1400]
 SCHEMES = ["light", "dark"]
 FACTS = """
 return {
@@ -21,8 +21,11 @@ return {
   images: [...document.images].map((i) => ({ src: i.src, alt: i.alt, width: i.naturalWidth })),
 };
 """
-
-
+INVERTED = """
+return [...document.querySelectorAll('figure img, .play-map image, .legend svg')].map(
+  (drawing) => getComputedStyle(drawing).filter);
+"""
+"""How drawings and the colours of classes are changed for a dark screen."""
 DRAWN = "const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(done))"
 """Waits until what follows an event or the size of the window has been drawn."""
 
@@ -90,11 +93,13 @@ def visit_trajectories(chrome: Chrome) -> dict | None:
     if not views:
         return None
     (view,) = views
-    said, values = [], []
+    said, values, titles = [], [], []
     for option in view.find_elements(By.TAG_NAME, "option"):
         option.click()
         said.append(view.find_element(By.CSS_SELECTOR, ".read").text)
         values.append(values_read(chrome, view))
+        labels = view.find_elements(By.CSS_SELECTOR, ".dygraph-ylabel, .dygraph-y2label")
+        titles.append([label.text for label in labels])
     plot = view.find_element(By.CSS_SELECTOR, ".plot")
     ticks = [axis_labels(plot)]
     drag = ActionChains(chrome).move_to_element(plot).click_and_hold().move_by_offset(60, 0)
@@ -102,7 +107,7 @@ def visit_trajectories(chrome: Chrome) -> dict | None:
     ticks.append(axis_labels(plot))
     view.find_element(By.TAG_NAME, "button").click()
     ticks.append(axis_labels(plot))
-    return {"said": said, "ticks": ticks, "values": values}
+    return {"said": said, "ticks": ticks, "values": values, "titles": titles}
 
 
 def axis_labels(plot) -> list[str]:
@@ -166,6 +171,8 @@ def visit_claims(chrome: Chrome) -> dict:
     search = chrome.find_element(By.CSS_SELECTOR, ".filter input")
     search.send_keys(chrome.find_element(By.CLASS_NAME, "claim").get_dom_attribute("id")[6:])
     met |= {"searched": chrome.execute_script(shown), "said": status.text}
+    counts = chrome.find_elements(By.CSS_SELECTOR, ".filter button span")
+    met["left"] = sum(int(count.text.split()[0]) for count in counts)
     place = chrome.find_elements(By.CSS_SELECTOR, ".appendix .claim")[-1].get_dom_attribute("id")
     chrome.execute_script("location.hash = arguments[0]", place)
     chrome.execute_async_script(DRAWN)
@@ -182,6 +189,15 @@ def network(chrome: Chrome) -> dict:
         "requests": [one["request"]["url"] for one in asked],
         "failed": [one["errorText"] for one in failed],
     }
+
+
+def visit_single(chrome: Chrome, page: Path) -> dict:
+    """Whether the page as one file draws its pictures and runs its scripts."""
+    emulate(chrome, WIDTHS[-1])
+    chrome.get(page.resolve().as_uri())
+    first = shown_motion(chrome.find_element(By.ID, "play-view"))
+    seen = {**chrome.execute_script(FACTS), "first": first, "console": chrome.get_log("browser")}
+    return {**seen, **network(chrome)}
 
 
 def visit(chrome: Chrome, page: Path) -> dict:
@@ -202,6 +218,7 @@ def visit(chrome: Chrome, page: Path) -> dict:
             emulate(chrome, width, scheme=scheme)
             seen["too_wide"][f"{scheme} {width}"] = too_wide(chrome)
         seen["axe"][scheme] = violations(chrome, scheme)
+    seen["dark"] = chrome.execute_script(INVERTED)
     emulate(chrome, 700, media="print")
     seen["too_wide"]["print"] = too_wide(chrome)
     messages = [entry["message"] for entry in chrome.get_log("browser")]
@@ -211,6 +228,7 @@ def visit(chrome: Chrome, page: Path) -> dict:
 if __name__ == "__main__":
     window = browser()
     try:
-        print(json.dumps(visit(window, Path(sys.argv[1]))))
+        page, single = map(Path, sys.argv[1:])
+        print(json.dumps({**visit(window, page), "single": visit_single(window, single)}))
     finally:
         window.quit()
