@@ -25,7 +25,12 @@ from scripts.namelists.chains import (
 )
 from scripts.tables.chain_modes_table import mode_rows
 from scripts.tables.chain_motions import moves_alike, powers_of, rests, strongest_mode
-from scripts.tables.synchrony_ranges import growing_ranges, largest_alike
+from scripts.tables.synchrony_ranges import (
+    growing_ranges,
+    largest_alike,
+    undecided_blocks,
+    undecided_range,
+)
 
 PLACE = {"tau": 5.0, "epsilon": 0.7, "xi": 0.5, "gamma": 0.8}
 ENDS = ["free", "ring", "plate"]
@@ -72,7 +77,7 @@ def test_chain_without_delay_is_that_of_scipy(programs, config, file, name):
     bump = 1.5 * np.exp(-((np.arange(0.0, 21.0, 2.0) - 10.0) ** 2))
     np.testing.assert_allclose(chain["history"]["u"], bump, rtol=0, atol=1e-6)
     own = {"t_end": 100.0, "t_transient": 0.0, "tolerance": 1e-11, "variables": ["theta", "u", "v"]}
-    a_chain(config, **{**chain, **own})
+    a_chain(config, **{**chain, **own, "disturbance": {"ln_v": 0.0}})
     found = programs.made_of("trajectory", chain_groups(config, "mine"))
     epsilon, xi, gamma, kappa = (chain[key] for key in ("epsilon", "xi", "gamma", "kappa"))
 
@@ -200,6 +205,12 @@ def test_ranges_of_growth_end_at_zeros():
         assert growing_ranges(growth([2.0], [0], [0.0, -1.0], multipliers)) == [(1.0, 2.0)]
         two = growth([2.0, 3.0, 4.0], [1, 0, 1], [0.0, 1.0], multipliers)
         assert growing_ranges(two) == [(2.0, 3.0), (4.0, math.inf)]
+    # the exponents at s = 3 and 4 are within three errors of 0; of two blocks s = 1 + 2 kappa
+    unsure = growth([3.5], [0], [0.1, 0.05, 0.01, -0.01, -0.1], False)
+    unsure["error"] = ("s", [0.01] * 5)
+    assert undecided_range(unsure) == (3.0, 4.0)
+    assert undecided_blocks(unsure, 1.2, 3) == [2]
+    assert undecided_blocks(unsure, 2.0, 3) == [3]
 
 
 @pytest.mark.parametrize("ends", ENDS)

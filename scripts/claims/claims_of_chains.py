@@ -7,7 +7,7 @@ from typing import Annotated
 from scripts.claims.claims_results import Finding, Results, decided, join, short
 from scripts.claims.declare import Names, claim, number, reads, says, tested_with
 from scripts.tables.chain_motions import moves_alike, rests, strongest_mode
-from scripts.tables.names_of_laws import RIVALS
+from scripts.tables.names_of_laws import RIVALS, definition_of, is_usual
 
 LEVEL = 0.01
 """A law is more likely than another one if chance alone has less than this probability."""
@@ -53,44 +53,73 @@ def blocks_differ(results: Results, *, chains: Chains) -> Finding:
 
 @claim(56, "gutenberg_richter", "sections 1 and 5", look_at="event_sizes")
 @says("The sizes of events in a spring-block model follow the power law of Gutenberg and Richter.")
-@tested_with(chains=["chaos_50", "chaos_100", "fault_100"], decades=2.0)
+@tested_with(chains=["chaos_25", "chaos_50", "chaos_100", "fault_50", "fault_100"], decades=2.0)
 @reads("event_sizes")
 def power_law_of_sizes(results: Results, *, chains: EventChains, decades: Decades) -> Finding:
     """Whether sizes follow a power law over this many decades in some chain, and none fits better.
 
-    Only in part if the power law is cut off, over half as many decades, and neither an exponential
-    law nor a lognormal one is more likely than the one with the cut-off.
+    Only in part if the power law is cut off, over half as many decades, neither an exponential law
+    nor a lognormal one is more likely than the one with the cut-off, and all definitions of an
+    event give as many decades. They count from the lower cut-off on.
     """
-    parts, pure, decades_cut_off = [], False, 0.0
+    parts, pure, joined = [], False, 0.0
+    others: dict[str, list[dict]] = {}
     for name in chains:
         row = results.laws_of_events(name)
+        for other in results.event_sizes:
+            if other["chain"] == name and not is_usual(other):
+                others.setdefault(definition_of(other), []).append(other)
         place = f"Chain {name.replace('_', ' ')} has {row['events']:g} events."
         if math.isnan(row["size_exponent"]):
             parts.append(f"{place} They are too few above a lower cut-off to fit a law.")
             continue
         span = math.log10(row["largest"] / row["size_least"])
-        cut_span = math.log10(row["size_cutoff"] / row["size_least"])
         better = better_laws(row, RIVALS)
         than_cut_off = better_laws(row, [f"cutoff_over_{rival}" for rival in RIVALS[:-1]])
         pure = pure or (span >= decades and row["size_goodness"] >= PLAUSIBLE and not better)
         if not than_cut_off:
-            decades_cut_off = max(decades_cut_off, cut_span)
+            joined = max(joined, decades_of(row))
         parts.append(
-            f"{place} Above a size of {short(row['size_least'], 3)}, over {short(span, 2)} decades,"
-            f" the density falls with the exponent {short(row['size_exponent'], 3)} +-"
-            f" {short(row['size_error'], 1)}. The share {short(row['size_goodness'], 2)} of samples"
-            f" of this law is farther from it. More likely laws: {join(better)}. With a cut-off at"
-            f" {short(row['size_cutoff'], 3)} the exponent is"
-            f" {short(row['size_cutoff_exponent'], 3)}, and more likely laws: {join(than_cut_off)}."
+            f"{place} Above a size of {short(row['size_least'], 3)}, over {short(span, 2)} decades"
+            f" to the largest, the density falls with the exponent {short(row['size_exponent'], 3)}"
+            f" +- {short(row['size_error'], 1)}. The share {short(row['size_goodness'], 2)} of"
+            f" samples of this law is farther from it; {PLAUSIBLE:g} is the least of a plausible"
+            f" law. More likely laws: {join(better)}. With a cut-off at {cut_off_in_words(row)} the"
+            f" exponent is {short(row['size_cutoff_exponent'], 3)}, and more likely laws:"
+            f" {join(than_cut_off)}."
         )
-    return decided(
-        pure,
-        " ".join(parts),
-        f"Sizes follow a power law with a cut-off, over up to {short(decades_cut_off, 2)} decades."
-        if decades_cut_off >= decades / 2
-        else "Sizes of these chains do not follow a power law.",
-        partly=decades_cut_off >= decades / 2,
-    )
+    spans = {}
+    for definition, rows in others.items():
+        fitted = [row for row in rows if not math.isnan(row["size_cutoff"])]
+        spans[definition] = max(map(decades_of, fitted), default=0.0)
+        cut_offs = [
+            f"{cut_off_in_words(row)} in {row['chain'].replace('_', ' ')}" for row in fitted
+        ]
+        parts.append(
+            f"With {definition}, the cut-off is {join(cut_offs)}, at most"
+            f" {short(spans[definition], 2)} decades above the lower one."
+        )
+    if joined < decades / 2:
+        instead = "Sizes of these chains do not follow a power law."
+    else:
+        instead = (
+            f"Sizes follow a power law with a cut-off, over up to {short(joined, 2)} decades, only"
+            " with v > 1 and overlapping slips as one event. With other definitions it spans at"
+            f" most {short(max(spans.values(), default=0.0), 2)} decades."
+        )
+    partly = min([joined, *spans.values()]) >= decades / 2
+    return decided(pure, " ".join(parts), instead, partly=partly)
+
+
+def decades_of(row: dict) -> float:
+    """Decades from the lower cut-off to the upper one, none if this is the smaller one."""
+    return max(0.0, math.log10(row["size_cutoff"] / row["size_least"]))
+
+
+def cut_off_in_words(row: dict) -> str:
+    """The cut-off with the ends of its interval."""
+    low, high = (short(row[f"size_cutoff_{end}"], 2) for end in ("low", "high"))
+    return f"{short(row['size_cutoff'], 2)} ({low} to {high})"
 
 
 def better_laws(row: dict, rivals: Iterable[str]) -> list[str]:
@@ -104,7 +133,7 @@ def better_laws(row: dict, rivals: Iterable[str]) -> list[str]:
 
 @claim(57, "omori_utsu", "section 5", look_at="event_sizes")
 @says("Spring-block models follow the law of Omori and Utsu.")
-@tested_with(chains=["chaos_50", "chaos_100", "fault_100"])
+@tested_with(chains=["chaos_25", "chaos_50", "chaos_100", "fault_50", "fault_100"])
 @reads("event_sizes")
 def decaying_aftershocks(results: Results, *, chains: EventChains) -> Finding:
     """Whether in some chain events follow large ones at a rate that decays by a power of time.

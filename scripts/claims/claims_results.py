@@ -8,6 +8,7 @@ from pathlib import Path
 from scripts.files.inputs import Dataset, read
 from scripts.files.tsv import read_table
 from scripts.namelists.laws import law_of
+from scripts.tables.names_of_laws import is_usual
 
 REPRODUCED = "reproduced"
 CORRECTED = "reproduced with a correction"
@@ -105,9 +106,9 @@ class Results:
         return _data_about(self.slip_events, "results/slip_events", scene)
 
     def laws_of_events(self, chain: str) -> dict:
-        """The laws of the events of a chain."""
-        (row,) = _rows_about(self.event_sizes, "event-sizes.tsv", "chain", chain)
-        return row
+        """The laws of the usual events of a chain."""
+        rows = _rows_about(self.event_sizes, "event-sizes.tsv", "chain", chain)
+        return next(row for row in rows if is_usual(row))
 
     def route(self, name: str) -> list[dict]:
         """Points of a route, of all runs; to have none is an error."""

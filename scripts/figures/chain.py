@@ -11,6 +11,7 @@ from matplotlib.ticker import NullFormatter
 from scripts.drawing import parameters
 from scripts.figures.wording import place_in_words, short
 from scripts.tables.chain_motions import (
+    ALIKE,
     first_mode,
     moves_alike,
     powers_of,
@@ -22,8 +23,6 @@ SHOWN = 150.0
 """Time at the end that the maps show."""
 FLAT = 1e-6
 """ln v that is as near to 0 has no colour."""
-LEAST_SPREAD = 1e-12
-"""Standard deviations of ln v below this are rounding errors."""
 
 
 def draw(chains: list[xr.Dataset]) -> Figure:
@@ -77,7 +76,7 @@ def draw_map(figure: Figure, axes: Axes, chain: xr.Dataset) -> None:
 def draw_spread(axes: Axes, chain: xr.Dataset) -> None:
     """The standard deviation of ln v over the blocks."""
     spread = np.log(chain.v).std("block").values
-    axes.semilogy(chain.t, np.maximum(spread, LEAST_SPREAD), lw=0.3, rasterized=True)
+    axes.semilogy(chain.t, np.maximum(spread, ALIKE), lw=0.3, rasterized=True)
     axes.set_ylabel(r"spread of $\ln v$")
 
 

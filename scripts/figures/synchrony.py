@@ -8,10 +8,18 @@ from matplotlib.figure import Figure
 
 from scripts.drawing.style import INK
 from scripts.figures.wording import joined
-from scripts.tables.synchrony_ranges import growing_ranges, has_multipliers, largest_alike
+from scripts.tables.synchrony_ranges import (
+    growing_ranges,
+    has_multipliers,
+    largest_alike,
+    undecided_blocks,
+    undecided_range,
+)
 
 KAPPAS = (0.1, 1.0, 10.0)
 """Spring constants between neighbours at which the largest chains are named."""
+MOST_BLOCKS = 10
+"""Blocks of the longest chain of which it is said that its sign is not known."""
 MOST_ACCURATE = 1e-6
 """An error below this is not named."""
 MARKS = ["o", "s", "^", "D", "v", "P"]
@@ -59,6 +67,7 @@ def numbers(growth: list[xr.Dataset]) -> dict:
                 "name": one.attrs["scene"].replace("_", " "),
                 "zeros": zeros_in_words(one),
                 "alike": alike_in_words(one),
+                "unsure": unsure_in_words(one),
             }
             for one in growth
         ]
@@ -94,6 +103,20 @@ def with_its_digits(value: float, error: float) -> str:
         return f"{value:.6f}"
     digits = max(0, 1 - math.floor(math.log10(error)))
     return f"{value:.{digits}f} ± {error:.{digits}f}"
+
+
+def unsure_in_words(one: xr.Dataset) -> str:
+    """Chains of which it is not known whether they move as one."""
+    found = [(undecided_blocks(one, kappa, MOST_BLOCKS), kappa) for kappa in KAPPAS]
+    parts = [
+        f"N = {', '.join(map(str, blocks))} at :math:`\\kappa = {kappa:g}`"
+        for blocks, kappa in found
+        if blocks
+    ]
+    if not parts:
+        return ""
+    low, high = undecided_range(one)
+    return f"at s = {low:.3g} to {high:.3g} the sign is not known, so for {joined(parts)}"
 
 
 def alike_in_words(one: xr.Dataset) -> str:

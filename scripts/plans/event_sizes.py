@@ -1,11 +1,15 @@
-"""Slip events of chains: their sizes, the cut-off over the number of blocks, and aftershocks."""
+"""Slip events of chains: their sizes by several definitions, cut-offs, and aftershocks."""
 
-from scripts.results.paths import events_of_chains
+from scripts.results.paths import events_of_chains, slips_of_chains
 
 
 def inputs(config: dict) -> dict:
-    """Events of each chain, and the laws fitted to them."""
-    return {"events": events_of_chains(config), "laws": "<results>/tables/event-sizes.tsv"}
+    """Events and slips of each chain, and the laws fitted to them."""
+    return {
+        "events": events_of_chains(config),
+        "slips": slips_of_chains(config),
+        "laws": "<results>/tables/event-sizes.tsv",
+    }
 
 
 def params(config: dict) -> dict:

@@ -85,7 +85,8 @@ RUNS = [
     Run(
         *("motion_exponents", "exponents", "chain_exponents/{motion}.nc"),
         chains.motion_exponents_groups,
-        **LONG_RUN,
+        priority=LONGEST,
+        takes_minutes=True,
     ),
     Run(
         *("chain_slips", "slip_events", "chain_slips/{event_chain}.nc"),

@@ -1,4 +1,7 @@
-"""Slip events of a chain: slips of neighbours that overlap in time are one event."""
+"""Slip events of a chain: slips of neighbours that overlap in time are one event.
+
+A slip is a time above a threshold; events of each threshold have rows of their own.
+"""
 
 import numpy as np
 import xarray as xr
@@ -9,11 +12,11 @@ from scripts.files.inputs import read
 from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
 
-COLUMNS = ["onset", "duration", "size", "slips", "blocks", "first_block"]
+COLUMNS = ["threshold", "onset", "duration", "size", "slips", "blocks", "first_block"]
 
 
 def event_rows(slips: xr.Dataset, t_transient: float) -> list[dict]:
-    """Events in the order of their onsets, from the slips of the blocks (v > 1).
+    """Events in the order of their onsets, from the slips of the blocks above one threshold.
 
     Two slips belong together if their blocks are neighbours and both slip at one time. The size is
     the slip summed over the blocks. Events that begin before `t_transient`, or are not known to be
@@ -80,5 +83,12 @@ def overlaps(slips: xr.Dataset, block: np.ndarray, onset: np.ndarray, end: np.nd
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        rows = event_rows(read(snakemake.input.slips), snakemake.params.t_transient)
+        slips = read(snakemake.input.slips)
+        rows = [
+            {"threshold": threshold, **row}
+            for threshold in dict.fromkeys(slips.threshold.values.tolist())
+            for row in event_rows(
+                slips.isel(event=slips.threshold.values == threshold), snakemake.params.t_transient
+            )
+        ]
         write_table(snakemake.output[0], rows, COLUMNS)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 import powerlaw
 from scipy import stats
-from scipy.optimize import minimize
+from scipy.optimize import brentq, minimize, minimize_scalar
 from scipy.special import boxcox
 
 from scripts.tables.names_of_laws import CUT_OFF, RIVALS
@@ -21,6 +21,14 @@ FEWEST = 100
 SAMPLES = 999
 """Random samples of the power law from which the goodness of fit is found."""
 SEED = 1
+MOST_SEARCHED = 1000
+"""Events, evenly in time, among which the lower cut-off of a definition is searched."""
+CONFIDENCE = 0.95
+"""Of the interval of a cut-off."""
+LOGS = 30.0 * np.linspace(0.0, 1.0, 2001) ** 2
+"""ln(size/least) at which the law with a cut-off is integrated, dense near the least size."""
+LOG_RATES = (-16.0, 4.0)
+"""Between these is the logarithm of least size over cut-off."""
 LARGEST = 0.05
 """Share of the events that are main shocks: the largest."""
 FIRST = 1.0
@@ -49,10 +57,71 @@ class SizeLaw:
     in favour of the power law, and the probability that it is as large by chance."""
     cutoff_ratios: dict[str, tuple[float, float]]
     """The same of the power law with a cut-off and the other rivals."""
-    cutoff_exponent: float
-    """Exponent of the power law with a cut-off."""
-    cutoff: float
+    cut_off: "CutOff"
+
+
+@dataclass(frozen=True)
+class CutOff:
+    """The power law with a cut-off, density size^-exponent exp(-size/cutoff) above a least size."""
+
+    exponent: float
+    size: float
     """Size at which it is cut off."""
+    low: float
+    high: float
+    """Ends of its interval; 0 or infinity where the likelihood bounds it on one side only."""
+
+
+def fit_cut_off(sizes: np.ndarray, least: float) -> CutOff:
+    """The law of the sizes of at least the least one, by maximum likelihood.
+
+    The interval of the cut-off is that of the profile likelihood. The law depends on the data
+    through the means of y = size/least and ln y alone.
+    """
+    y = sizes[sizes >= least] / least
+    above, log_mean = float(y.mean()) - 1.0, float(np.log(y).mean())
+
+    def most_likely(log_rate: float) -> tuple[float, float]:
+        """The logarithm of the likelihood with the best exponent, and this exponent."""
+        rate = np.exp(log_rate)
+        fall = rate * np.expm1(LOGS)
+
+        def minus(exponent: float) -> float:
+            whole = np.trapezoid(np.exp((1.0 - exponent) * LOGS - fall), LOGS)
+            return float(exponent * log_mean + rate * above + np.log(whole))
+
+        best = minimize_scalar(minus, bounds=(-1.0, 5.0), method="bounded")
+        return -y.size * best.fun, float(best.x)
+
+    best = minimize_scalar(lambda r: -most_likely(r)[0], bounds=LOG_RATES, method="bounded").x
+    drop = stats.chi2.ppf(CONFIDENCE, 1) / 2
+
+    def beyond(log_rate: float) -> float:
+        return most_likely(best)[0] - most_likely(log_rate)[0] - drop
+
+    low, high = (
+        least * np.exp(-brentq(beyond, best, end, xtol=1e-3)) if beyond(end) > 0 else without
+        for end, without in zip(LOG_RATES[::-1], (0.0, np.inf), strict=True)
+    )
+    return CutOff(most_likely(best)[1], least * float(np.exp(-best)), float(low), float(high))
+
+
+def fit_definition(sizes: np.ndarray) -> tuple[float, int, CutOff] | None:
+    """The least size, the events above it and the law with a cut-off, if events are enough."""
+    searched = sizes[:: max(1, sizes.size // MOST_SEARCHED)]
+    if searched.size < FEWEST:
+        return None
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # sizes at the bounds of the search
+        least = float(powerlaw.Fit(searched, verbose=0).xmin)
+    above = int(np.count_nonzero(sizes >= least))
+    return (least, above, fit_cut_off(sizes, least)) if above >= FEWEST else None
+
+
+def shuffle_slips(slips: np.ndarray, per_event: np.ndarray) -> np.ndarray:
+    """Sizes of events with as many slips as they have, drawn at random from all slips."""
+    drawn = np.random.default_rng(SEED).permutation(slips)[: per_event.sum()]
+    return np.add.reduceat(drawn, np.concatenate(([0], np.cumsum(per_event)[:-1])))
 
 
 def fit_sizes(sizes: np.ndarray) -> SizeLaw | None:
@@ -71,7 +140,6 @@ def fit_sizes(sizes: np.ndarray) -> SizeLaw | None:
         cutoff_ratios = {
             rival: compare(fit, CUT_OFF, rival) for rival in RIVALS if rival != CUT_OFF
         }
-        cut_off = fit.truncated_power_law
         test = stats.goodness_of_fit(
             stats.pareto,
             above,
@@ -88,8 +156,7 @@ def fit_sizes(sizes: np.ndarray) -> SizeLaw | None:
         goodness=float(test.pvalue),
         ratios=ratios,
         cutoff_ratios=cutoff_ratios,
-        cutoff_exponent=float(cut_off.parameter1),
-        cutoff=1.0 / float(cut_off.parameter2),
+        cut_off=fit_cut_off(sizes, float(fit.xmin)),
     )
 
 

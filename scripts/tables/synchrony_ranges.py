@@ -25,6 +25,33 @@ def growing_ranges(one: xr.Dataset) -> list[tuple[float, float]]:
     return [(ends[i], ends[i + 1]) for i, up in enumerate(grows) if up]
 
 
+def undecided_range(one: xr.Dataset) -> tuple[float, float] | None:
+    """The s between which the sign is not known, of a motion without multipliers, if there are any.
+
+    There the exponent is within three standard errors of 0.
+    """
+    unsure = one.s.values[abs(one.exponent.values) < 3 * one.error.values]
+    if has_multipliers(one) or not unsure.size:
+        return None
+    return float(unsure.min()), float(unsure.max())
+
+
+def undecided_blocks(one: xr.Dataset, kappa: float, most: int) -> list[int]:
+    """Numbers of blocks with free ends, up to the most, of which no mode is known to grow, and the
+    sign of one is not known."""
+    between = undecided_range(one)
+    if between is None:
+        return []
+    sure = [(low, between[0]) for low, _ in growing_ranges(one) if low < between[0]]
+    found = []
+    for blocks in range(2, most + 1):
+        modes = [1 + kappa * mu for mu in eigenvalues(blocks, "free")[1:]]
+        grows = any(low < s < high for s in modes for low, high in sure)
+        if not grows and any(between[0] <= s <= between[1] for s in modes):
+            found.append(blocks)
+    return found
+
+
 def largest_alike(ranges: list[tuple[float, float]], kappa: float) -> int | None:
     """The largest number of blocks with free ends of which no mode has s in a range; None: any.
 
