@@ -58,11 +58,11 @@ def blocks_differ(results: Results, *, chains: Chains) -> Finding:
 def power_law_of_sizes(results: Results, *, chains: EventChains, decades: Decades) -> Finding:
     """Whether sizes follow a power law over this many decades in some chain, and none fits better.
 
-    Only in part if the power law is cut off, over half as many decades, neither an exponential law
-    nor a lognormal one is more likely than the one with the cut-off, and all definitions of an
-    event give as many decades. They count from the lower cut-off on.
+    Only in part if one with a cut-off is plausible over half as many decades, neither an
+    exponential law nor a lognormal one is more likely, and all definitions of an event give as many
+    decades. They count from the lower cut-off on.
     """
-    parts, pure, joined = [], False, 0.0
+    parts, pure, joined, plausible = [], False, 0.0, 0.0
     others: dict[str, list[dict]] = {}
     for name in chains:
         row = results.laws_of_events(name)
@@ -79,13 +79,16 @@ def power_law_of_sizes(results: Results, *, chains: EventChains, decades: Decade
         pure = pure or (span >= decades and row["size_goodness"] >= PLAUSIBLE and not better)
         if not than_cut_off:
             joined = max(joined, decades_of(row))
+            if row["size_cutoff_goodness"] >= PLAUSIBLE:
+                plausible = max(plausible, decades_of(row))
         parts.append(
             f"{place} Above a size of {short(row['size_least'], 3)}, over {short(span, 2)} decades"
             f" to the largest, the density falls with the exponent {short(row['size_exponent'], 3)}"
             f" +- {short(row['size_error'], 1)}. The share {short(row['size_goodness'], 2)} of"
             f" samples of this law is farther from it; {PLAUSIBLE:g} is the least of a plausible"
             f" law. More likely laws: {join(better)}. With a cut-off at {cut_off_in_words(row)} the"
-            f" exponent is {short(row['size_cutoff_exponent'], 3)}, and more likely laws:"
+            f" exponent is {short(row['size_cutoff_exponent'], 3)}, the share"
+            f" {short(row['size_cutoff_goodness'], 2)} of samples is farther, and more likely laws:"
             f" {join(than_cut_off)}."
         )
     spans = {}
@@ -99,15 +102,15 @@ def power_law_of_sizes(results: Results, *, chains: EventChains, decades: Decade
             f"With {definition}, the cut-off is {join(cut_offs)}, at most"
             f" {short(spans[definition], 2)} decades above the lower one."
         )
-    if joined < decades / 2:
-        instead = "Sizes of these chains do not follow a power law."
-    else:
-        instead = (
-            f"Sizes follow a power law with a cut-off, over up to {short(joined, 2)} decades, only"
-            " with v > 1 and overlapping slips as one event. With other definitions it spans at"
-            f" most {short(max(spans.values(), default=0.0), 2)} decades."
-        )
-    partly = min([joined, *spans.values()]) >= decades / 2
+    widest = short(max(spans.values(), default=0.0), 2)
+    instead = (
+        f"A power law with a cut-off comes closest, over up to {short(joined, 2)} decades with"
+        f" v > 1 and overlapping slips as one event, and is plausible over {short(plausible, 2)}."
+        f" With other definitions it spans at most {widest} decades."
+        if joined >= decades / 2
+        else "Sizes of these chains do not follow a power law."
+    )
+    partly = min([plausible, *spans.values()]) >= decades / 2
     return decided(pure, " ".join(parts), instead, partly=partly)
 
 

@@ -189,6 +189,7 @@ def numbers_of(row: dict) -> dict:
             with_error(row["size_exponent"], row["size_error"]) if fitted else "too few",
             short(row["size_goodness"], 2) if fitted else "",
             short(row["size_cutoff_exponent"], 2) if fitted else "",
+            short(row["size_cutoff_goodness"], 2) if fitted else "",
             ""
             if math.isnan(shocks)
             else with_error(row["aftershock_first"], row["aftershock_first_error"]),

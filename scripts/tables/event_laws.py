@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 import powerlaw
 from scipy import stats
+from scipy.integrate import cumulative_trapezoid
 from scipy.optimize import brentq, minimize, minimize_scalar
 from scipy.special import boxcox
 
@@ -29,6 +30,9 @@ LOGS = 30.0 * np.linspace(0.0, 1.0, 2001) ** 2
 """ln(size/least) at which the law with a cut-off is integrated, dense near the least size."""
 LOG_RATES = (-16.0, 4.0)
 """Between these is the logarithm of least size over cut-off."""
+EXPONENT_RANGE = (-1.0, 5.0)
+CUT_SAMPLES = 199
+"""Samples of the law with a cut-off from which its goodness of fit is found."""
 LARGEST = 0.05
 """Share of the events that are main shocks: the largest."""
 FIRST = 1.0
@@ -58,6 +62,8 @@ class SizeLaw:
     cutoff_ratios: dict[str, tuple[float, float]]
     """The same of the power law with a cut-off and the other rivals."""
     cut_off: "CutOff"
+    cutoff_goodness: float
+    """The same as the goodness, of the law with a cut-off."""
 
 
 @dataclass(frozen=True)
@@ -75,35 +81,86 @@ class CutOff:
 def fit_cut_off(sizes: np.ndarray, least: float) -> CutOff:
     """The law of the sizes of at least the least one, by maximum likelihood.
 
-    The interval of the cut-off is that of the profile likelihood. The law depends on the data
-    through the means of y = size/least and ln y alone.
+    The interval of the cut-off is that of the profile likelihood.
     """
     y = sizes[sizes >= least] / least
-    above, log_mean = float(y.mean()) - 1.0, float(np.log(y).mean())
-
-    def most_likely(log_rate: float) -> tuple[float, float]:
-        """The logarithm of the likelihood with the best exponent, and this exponent."""
-        rate = np.exp(log_rate)
-        fall = rate * np.expm1(LOGS)
-
-        def minus(exponent: float) -> float:
-            whole = np.trapezoid(np.exp((1.0 - exponent) * LOGS - fall), LOGS)
-            return float(exponent * log_mean + rate * above + np.log(whole))
-
-        best = minimize_scalar(minus, bounds=(-1.0, 5.0), method="bounded")
-        return -y.size * best.fun, float(best.x)
-
-    best = minimize_scalar(lambda r: -most_likely(r)[0], bounds=LOG_RATES, method="bounded").x
+    exponent, best = most_likely(y)
     drop = stats.chi2.ppf(CONFIDENCE, 1) / 2
 
     def beyond(log_rate: float) -> float:
-        return most_likely(best)[0] - most_likely(log_rate)[0] - drop
+        profile = minimize_scalar(
+            lambda trial: minus_log_likelihood(y, trial, log_rate)[0],
+            bounds=EXPONENT_RANGE,
+            method="bounded",
+        )
+        return y.size * (profile.fun - minus_log_likelihood(y, exponent, best)[0]) - drop
 
     low, high = (
         least * np.exp(-brentq(beyond, best, end, xtol=1e-3)) if beyond(end) > 0 else without
         for end, without in zip(LOG_RATES[::-1], (0.0, np.inf), strict=True)
     )
-    return CutOff(most_likely(best)[1], least * float(np.exp(-best)), float(low), float(high))
+    return CutOff(exponent, least * float(np.exp(-best)), float(low), float(high))
+
+
+def minus_log_likelihood(
+    y: np.ndarray, exponent: float, log_rate: float
+) -> tuple[float, list[float]]:
+    """Of the law with a cut-off per event, with its slopes; y = size/least, rate = least/cut-off.
+
+    It depends on the data through the means of y and ln y alone.
+    """
+    rate, log_mean, above = np.exp(log_rate), np.log(y).mean(), y.mean() - 1.0
+    density = density_of(exponent, log_rate)
+    whole = np.trapezoid(density, LOGS)
+    slopes = [
+        log_mean - np.trapezoid(LOGS * density, LOGS) / whole,
+        rate * (above - np.trapezoid(np.expm1(LOGS) * density, LOGS) / whole),
+    ]
+    return float(exponent * log_mean + rate * above + np.log(whole)), slopes
+
+
+def density_of(exponent: float, log_rate: float) -> np.ndarray:
+    """The law with a cut-off over ln y, not divided by its integral."""
+    return np.exp((1.0 - exponent) * LOGS - np.exp(log_rate) * np.expm1(LOGS))
+
+
+def most_likely(y: np.ndarray) -> tuple[float, float]:
+    """Exponent and logarithm of the rate with the largest likelihood."""
+    start = [1.0, min(-np.log(y.mean() - 1.0), LOG_RATES[1])]
+    found = minimize(
+        lambda at: minus_log_likelihood(y, *at),
+        start,
+        jac=True,
+        bounds=[EXPONENT_RANGE, LOG_RATES],
+        method="L-BFGS-B",
+    ).x
+    return float(found[0]), float(found[1])
+
+
+def goodness_of_cut_off(sizes: np.ndarray, least: float) -> float:
+    """Share of samples of the law with a cut-off that are farther from their own fit than the data.
+
+    By Kolmogorov and Smirnov's distance; the lower cut-off is kept.
+    """
+    y = sizes[sizes >= least] / least
+    law, random = most_likely(y), np.random.default_rng(SEED)
+    table = below(*law)
+    samples = (np.exp(np.interp(random.random(y.size), table, LOGS)) for _ in range(CUT_SAMPLES))
+    farther = sum(distance(one, *most_likely(one)) >= distance(y, *law) for one in samples)
+    return farther / CUT_SAMPLES
+
+
+def below(exponent: float, log_rate: float) -> np.ndarray:
+    """The share of sizes below those at `LOGS`."""
+    share = cumulative_trapezoid(density_of(exponent, log_rate), LOGS, initial=0.0)
+    return share / share[-1]
+
+
+def distance(y: np.ndarray, exponent: float, log_rate: float) -> float:
+    """Kolmogorov and Smirnov's distance of sizes from a law."""
+    table = below(exponent, log_rate)
+    cdf = stats.ks_1samp(np.log(y), lambda logs: np.interp(logs, LOGS, table), method="asymp")
+    return float(cdf.statistic)
 
 
 def fit_definition(sizes: np.ndarray) -> tuple[float, int, CutOff] | None:
@@ -157,6 +214,7 @@ def fit_sizes(sizes: np.ndarray) -> SizeLaw | None:
         ratios=ratios,
         cutoff_ratios=cutoff_ratios,
         cut_off=fit_cut_off(sizes, float(fit.xmin)),
+        cutoff_goodness=goodness_of_cut_off(sizes, float(fit.xmin)),
     )
 
 

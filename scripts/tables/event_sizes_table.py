@@ -20,7 +20,7 @@ from scripts.tables.event_laws import (
 )
 from scripts.tables.names_of_laws import RIVALS, is_usual
 
-OF_SIZES = ("exponent", "error", "least", "events", "goodness")
+OF_SIZES = ("exponent", "error", "least", "events", "goodness", "cutoff_goodness")
 OF_AFTERSHOCKS = (
     *("main_shocks", "rate", "first", "first_error", "background", "productivity", "delay"),
     *("exponent", "chance", "over_exponential"),
