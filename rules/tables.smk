@@ -102,7 +102,8 @@ TABLES = {
             "t_transient": [
                 chain["t_transient"]
                 for chain in config["event_sizes"]["chains"].values()
-            ]
+            ],
+            "thresholds": config["event_sizes"]["thresholds"],
         },
         slips=paths.slips_of_chains(config),
         events=paths.events_of_chains(config),

@@ -238,12 +238,13 @@ def test_figure_draws_the_distribution(programs, config):
     config["event_sizes"]["thresholds"] = [1.0]
     slips = programs.made_of("slip_events", event_chain_groups(config, "chaos_100"))
     rows = [{"threshold": 1.0, **row} for row in event_rows(slips, 20.0)]
-    given = [rows], [slips], rows_of_chain("mine", slips, rows, 20.0), ["mine"]
+    given = [rows], [slips], rows_of_chain("mine", slips, rows, 20.0, [1.0, 5.0]), ["mine"]
     figure = event_sizes.draw(*given)
     (line,) = figure.axes[0].lines
     np.testing.assert_allclose(line.get_ydata()[[0, -1]], [1.0, 1 / len(rows)])
-    joined, alone = figure.axes[1].lines
+    joined, alone, *above_5 = figure.axes[1].lines
     assert len(joined.get_ydata()) == len(rows)
     assert len(alone.get_ydata()) == np.count_nonzero(slips.onset >= 20.0)
+    assert [len(line.get_ydata()) for line in above_5] == [0, 0]
     (told,) = event_sizes.numbers(*given)["chains"]
     assert told["cells"][3:6] == [str(len(rows)), "", "too few"]

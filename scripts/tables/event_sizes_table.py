@@ -27,7 +27,9 @@ OF_AFTERSHOCKS = (
 )
 
 
-def rows_of_chain(chain: str, slips: xr.Dataset, events: list[dict], start: float) -> list[dict]:
+def rows_of_chain(
+    chain: str, slips: xr.Dataset, events: list[dict], start: float, thresholds: list[float]
+) -> list[dict]:
     """A row for each definition of an event; what cannot be fitted is missing.
 
     An event is a slip of one block above a threshold, or slips of neighbours that overlap in time.
@@ -40,13 +42,13 @@ def rows_of_chain(chain: str, slips: xr.Dataset, events: list[dict], start: floa
         "time": slips.attrs["t_end"] - start,
     }
     rows = []
-    for threshold in dict.fromkeys(slips.threshold.values.tolist()):
+    for threshold in thresholds:
         alone = slips.slip.values[(slips.threshold == threshold) & (slips.onset >= start)]
         these = [event for event in events if event["threshold"] == threshold]
         sizes = np.array([event["size"] for event in these])
         for joined, found in (("yes", sizes), ("no", alone)):
             row = {**place, "threshold": threshold, "joined": joined, "slips": alone.size}
-            row |= {"events": found.size, "smallest": found.min(initial=math.inf)}
+            row |= {"events": found.size, "smallest": found.min() if found.size else math.nan}
             row |= {"largest": found.max(initial=0.0)}
             laws = laws_of(these, alone, row) if is_usual(row) else law_of_others(found)
             rows.append(row | laws)
@@ -95,6 +97,7 @@ def columns_of(law: CutOff | None) -> dict:
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
+        thresholds = snakemake.params.thresholds
         chains = zip(
             snakemake.input.slips, snakemake.input.events, snakemake.params.t_transient, strict=True
         )
@@ -103,6 +106,8 @@ if __name__ == "__main__":
             [
                 row
                 for slips, events, start in chains
-                for row in rows_of_chain(Path(slips).stem, read(slips), read_table(events), start)
+                for row in rows_of_chain(
+                    Path(slips).stem, read(slips), read_table(events), start, thresholds
+                )
             ],
         )
