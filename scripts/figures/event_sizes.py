@@ -45,7 +45,7 @@ def draw(
             name = definition_of(row)
             found = sizes_of(row, events[longest], slips[longest])
             draw_sizes(others, found, label=name, **styles[name])
-    others.legend(fontsize=6)
+    others.legend(fontsize=7)
     draw_cut_offs(cutoffs, shown, styles)
     of = names[longest].replace("_", " ")
     titles = {sizes: "a", others: "b", cutoffs: "c", rates: "d"}
@@ -160,11 +160,17 @@ def numbers(
         "cells": [
             ["cut-off", *(name.replace("_", " ") for name in names)],
             *([one, *(cut_offs[name, one] for name in names)] for one in definitions),
-            ["slips shuffled", *(short(row["shuffled_cutoff"], 2) for row in usual)],
+            ["slips shuffled", *map(shuffled_in_words, usual)],
         ],
         "confidence": short(100 * CONFIDENCE),
         "largest": short(100 * LARGEST),
     }
+
+
+def shuffled_in_words(row: dict) -> str:
+    """The cut-off with shuffled slips."""
+    cut_off = row["shuffled_cutoff"]
+    return "too few events" if math.isnan(cut_off) else f"{cut_off:.2g}"
 
 
 def with_interval(row: dict) -> str:
