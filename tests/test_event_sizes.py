@@ -5,6 +5,7 @@ import copy
 import numpy as np
 import powerlaw
 import pytest
+import xarray as xr
 from made_up_results import NO, PARTLY, YES, Results
 from scipy.ndimage import label
 
@@ -76,6 +77,16 @@ def test_unfinished_events_are_left_out(programs, config):
         for block in (1, 2, 3)
     }
     assert all(row["onset"] + row["duration"] <= max(last.values()) for row in rows)
+
+
+def test_block_that_does_not_slip_again_ends_no_event_of_its_neighbour():
+    """Block 1 slips at 10, 20, ... up to 90; block 2 slips at 5 and next at 15, block 3 never."""
+    onset = [5.0, *np.arange(10.0, 91.0, 10.0)]
+    values = {"onset": onset, "duration": [1.0] * 10, "slip": [2.0] * 10}
+    values |= {"recurrence_time": [10.0] * 10, "number_of_block": [2, *[1] * 9]}
+    slips = xr.Dataset({name: ("event", list_of) for name, list_of in values.items()})
+    rows = event_rows(slips.assign_attrs(blocks=3, t_end=101.0, ends="free"), 0.0)
+    assert [row["onset"] for row in rows] == onset
 
 
 def pareto(exponent: float, number: int, seed: int = 1) -> np.ndarray:

@@ -48,17 +48,19 @@ def event_rows(slips: xr.Dataset, t_transient: float) -> list[dict]:
 def with_unfinished(slips: xr.Dataset) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Block (from 0), onset, end and slip of all slips, then of the last one of each block.
 
-    The last one, which begins at the onset after the last complete slip, is taken to go on to the
-    end of the run.
+    The last one begins at the onset after the last complete slip. It is taken to last as long as
+    the longest slip, at most to the end of the run. A block without a complete slip has none.
     """
     block = slips.number_of_block.values - 1
-    onset = slips.onset.values
-    last = np.zeros(slips.attrs["blocks"])
+    onset, t_end = slips.onset.values, slips.attrs["t_end"]
+    last = np.full(slips.attrs["blocks"], -np.inf)
     np.maximum.at(last, block, onset + slips.recurrence_time.values)
+    last[last < 0] = t_end
+    ends = np.minimum(last + slips.duration.values.max(initial=0.0), t_end)
     return (
         np.append(block, np.arange(last.size)),
         np.append(onset, last),
-        np.append(onset + slips.duration.values, np.full(last.size, slips.attrs["t_end"])),
+        np.append(onset + slips.duration.values, ends),
         np.append(slips.slip.values, np.zeros(last.size)),
     )
 

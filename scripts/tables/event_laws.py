@@ -30,7 +30,8 @@ LOGS = 30.0 * np.linspace(0.0, 1.0, 2001) ** 2
 """ln(size/least) at which the law with a cut-off is integrated, dense near the least size."""
 LOG_RATES = (-16.0, 4.0)
 """Between these is the logarithm of least size over cut-off."""
-EXPONENT_RANGE = (-1.0, 5.0)
+EXPONENT_RANGE = (0.0, 5.0)
+"""Exponents of the law with a cut-off; at 0 it is an exponential law."""
 CUT_SAMPLES = 199
 """Samples of the law with a cut-off from which its goodness of fit is found."""
 LARGEST = 0.05
