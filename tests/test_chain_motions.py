@@ -107,12 +107,16 @@ ROWS = [
 
 def test_figure_has_a_line_for_each_chaotic_chain():
     """Over (number - 1/2)/blocks; the count of positive ones over the blocks."""
-    rows = [{**PLACE, "motion": "pattern", **row} for row in ROWS]
+    rows = [{**PLACE, "motion": "pattern", "unclear_exponents": 2, **row} for row in ROWS]
     spectra, counts = chain_exponents.draw(rows).axes
     lines = [line.get_xdata().tolist() for line in spectra.lines[:2]]
     assert lines == [[0.25, 0.75, 1.25], [0.125, 0.375, 0.625]]
     (line,) = counts.lines
     assert (list(line.get_xdata()), list(line.get_ydata())) == ([2, 4], [1, 3])
+    (bars,) = counts.collections
+    assert [bar[:, 1].tolist() for bar in bars.get_segments()] == [[1, 3], [3, 5]]
+    (family,) = chain_exponents.numbers(rows)["families"]
+    assert "1 and 2 unclear of 2 blocks" in family["counts"]
     assert chain_exponents.numbers(rows)["others"] == [
         r"torus (2 blocks, :math:`\kappa` = 9): pattern"
     ]

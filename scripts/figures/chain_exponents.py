@@ -37,10 +37,12 @@ def draw(motions: list[dict]) -> Figure:
             share = (np.arange(len(values)) + 0.5) / row["blocks"]
             spectra.plot(share, values, mark + "-", color=colour, alpha=shade, ms=2.5, lw=0.7)
         words = f"$\\kappa = {parameters.number(rows[0]['kappa'])}$, {parameters.in_words(rows[0])}"
-        counts.plot(
+        unclear = [row["unclear_exponents"] for row in rows]
+        counts.errorbar(
             [row["blocks"] for row in rows],
             [row["positive_exponents"] for row in rows],
-            mark + "-",
+            [[0] * len(rows), unclear],
+            fmt=mark + "-",
             color=colour,
             ms=3.5,
             lw=0.7,
@@ -64,9 +66,7 @@ def numbers(motions: list[dict]) -> dict:
             {
                 "place": place_in_words(rows[0]),
                 "kappa": short(rows[0]["kappa"]),
-                "counts": joined(
-                    [f"{row['positive_exponents']:g} of {row['blocks']:g} blocks" for row in rows]
-                ),
+                "counts": joined([count_in_words(row) for row in rows]),
             }
             for rows in families_of(motions).values()
         ],
@@ -77,6 +77,12 @@ def numbers(motions: list[dict]) -> dict:
             if row["positive_exponents"] == 0
         ],
     }
+
+
+def count_in_words(row: dict) -> str:
+    """Positive exponents, and those that may be by their errors."""
+    unclear = f" and {row['unclear_exponents']:g} unclear" if row["unclear_exponents"] else ""
+    return f"{row['positive_exponents']:g}{unclear} of {row['blocks']:g} blocks"
 
 
 def name_of(row: dict) -> str:

@@ -123,8 +123,8 @@ def describe_chains(tables: dict[str, list[dict]]) -> dict:
     delayed = [row for row in chaotic if row["tau"] > 0]
     most = max(delayed, key=lambda row: row["positive_exponents"], default=None)
     words = [
-        f"Without delay {row['blocks']:g} blocks have {row['positive_exponents']:g} positive"
-        f" exponents at $epsilon = {short(row['epsilon'])}$, $xi = {short(row['xi'])}$ and"
+        f"Without delay {row['blocks']:g} blocks have at least {row['positive_exponents']:g}"
+        f" positive exponents at $epsilon = {short(row['epsilon'])}$, $xi = {short(row['xi'])}$ and"
         f" $gamma = {short(row['gamma'])}$: chaos in a chain needs no delay."
         for row in chaotic
         if row["tau"] == 0
@@ -132,7 +132,7 @@ def describe_chains(tables: dict[str, list[dict]]) -> dict:
     if most:
         words = [
             f"{most['blocks']:g} blocks with $tau = {short(most['tau'])}$ have"
-            f" {most['positive_exponents']:g} positive Lyapunov exponents.",
+            f" at least {most['positive_exponents']:g} positive Lyapunov exponents.",
             *words,
         ]
     return {
