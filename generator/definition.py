@@ -34,7 +34,14 @@ RESERVED = {"t", "derivative", "second_difference", *FUNCTIONS}
 KEYS = {
     *("name", "about", "source", "parameters", "states", "auxiliary", "definitions"),
     *("equations", "steady_state", "history", "fast", "domain"),
+    *("event", "section", "integral", "coordinates"),
 }
+EVENT, SECTION = re.compile(r"(\w+) ?> ?(\S+)"), re.compile(r"(\w+) ?= ?(\S+)")
+"""A signal above a level, and one at a level."""
+INTEGRAL = re.compile(r"(\w+)( ?\+ ?t)?")
+NUMBER = re.compile(r"-?\d+\.?\d*(e[+-]?\d+)?")
+TEXTS = ("fast", "event", "section", "integral")
+"""Keys of a text with names."""
 LARGEST_EXPONENT = 300
 """The argument of exp is refused beyond this, unless `domain` says otherwise: its products might
 overflow."""
@@ -72,6 +79,23 @@ class Delayed:
 
 
 @dataclass
+class Observed:
+    """What is looked at in motions: the signal, a state or an exponential of one, and its levels."""
+
+    signal: str
+    event: float | None = None
+    """An event lasts while the signal is above this; None: above its value at rest."""
+    section: float | None = None
+    """The section is where the signal rises through this; None: through its value at rest."""
+    integral: str | None = None
+    """The state that grows by the integral of the signal over an event ..."""
+    with_time: bool = False
+    """... less the time of the event, or by the integral alone."""
+    coordinates: tuple[str, ...] = ()
+    """States that are the coordinates of points of the section, at most two."""
+
+
+@dataclass
 class Model:
     """A system y' = f(t, y, z) in symbols."""
 
@@ -92,6 +116,7 @@ class Model:
     history: dict[str, sympy.Expr] | None = None
     """Each state up to the initial time as an expression of t; None: numbers, given later."""
     fast: str | None = None
+    observed: Observed | None = None
     domain: dict[str, tuple[float, float]] = field(default_factory=dict)
     differences: dict[str, sympy.Symbol] = field(default_factory=dict)
     """Second difference along the chain of each state of which the equations take one."""
@@ -262,7 +287,8 @@ class _Reader:
                 safe[name] = f"{name[:24]}_{len(safe) + 1}_"
         self.written = {new: old for old, new in safe.items()}
         safe = {new: f"{new}_" for new in self.written} | safe
-        said = {**values, "fast": in_words(values.get("fast"), safe)}
+        said = {**values, **{key: in_words(values.get(key), safe) for key in TEXTS}}
+        said["coordinates"] = [in_words(str(name), safe) for name in values.get("coordinates") or ()]
         for key, section in values.items():
             if isinstance(section, dict):
                 inside = {} if key in ("parameters", "states") else safe
@@ -289,12 +315,41 @@ class _Reader:
         if fast is not None and fast not in model.states:
             self.refuse("fast", fast, f"one of the states {', '.join(model.states)}")
         model.fast = fast
+        model.observed = self.observed(values)
         for state, window in (values.get("domain") or {}).items():
             if state not in model.states or not isinstance(window, list) or len(window) != 2:
                 self.refuse(
                     f"domain of {state}", window, "a state with its least and largest value"
                 )
             model.domain[state] = (float(window[0]), float(window[1]))
+
+    def observed(self, values: dict) -> Observed:
+        """What is looked at; by default the first state about its value at rest."""
+        known = [*self.model.states, *self.model.auxiliary]
+        found = Observed(next(iter(self.model.states)))
+        for key, pattern, sign in (("event", EVENT, ">"), ("section", SECTION, "=")):
+            if (text := values.get(key)) is None:
+                continue
+            match = pattern.fullmatch(str(text))
+            if not match or match[1] not in known or not NUMBER.fullmatch(match[2]):
+                self.refuse(key, text, f"NAME {sign} NUMBER with one of {', '.join(known)}")
+            if key == "section" and values.get("event") and match[1] != found.signal:
+                self.refuse(key, text, f"the name of event, {found.signal}")
+            found.signal = match[1]
+            setattr(found, key, float(match[2]))
+        if (text := values.get("integral")) is not None:
+            match = INTEGRAL.fullmatch(str(text))
+            if not match or match[1] not in self.model.states:
+                self.refuse("integral", text, "STATE or STATE + t")
+            found.integral, found.with_time = match[1], bool(match[2])
+        found.coordinates = tuple(values["coordinates"])
+        own = self.model.auxiliary.get(found.signal, found.signal)
+        others = [state for state in self.model.states if state != own]
+        if len(found.coordinates) > 2 or set(found.coordinates) - set(others):
+            text = ", ".join(found.coordinates)
+            self.refuse("coordinates", text, f"at most two of {', '.join(others)}")
+        found.coordinates = found.coordinates or tuple(others[:2])
+        return found
 
     def of_each_state(self, values: dict, key: str, expected: str) -> dict[str, sympy.Expr] | None:
         """An expression for each state, in their order; None where there are none."""

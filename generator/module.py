@@ -103,12 +103,19 @@ def description_lines(model: Model) -> list[str]:
     equations += [f"{name} = {text}" for name, text in model.definitions.items()]
     equations += [f"{name} = exp({state})" for name, state in model.auxiliary.items()]
     terms = pointwise.characteristic_terms(model) if model.steady_state else []
+    states = list(model.states)
     counted = (model.parameters, equations, model.states, model.delayed, terms)
     lines = [
         ("sizes", *(str(len(each)) for each in counted)),
         *(("coupling", str(row), str(column)) for row, column in chain.couplings(model)),
+        observed_line(model),
         ("name", model.name),
         ("source", model.source),
+        *(("state", name, meaning) for name, meaning in model.states.items()),
+        *(
+            ("auxiliary", name, str(states.index(state) + 1))
+            for name, state in model.auxiliary.items()
+        ),
         *(("equation", text) for text in equations),
     ]
     for one in model.parameters:
@@ -119,6 +126,19 @@ def description_lines(model: Model) -> list[str]:
     interface = f'"{interface_digest()} " // achar(iachar("0") + storage_size(1.0_wp)/32)'
     written = ([quoted(in_words(word, model.written)) for word in line] for line in lines)
     return [interface, *map(" // tab // ".join, written)]
+
+
+def observed_line(model: Model) -> tuple[str, ...]:
+    """What is looked at: component of the signal, whether it is its exponential, its levels in the
+    section and of events, component and time of its integral, and coordinates; 0 for none."""
+    observed, states = model.observed, list(model.states)
+    number = {None: 0} | {state: place for place, state in enumerate(states, 1)}
+    signal = model.auxiliary.get(observed.signal, observed.signal)
+    levels = ["rest" if x is None else repr(x) for x in (observed.section, observed.event)]
+    coordinates = [*(number[state] for state in observed.coordinates), 0, 0][:2]
+    integral = (number[observed.integral], int(observed.with_time))
+    own = (number[signal], int(signal != observed.signal))
+    return ("observed", *map(str, own), *levels, *map(str, (*integral, *coordinates)))
 
 
 def interface_digest() -> str:

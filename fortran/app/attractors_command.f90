@@ -1,22 +1,23 @@
-!> Attractors of the delayed block on a grid of its parameters, from one history or several, or
+!> Attractors of a model on a grid of its parameters, from one history or several, or
 !> along a sweep, with their classes.
 module attractors_command
    use attractor_points, only: find_attractors, finding_type, point_type, sweep_attractors
    use attractors, only: attractor_settings_type
    use attractors_files, only: read_attractors, write_attractors
-   use block_parameters, only: block_history_type
    use dde, only: integration_options
    use dde_errors, only: error_type
+   use model_history, only: history_type
+   use model_problem, only: model_type
    use points_input, only: points_settings_type
-   use progress, only: progress_type
    use program_arguments, only: stop_on
+   use progress, only: progress_type
    implicit none (type, external)
    private
    public :: run_attractors
 
 contains
 
-   !> Attractors of the delayed block on a grid of its parameters, from one history or several, or
+   !> Attractors of a model on a grid of its parameters, from one history or several, or
    !> along a sweep, with their classes.
    subroutine run_attractors(namelist_path, output_path)
       !> Path of the namelist
@@ -28,21 +29,23 @@ contains
       type(finding_type), allocatable :: findings(:)
       type(integration_options) :: options
       type(points_settings_type) :: points
-      type(block_history_type), allocatable :: histories(:)
+      type(history_type) :: history
+      type(model_type) :: model
       type(point_type), allocatable :: list(:)
       type(progress_type) :: report
 
-      call read_attractors(namelist_path, settings, options, points, histories, error)
+      call read_attractors(namelist_path, settings, options, points, model, history, error)
       call stop_on(error)
-      list = points%list(histories)
+      list = points%list(model, history)
       report = progress_type("attractors of "//trim(points%name))
       if (points%sweep == "none") then
-         call find_attractors(list, settings, options, findings, report, points%columns(), &
+         call find_attractors(model, list, settings, options, findings, report, points%columns(), &
                               points%refinements)
       else
-         call sweep_attractors(list, settings, options, findings, report)
+         call sweep_attractors(model, list, settings, options, findings, report)
       end if
-      call write_attractors(output_path, points, list, settings, options, findings, error)
+      call write_attractors(output_path, points, model, history, list, settings, options, findings, &
+                            error)
       call stop_on(error)
    end subroutine run_attractors
 end module attractors_command

@@ -1,13 +1,13 @@
 !> Cycles along a line of parameters: stable and unstable branches, their special points, and curves
-!> of these over epsilon and tau.
+!> of these over two parameters.
 module cycles_command
-   use block_cycles, only: cycle_settings_type, cycles_type, find_cycles, left_out_type
+   use cycle_branches, only: cycle_settings_type, cycles_type, find_cycles, left_out_type
    use cycle_curves, only: cycle_curve_type, find_curves
-   use cycle_lines, only: hopf_start_type
    use cycles_files, only: read_cycles, write_cycles
    use dde_errors, only: error_type
-   use progress, only: progress_type
+   use hopf_lines, only: hopf_on_line_type
    use program_arguments, only: stop_on
+   use progress, only: progress_type
    implicit none (type, external)
    private
    public :: run_cycles
@@ -15,7 +15,7 @@ module cycles_command
 contains
 
    !> Cycles along a line of parameters: stable and unstable branches, their special points, and
-   !> curves of these over epsilon and tau.
+   !> curves of these over two parameters.
    subroutine run_cycles(namelist_path, output_path)
       !> Path of the namelist
       character(len=*), intent(in) :: namelist_path
@@ -25,7 +25,7 @@ contains
       type(cycle_curve_type), allocatable :: curves(:)
       type(cycles_type), allocatable :: found(:)
       type(error_type), allocatable :: error
-      type(hopf_start_type), allocatable :: hopf(:)
+      type(hopf_on_line_type), allocatable :: hopf(:)
       type(left_out_type), allocatable :: left_out(:)
       type(progress_type) :: report
 

@@ -1,12 +1,12 @@
 !> Hopf curves in one plane of parameters, their special points, and the number of unstable pairs.
 module hopf_command
    use dde_errors, only: error_type
+   use dde_kinds, only: wp
    use hopf_curves, only: curve_point_type, trace_curves
    use hopf_files, only: hopf_settings_type, read_plane, write_curves
-   use hopf_planes, only: curve_plane_type
+   use hopf_planes, only: curve_plane_type, middles
    use hopf_points, only: find_hopf_points, hopf_point_type, judge_points
    use program_arguments, only: stop_on
-   use stability_map, only: unstable_pairs
    implicit none (type, external)
    private
    public :: run_hopf
@@ -25,17 +25,22 @@ contains
       type(curve_plane_type) :: plane
       type(curve_point_type), allocatable :: points(:)
       type(hopf_point_type), allocatable :: special(:)
+      integer, allocatable :: pairs(:, :)
+      real(wp), allocatable :: grid(:)
 
       call read_plane(namelist_path, settings, plane, error)
       call stop_on(error)
-      call trace_curves(plane, points, error)
+      ! the edges of the window, and the middles of the cells
+      grid = [0.0_wp, middles([0.0_wp, 1.0_wp], settings%cells), 1.0_wp]
+      pairs = plane%unstable_pairs(grid, grid)
+      call trace_curves(plane, grid, grid, pairs, points, error)
       call stop_on(error)
-      call judge_points(points, error)
+      call judge_points(plane, points, error)
       call stop_on(error)
       call find_hopf_points(plane, points, special, error)
       call stop_on(error)
       call write_curves(output_path, settings, plane, points, special, &
-                        unstable_pairs(plane, settings%cells), error)
+                        pairs(2:settings%cells + 1, 2:settings%cells + 1), error)
       call stop_on(error)
    end subroutine run_hopf
 end module hopf_command

@@ -31,7 +31,7 @@ contains
 
       call read_reference(namelist_path, cases, settings, error)
       call stop_on(error)
-      call file%create(output_path, error)
+      call file%create(output_path, cases(1), error)
       call stop_on(error)
       associate (options => settings)
          best = run_type(trim(options%method), options%tolerance)

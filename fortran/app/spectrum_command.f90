@@ -1,4 +1,4 @@
-!> Power spectrum of v over a trajectory after its transient, with its peaks labelled.
+!> Power spectrum of the signal over a trajectory after its transient, with its peaks labelled.
 module spectrum_command
    use base_frequencies, only: bases_type, label_peaks
    use dde_errors, only: error_type
@@ -15,7 +15,7 @@ module spectrum_command
 
 contains
 
-   !> Power spectrum of v over a trajectory after its transient, with its peaks labelled.
+   !> Power spectrum of the signal over a trajectory after its transient, with its peaks labelled.
    subroutine run_spectrum(namelist_path, output_path)
       !> Path of the namelist
       character(len=*), intent(in) :: namelist_path
@@ -34,7 +34,7 @@ contains
       call read_spectrum_settings(namelist_path, trajectory_path, settings, error)
       call stop_on(error)
       call check_input(trajectory_path, output_path)
-      call read_trajectory(trajectory_path, trajectory, error)
+      call read_trajectory(trajectory_path, settings%block, trajectory, error)
       call stop_on(error)
 
       interval = trajectory%sample_interval
@@ -43,8 +43,9 @@ contains
       v = trajectory%v(first:)
       if (allocated(trajectory%u)) then
          interval = interval/finer
-         v = 1.0_wp + smoothed_slope(trajectory%t(first:), trajectory%u(first:), v - 1.0_wp, &
-                                     interval)
+         associate (rest => trajectory%slope_at_rest)
+            v = rest + smoothed_slope(trajectory%t(first:), trajectory%u(first:), v - rest, interval)
+         end associate
       end if
       call power_spectrum(v, interval, settings%window, settings%segments, settings%overlap, &
                           frequency, power, error)
@@ -53,7 +54,8 @@ contains
       if (allocated(trajectory%u)) call undo_smoothing(interval, frequency, power)
       peaks = find_peaks(frequency, power, settings%peak_floor, settings%peak_prominence)
       call label_peaks(peaks, frequency(2), bases)
-      call write_spectrum(output_path, trim(trajectory%scene), settings, frequency, power, &
+      call write_spectrum(output_path, trim(trajectory%scene), trim(trajectory%signal), settings, &
+                          frequency, power, &
                           sum((v - sum(v)/size(v))**2)/size(v), peaks, bases, error)
       call stop_on(error)
    end subroutine run_spectrum

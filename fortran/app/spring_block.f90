@@ -17,9 +17,9 @@ program spring_block_program
                     command_type("trajectory", run_trajectory, &
                                  "Trajectory of a scene, or of a chain of blocks"), &
                     command_type("spectrum", run_spectrum, &
-                                 "Power spectrum of v over a trajectory, with its peaks"), &
+                                 "Power spectrum of the signal over a trajectory, with its peaks"), &
                     command_type("slip_events", run_slip_events, &
-                                 "Slip events of the blocks of a scene"), &
+                                 "Events of the blocks of a scene"), &
                     command_type("exponents", run_exponents, &
                                  "Lyapunov exponents of a scene"), &
                     command_type("attractors", run_attractors, &
@@ -27,7 +27,7 @@ program spring_block_program
                     command_type("hopf", run_hopf, &
                                  "Hopf curves in a plane, and their special points"), &
                     command_type("linear_stability", run_linear_stability, &
-                                 "Roots and linear stability of steady sliding"), &
+                                 "Roots and linear stability of a model at rest"), &
                     command_type("cycles", run_cycles, &
                                  "Cycles along a line, and curves of their special points"), &
                     command_type("synchrony", run_synchrony, &

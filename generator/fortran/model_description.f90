@@ -5,13 +5,16 @@ module model_description
    use model_border, only: describe_line, letters => line_length
    implicit none (type, external)
    private
-   public :: description_of, description_type, line_length, parameter_type, sizes_of, sizes_type, &
-             unbounded, word_length
+   public :: at_rest, auxiliary_type, description_of, description_type, line_length, observed_type, &
+             parameter_type, sizes_of, sizes_type, unbounded, word_length
 
    !> Letters of names; of meanings and equations.
    integer, parameter :: word_length = 64, line_length = 512
    !> Bound of a parameter that has none.
    real(wp), parameter :: unbounded = -huge(1.0_wp)
+
+   !> A level that is the value at rest.
+   real(wp), parameter :: at_rest = huge(1.0_wp)
 
    !> A parameter.
    type :: parameter_type
@@ -25,15 +28,45 @@ module model_description
       real(wp) :: above = unbounded, at_least = unbounded
    end type parameter_type
 
+   !> A name for the exponential of a state.
+   type :: auxiliary_type
+      !> Its name
+      character(len=word_length) :: name = ""
+      !> Number of the state
+      integer :: state = 0
+   end type auxiliary_type
+
    !> What a definition says, for messages and files.
    type :: description_type
       !> Name, and where the equations are from
       character(len=line_length) :: name = "", source = ""
       !> Parameters
       type(parameter_type), allocatable :: parameters(:)
+      !> Names and meanings of the states
+      character(len=word_length), allocatable :: states(:)
+      character(len=line_length), allocatable :: meanings(:)
+      !> Names of exponentials
+      type(auxiliary_type), allocatable :: auxiliaries(:)
       !> Equations and definitions as they are written, one a line
       character(len=line_length), allocatable :: equations(:)
    end type description_type
+
+   !> What is looked at in motions: the signal, a component of the state or its exponential.
+   type :: observed_type
+      !> Component of the signal
+      integer :: component = 1
+      !> Whether the signal is the exponential of the component
+      logical :: is_exponential = .false.
+      !> Values of the component: in the section, where it rises, and above which there is an event;
+      !> `at_rest` stands for its value at rest
+      real(wp) :: section = at_rest, event = at_rest
+      !> Component that grows by the integral of the signal, 0 if there is none; whether it grows by
+      !> the integral less the time
+      integer :: integral = 0
+      logical :: with_time = .false.
+      !> Components that are the coordinates of points of the section, 0 where there are fewer
+      integer :: coordinates(2) = 0
+   end type observed_type
 
    !> Sizes of a definition.
    type :: sizes_type
@@ -43,6 +76,8 @@ module model_description
       !> Equations of a chain with a second difference, and the states of which they take it, shape
       !> (2, couplings)
       integer, allocatable :: couplings(:, :)
+      !> What is looked at in motions
+      type(observed_type) :: observed
    end type sizes_type
 
 contains
@@ -54,10 +89,11 @@ contains
       !> Sizes of the definition
       type(sizes_type), intent(in) :: sizes
       character(len=line_length) :: words(4)
-      integer :: equation, number, parameter
+      integer :: equation, number, parameter, place
       real(wp) :: bound
 
       allocate (description%parameters(sizes%parameters), description%equations(sizes%equations))
+      allocate (description%states(0), description%meanings(0), description%auxiliaries(0))
       equation = 0
       parameter = 0
       number = 2
@@ -73,6 +109,12 @@ contains
          case ("parameter")
             parameter = parameter + 1
             description%parameters(parameter) = parameter_type(words(2), words(3), words(4))
+         case ("state")
+            description%states = [description%states, words(2) (:word_length)]
+            description%meanings = [description%meanings, words(3)]
+         case ("auxiliary")
+            read (words(3), *) place
+            description%auxiliaries = [description%auxiliaries, auxiliary_type(words(2), place)]
          case ("above")
             read (words(2), *) bound
             description%parameters(parameter)%above = bound
@@ -90,7 +132,7 @@ contains
    type(sizes_type) function sizes_of(lines) result(sizes)
       !> The lines of the description
       procedure(describe_line), pointer, intent(in) :: lines
-      character(len=line_length) :: words(6)
+      character(len=line_length) :: words(9)
       integer :: number, pair(2)
 
       allocate (sizes%couplings(2, 0))
@@ -103,12 +145,40 @@ contains
          case ("coupling")
             read (words(2:3), *) pair
             sizes%couplings = reshape([sizes%couplings, pair], [2, size(sizes%couplings, 2) + 1])
+         case ("observed")
+            sizes%observed = observed_of(words)
          case default
             return
          end select
          number = number + 1
       end do
    end function sizes_of
+
+   !> What is looked at, from its line.
+   type(observed_type) function observed_of(words) result(observed)
+      character(len=line_length), intent(in) :: words(:)
+      integer :: numbers(6)
+
+      read (words(2:3), *) numbers(:2)
+      read (words(6:9), *) numbers(3:)
+      observed = observed_type(component=numbers(1), is_exponential=numbers(2) == 1, &
+                               integral=numbers(3), with_time=numbers(4) == 1, &
+                               coordinates=numbers(5:))
+      call read_level(words(4), observed%section)
+      call read_level(words(5), observed%event)
+
+   contains
+
+      !> The value of the component where the signal has a level.
+      subroutine read_level(word, level)
+         character(len=*), intent(in) :: word
+         real(wp), intent(inout) :: level
+
+         if (word == "rest") return
+         read (word, *) level
+         if (observed%is_exponential) level = log(level)
+      end subroutine read_level
+   end function observed_of
 
    !> A line of a description, if there is one, in words.
    logical function has_line(lines, number, words) result(there)

@@ -9,7 +9,8 @@ module model_problem
    use model_border, only: describe_line, expand, expand_past, expand_tangents, find_delayed, &
                            find_forms, find_jacobian, find_past, find_rate, find_rhs, find_state, &
                            list_terms, shape_type
-   use model_description, only: description_of, description_type, sizes_type
+   use model_chain, only: mode_eigenvalue
+   use model_description, only: at_rest, description_of, description_type, sizes_type, word_length
    implicit none (type, external)
    private
    public :: code_type, model_type
@@ -37,7 +38,8 @@ module model_problem
       type(code_type) :: code
       !> Sizes of the definition
       type(sizes_type) :: sizes
-      !> Numbers of the parameters, in the order of the definition
+      !> Parameters in the order of the definition: names and values
+      character(len=word_length), allocatable :: names(:)
       real(wp), allocatable :: numbers(:)
       !> States up to the initial time, shape (n)
       real(wp), allocatable :: past(:)
@@ -49,13 +51,27 @@ module model_problem
       !> Neighbours of the blocks of a chain on both sides; 0: the plate, which is at rest. Empty
       !> for a model that is no chain.
       integer(c_int), allocatable :: left(:), right(:)
+      !> What is beyond the last block of a chain, see `chain_ends`
+      character(len=word_length) :: ends = "free"
+      !> Whether delays of 0 are delayed values, too
+      logical :: keeps_delays = .false.
    contains
       !> What the definition says
       procedure :: describe
       !> Give the model its parameters and its past
       procedure :: set
+      !> Give the model other parameters
+      procedure :: put
+      !> Number of a parameter by its name
+      procedure :: number_of
+      !> Number of states of a block
+      procedure :: states
+      !> Value of the signal's component at rest, in the section, and above which there is an event
+      procedure :: rest_level, section_level, event_level
       !> Whether it has blocks with neighbours
       procedure :: is_chain
+      !> Number of modes of a chain, and the block whose disturbances are those of a mode
+      procedure :: modes, mode
       procedure :: initial
       procedure :: history
       procedure :: past_series
@@ -107,19 +123,29 @@ contains
       real(wp), intent(in) :: past(:)
       !> Whether delays of 0 are delayed values, too; .false. unless given
       logical, intent(in), optional :: keep_delays
+
+      self%keeps_delays = .false.
+      if (present(keep_delays)) self%keeps_delays = keep_delays
+      self%past = past
+      call self%put(parameters)
+   end subroutine set
+
+   !> Give a model other parameters; it keeps its past.
+   pure subroutine put(self, parameters)
+      class(model_type), intent(inout) :: self
+      !> Parameters, in the order of the definition
+      real(wp), intent(in) :: parameters(:)
       integer(c_int) :: component(self%sizes%delayed)
       real(wp) :: lag(self%sizes%delayed)
       logical, allocatable :: kept(:)
       integer :: block, k, states
 
-      self%n = size(past)
+      self%n = size(self%past)
       self%analytic = .true.
       self%analytic_tangents = .true.
       self%numbers = parameters
-      self%past = past
       call self%code%delayed(parameters, lag, component)
-      kept = lag > 0.0_wp
-      if (present(keep_delays)) kept = kept .or. keep_delays
+      kept = lag > 0.0_wp .or. self%keeps_delays
       self%place = merge([(count(kept(:k)), k=1, size(lag))], 0, kept)
       if (.not. allocated(self%left)) allocate (self%left(0), self%right(0))
       associate (blocks => self%shape%blocks)
@@ -132,7 +158,7 @@ contains
       self%shape%values = size(self%lag)
       self%shape%delays = count(kept)
       if (self%is_chain()) call set_band(self, states)
-   end subroutine set
+   end subroutine put
 
    !> The band of the Jacobian of a chain, and the equations of each delayed value.
    pure subroutine set_band(self, states)
@@ -157,6 +183,47 @@ contains
       end associate
    end subroutine set_band
 
+   !> Number of a parameter by its name; 0 if there is none.
+   pure integer function number_of(self, name) result(number)
+      class(model_type), intent(in) :: self
+      !> Name of the parameter
+      character(len=*), intent(in) :: name
+
+      number = findloc(self%names, name, dim=1)
+   end function number_of
+
+   !> Number of states of a block.
+   pure integer function states(self)
+      class(model_type), intent(in) :: self
+
+      states = self%n/self%shape%blocks
+   end function states
+
+   !> Value of the signal's component at rest.
+   pure real(wp) function rest_level(self) result(level)
+      class(model_type), intent(in) :: self
+      real(wp) :: state(self%n)
+
+      state = self%steady_state()
+      level = state(self%sizes%observed%component)
+   end function rest_level
+
+   !> Value of the signal's component in the section.
+   pure real(wp) function section_level(self) result(level)
+      class(model_type), intent(in) :: self
+
+      level = self%sizes%observed%section
+      if (level >= at_rest) level = self%rest_level()
+   end function section_level
+
+   !> Value of the signal's component above which there is an event.
+   pure real(wp) function event_level(self) result(level)
+      class(model_type), intent(in) :: self
+
+      level = self%sizes%observed%event
+      if (level >= at_rest) level = self%rest_level()
+   end function event_level
+
    !> Whether it has blocks with neighbours, even one block.
    pure logical function is_chain(self) result(value)
       class(model_type), intent(in) :: self
@@ -164,6 +231,37 @@ contains
       value = allocated(self%left)
       if (value) value = size(self%left) > 0
    end function is_chain
+
+   !> Number of modes of the linear equations about rest: one for each block.
+   pure integer function modes(self) result(number)
+      class(model_type), intent(in) :: self
+
+      number = self%shape%blocks
+   end function modes
+
+   !> One block at rest whose disturbances are those of a mode of the chain; the model itself, with
+   !> its delays of 0 kept, where it is no chain.
+   function mode(self, number) result(block)
+      class(model_type), intent(in) :: self
+      !> Number of the mode, from 1
+      integer, intent(in) :: number
+      type(model_type) :: block
+      real(wp) :: state(self%n)
+
+      block%code = self%code
+      block%sizes = self%sizes
+      block%names = self%names
+      if (self%is_chain()) then
+         block%left = [1]
+         block%right = [1]
+         block%shape%mode = mode_eigenvalue(number - merge(0, 1, self%ends == "plate"), &
+                                            self%shape%blocks, trim(self%ends))
+         ! blocks that move alike have a mode of their own, as in a chain of one block
+         if (self%shape%blocks == 1) block%shape%mode = self%shape%mode
+      end if
+      state = self%steady_state()
+      call block%set(self%numbers, state(:self%states()), keep_delays=.true.)
+   end function mode
 
    !> The past holds up to the initial time.
    pure subroutine initial(self, y)
@@ -305,9 +403,12 @@ contains
    pure function steady_state(self) result(state)
       class(model_type), intent(in) :: self
       real(wp) :: state(self%n)
+      real(wp) :: of_block(self%n/self%shape%blocks)
+      integer :: block
 
-      state = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (associated(self%code%steady_state)) call self%code%steady_state(self%numbers, state)
+      of_block = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (associated(self%code%steady_state)) call self%code%steady_state(self%numbers, of_block)
+      state = [(of_block, block=1, self%shape%blocks)]
    end function steady_state
 
    !> The derivative of the order of the number of arguments, linear in each of them; not a number

@@ -4,23 +4,22 @@ module attractors_files
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use attractor_points, only: finding_type, point_type
    use attractors, only: attractor_settings_type, most_with_zeros
-   use block_attributes, only: key_of, put_law
-   use block_parameters, only: absent_history, block_history_type, meaning_of, parameter_meanings
    use dde, only: integration_options
    use dde_errors, only: error_type, text
    use dde_kinds, only: int64, wp
    use exponent_averages, only: sign_of
+   use history_input, only: read_histories
+   use model_attributes, only: put_model, put_places
+   use model_history, only: history_type, shown_name, signal_name
+   use model_problem, only: model_type
    use motion_classes, only: class_names, cycle_motion, fixed_point, reason_names
    use namelist_input, only: namelist_file_type, word_length
    use netcdf_output, only: output_file_type
    use points_input, only: points_settings_type
-   use value_checks, only: absent, check_number, missing, missing_count
+   use value_checks, only: check_number, missing, missing_count
    implicit none (type, external)
    private
    public :: read_attractors, write_attractors
-
-   !> Most histories.
-   integer, parameter :: most_histories = 1000
 
    !> How the solver takes steps.
    type :: solver_settings_type
@@ -35,7 +34,7 @@ module attractors_files
 contains
 
    !> Read and check all sections.
-   subroutine read_attractors(path, observation, options, points, histories, error)
+   subroutine read_attractors(path, observation, options, points, model, history, error)
       !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> How attractors are judged
@@ -44,35 +43,38 @@ contains
       type(integration_options), intent(out) :: options
       !> Where they are looked for
       type(points_settings_type), intent(out) :: points
-      !> Histories from which they are reached
-      type(block_history_type), allocatable, intent(out) :: histories(:)
+      !> The model, and histories from which they are reached
+      type(model_type), intent(out) :: model
+      type(history_type), intent(out) :: history
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
       type(namelist_file_type) :: file
       type(solver_settings_type) :: solver
-      namelist /settings/ observation, solver, points, histories
+      namelist /settings/ observation, solver, points
 
-      allocate (histories(most_histories), source=absent_history)
       call file%open(path, error)
       if (allocated(error)) return
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
-      histories = pack(histories, min(histories%theta, histories%u, histories%v) < absent)
-      points%parameters = points%at(points%axes(1)%window(1), points%axes(2)%window(1))
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
       options = integration_options(method=trim(solver%method), relative=solver%tolerance, &
                                     absolute=solver%tolerance, most_steps=solver%most_steps)
       call check_number(error, path//": observation", "interval", observation%interval, &
                         above=0.0_wp)
-      call points%check(path//": points", histories, error)
+      call points%open(path//": points", model, error)
+      call read_histories(path, model, history, error)
    end subroutine read_attractors
 
    !> Write what was found at each point.
-   subroutine write_attractors(path, points, list, settings, options, findings, error)
+   subroutine write_attractors(path, points, model, history, list, settings, options, findings, &
+                               error)
       !> Path of the file
       character(len=*), intent(in) :: path
       !> Where attractors were looked for, and what is kept of each
       type(points_settings_type), intent(in) :: points
+      !> The model, and the histories
+      type(model_type), intent(in) :: model
+      type(history_type), intent(in) :: history
       !> All points
       type(point_type), intent(in) :: list(:)
       !> How attractors were judged
@@ -86,14 +88,15 @@ contains
       type(output_file_type) :: file
       character(len=*), parameter :: ordinals(3) = ["first ", "second", "third "]
       real(wp), dimension(size(findings)) :: least, mean_time, most, variation
-      character(len=word_length) :: name
+      character(len=:), allocatable :: name
+      real(wp) :: numbers(size(model%names), size(list)), past(size(list))
       integer :: i, k, rows
 
-      call file%create(path, "Attractors of the spring block with delayed friction")
+      name = signal_name(model)
+      call file%create(path, "Attractors of a model")
       call file%attribute("name", trim(points%name))
-      call put_law(file, list(1)%parameters, key_of(points%axes%along))
-      call file%attribute("axes", trim(key_of(points%axes(1)%along))//" " &
-                          //trim(key_of(points%axes(2)%along)))
+      call put_model(file, model, points%axes%along)
+      call file%attribute("axes", trim(points%axes(1)%along)//" "//trim(points%axes(2)%along))
       call file%attribute("sweep", trim(points%sweep))
       call file%attribute("refinements", int(points%refinements, int64))
       call file%attribute("method", trim(options%method))
@@ -106,22 +109,23 @@ contains
       call file%attribute("zero_level", settings%zero_level)
       call file%attribute("longest_bar", settings%longest_bar)
       call file%attribute("sample_interval", settings%sample_interval)
-      rows = file%dimension("point", size(findings), coordinates="epsilon tau xi gamma")
-      associate (place => list%parameters, past => list%history, found => findings%attractor)
-         call file%column(rows, "epsilon", place%epsilon, trim(parameter_meanings(2)))
-         call file%column(rows, "tau", place%tau, trim(parameter_meanings(1)))
-         call file%column(rows, "xi", place%xi, trim(parameter_meanings(3)))
-         call file%column(rows, "gamma", place%gamma, trim(parameter_meanings(4)))
-         do i = 1, size(points%axes)
-            name = points%axes(i)%along
-            if (name == key_of(name)) cycle
-            k = findloc(points%parameters%own_names, name, dim=1)
-            call file%column(rows, trim(key_of(name)), place%own(k), &
-                             meaning_of(points%parameters%law, name))
-         end do
-         call file%column(rows, "history_theta", past%theta, "theta for t <= 0")
-         call file%column(rows, "history_u", past%u, "u for t <= 0")
-         call file%column(rows, "history_v", past%v, "v for t <= 0")
+      rows = file%dimension("point", size(findings))
+      do i = 1, size(list)
+         numbers(:, i) = list(i)%numbers
+      end do
+      call put_places(file, rows, model, numbers, "")
+      associate (found => findings%attractor)
+         if (model%shape%blocks > 1) then
+            call file%column(rows, "history", list%history, "number of the history")
+         else if (allocated(history%values)) then
+            do k = 1, size(history%names)
+               do i = 1, size(list)
+                  past(i) = history%values(k, 1, list(i)%history)
+               end do
+               call file%column(rows, "history_"//trim(history%names(k)), past, &
+                                trim(history%names(k))//" for t <= 0")
+            end do
+         end if
          call file%flags(rows, "computed", merge(1, 0, findings%computed), ["no ", "yes"], &
                          "whether the motion was computed; "// &
                          "if not, class and period are those of the neighbours")
@@ -131,9 +135,9 @@ contains
          call file%flags(rows, "by_exponents", found%by_exponents, class_names, &
                          "class by Lyapunov exponents")
          call file%flags(rows, "by_section", found%by_section, class_names, &
-                         "class by the section v = 1, v rising")
+                         "class by the section")
          call file%flags(rows, "by_spectrum", found%by_spectrum, class_names, &
-                         "class by the spectrum of v")
+                         "class by the spectrum of "//name)
          call put_exponents()
          call file%column(rows, "period", found%period, "points of a cycle in the section, 0: none")
          call put_found("roughness", found%roughness, &
@@ -141,25 +145,25 @@ contains
                         "0: smooth, 1: random")
          do i = 1, 3
             call file%column(rows, "base_"//text(i), found%bases(i), &
-                             trim(ordinals(i))//" fundamental frequency of v, 0: none")
+                             trim(ordinals(i))//" fundamental frequency of "//name//", 0: none")
          end do
          call put_found("line_share", found%line_share, &
-                        "share of the power of v in the lines of the first two")
+                        "share of the power of "//name//" in the lines of the first two")
          do i = 1, size(findings)
             call reach(findings(i), least(i), most(i))
          end do
-         call file%column(rows, "smallest_maximum", least, "smallest maximum of v")
-         call file%column(rows, "largest_maximum", most, "largest maximum of v")
+         call file%column(rows, "smallest_maximum", least, "smallest maximum of "//name)
+         call file%column(rows, "largest_maximum", most, "largest maximum of "//name)
          do i = 1, size(findings)
             call recur(findings(i), mean_time(i), variation(i))
          end do
          call file%column(rows, "recurrence_time", mean_time, &
-                          "mean time between rises of v through 1")
+                          "mean time between passages of the section")
          call file%column(rows, "recurrence_variation", variation, &
                           "standard deviation of this time over its mean")
       end associate
-      call put_kept(file, points%kept, findings, rows)
-      if (settings%t_path > 0.0_wp) call put_paths(file, settings%t_path, findings, rows)
+      call put_kept(file, model, points%kept, findings, rows)
+      if (settings%t_path > 0.0_wp) call put_paths(file, model, settings%t_path, findings, rows)
       call put_problems(file, findings, rows)
       call file%finish(error)
 
@@ -200,7 +204,7 @@ contains
       end subroutine put_exponents
    end subroutine write_attractors
 
-   !> Smallest and largest maximum of v, of a cycle the last quarter: the others may belong to the
+   !> Smallest and largest maximum of the signal, of a cycle the last quarter: the others may belong to the
    !> approach; NaN where there is none.
    pure subroutine reach(finding, least, most)
       type(finding_type), intent(in) :: finding
@@ -244,18 +248,19 @@ contains
    end subroutine recur
 
    !> The last maxima and points of the section, if any are wanted; NaN where there are fewer.
-   subroutine put_kept(file, kept, findings, rows)
+   subroutine put_kept(file, model, kept, findings, rows)
       type(output_file_type), intent(inout) :: file
+      type(model_type), intent(in) :: model
       integer, intent(in) :: kept
       type(finding_type), intent(in) :: findings(:)
       integer, intent(in) :: rows
-      real(wp), dimension(kept, size(findings)) :: maxima, theta, u
+      real(wp), dimension(kept, size(findings)) :: first_coordinate, maxima, second_coordinate
       integer :: dimensions(2), first, i, n
 
       if (kept == 0) return
       maxima = ieee_value(1.0_wp, ieee_quiet_nan)
-      theta = maxima
-      u = maxima
+      first_coordinate = maxima
+      second_coordinate = maxima
       do i = 1, size(findings)
          associate (found => findings(i)%attractor)
             if (.not. allocated(found%motion%maxima)) cycle
@@ -264,23 +269,45 @@ contains
             maxima(:n, i) = found%motion%maxima(first:)
             n = min(kept, size(found%motion%section, 2))
             first = size(found%motion%section, 2) - n + 1
-            theta(:n, i) = found%motion%section(1, first:)
-            u(:n, i) = found%motion%section(2, first:)
+            first_coordinate(:n, i) = found%motion%section(1, first:)
+            second_coordinate(:n, i) = found%motion%section(2, first:)
          end associate
       end do
       dimensions = [file%dimension("kept", kept), rows]
-      call file%table(dimensions, "maximum", maxima, "maxima of v, in order of time")
-      call file%table(dimensions, "section_theta", theta, "theta in the section v = 1, v rising")
-      call file%table(dimensions, "section_u", u, "u in the section v = 1, v rising")
+      call file%table(dimensions, "maximum", maxima, "maxima of "//signal_name(model)//", in order of time")
+      call put_coordinate(1, first_coordinate)
+      call put_coordinate(2, second_coordinate)
+
+   contains
+
+      !> A coordinate of points of the section.
+      subroutine put_coordinate(number, values)
+         integer, intent(in) :: number
+         real(wp), intent(in) :: values(:, :)
+         character(len=:), allocatable :: name
+
+         associate (given => model%sizes%observed%coordinates)
+            if (given(number) > 0) then
+               name = shown_name(model, given(number))
+            else if (number == 1 + count(given > 0)) then
+               name = "time"
+            else
+               name = "peak"
+            end if
+         end associate
+         call file%table(dimensions, "section_"//name, values, name//" in the section")
+      end subroutine put_coordinate
    end subroutine put_kept
 
-   !> Paths one after another, and how many points each has; 0 of steady sliding.
-   subroutine put_paths(file, t_path, findings, rows)
+   !> Paths one after another, and how many points each has; 0 at rest.
+   subroutine put_paths(file, model, t_path, findings, rows)
       type(output_file_type), intent(inout) :: file
+      type(model_type), intent(in) :: model
       real(wp), intent(in) :: t_path
       type(finding_type), intent(in) :: findings(:)
       integer, intent(in) :: rows
       real(wp), allocatable :: line(:, :)
+      character(len=:), allocatable :: across, up
       integer :: dimension, i, lengths(size(findings))
 
       call file%attribute("t_path", t_path)
@@ -303,8 +330,16 @@ contains
       if (sum(lengths) == 0) return
       dimension = file%dimension("path_point", sum(lengths))
       call file%column(dimension, "path_time", line(1, :), "time from the beginning of the path")
-      call file%column(dimension, "path_u", line(2, :), "u along the path")
-      call file%column(dimension, "path_ln_v", line(3, :), "ln v along the path")
+      associate (observed => model%sizes%observed)
+         up = shown_name(model, observed%component)
+         if (maxval(observed%coordinates) == 0) then
+            call file%column(dimension, "path_"//up, line(3, :), up//" along the path")
+            return
+         end if
+         across = shown_name(model, maxval(observed%coordinates))
+      end associate
+      call file%column(dimension, "path_"//across, line(2, :), across//" along the path")
+      call file%column(dimension, "path_"//up, line(3, :), up//" along the path")
    end subroutine put_paths
 
    !> Why no attractor was found, blank where one was.

@@ -1,36 +1,61 @@
 !> Cases to measure, from the section `cases` of a namelist, an element a case.
 module cases_input
-   use block_parameters, only: missing_history, missing_parameters
    use dde_errors, only: error_type
+   use dde_kinds, only: wp
    use measured_case, only: case_type
-   use value_checks, only: check_number, missing, most_samples
+   use model_description, only: word_length
+   use model_history, only: read_history
+   use model_settings, only: model_settings_type
+   use namelist_input, only: elements
+   use value_checks, only: absent, check_number, missing, most_samples
    implicit none (type, external)
    private
-   public :: check_cases, missing_case, most_cases
+   public :: case_settings_type, most_cases, open_cases
 
-   !> Most cases in one file.
-   integer, parameter :: most_cases = 1000
-   !> A case that must be given, and has no name before.
-   type(case_type), parameter :: &
-      missing_case = case_type("", missing_parameters, missing_history, missing, missing)
+   !> Most cases in one file, and most states of a case.
+   integer, parameter :: most_cases = 1000, most_states = 16
+
+   !> A case as the namelist gives it; all nondimensional.
+   type :: case_settings_type
+      !> Name
+      character(len=256) :: name = ""
+      !> The model with its parameters
+      type(model_settings_type) :: model
+      !> Names of states or of their exponentials, and their values before the initial time
+      character(len=word_length) :: history(most_states) = ""
+      real(wp) :: values(most_states) = absent
+      !> Last time, and time between samples
+      real(wp) :: t_end = missing, sample_interval = missing
+   end type case_settings_type
 
 contains
 
-   !> Refuse cases without a meaning; keep an earlier error.
-   subroutine check_cases(path, cases, error)
+   !> Open the models of cases. Refuse cases without a meaning; keep an earlier error.
+   subroutine open_cases(path, given, cases, error)
       !> Path of the namelist file
       character(len=*), intent(in) :: path
+      !> The cases as they are given
+      type(case_settings_type), intent(in) :: given(:)
       !> The cases
-      type(case_type), intent(inout) :: cases(:)
+      type(case_type), allocatable, intent(out) :: cases(:)
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
       integer :: i
 
-      do i = 1, size(cases)
-         call cases(i)%parameters%check(path//": case '"//trim(cases(i)%name)//"'", error)
-         call cases(i)%history%check(path//": case '"//trim(cases(i)%name)//"'", error)
-         call check_number(error, path//": case '"//trim(cases(i)%name)//"'", "sample_interval", &
-                           cases(i)%sample_interval, at_least=cases(i)%t_end/most_samples)
+      allocate (cases(size(given)))
+      do i = 1, size(given)
+         if (allocated(error)) return
+         associate (one => given(i), case => cases(i), &
+                    place => path//": case '"//trim(given(i)%name)//"'")
+            case%name = one%name
+            case%t_end = one%t_end
+            case%sample_interval = one%sample_interval
+            call one%model%open(place, case%model, error)
+            call read_history(place, case%model, pack(one%history, one%history /= ""), &
+                              elements(one%values), case%history, error)
+            call check_number(error, place, "sample_interval", one%sample_interval, &
+                              at_least=one%t_end/most_samples)
+         end associate
       end do
-   end subroutine check_cases
+   end subroutine open_cases
 end module cases_input

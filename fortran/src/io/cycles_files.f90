@@ -2,17 +2,21 @@
 !> special points and their curves.
 module cycles_files
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use block_attributes, only: key_length, key_of, put_parameters
-   use block_cycles, only: cycle_settings_type, cycles_type, left_out_type
-   use block_parameters, only: block_parameters_type, meaning_of, missing_parameters, vector_of
+   use cycle_branches, only: cycle_line_type, cycle_settings_type, cycles_type, left_out_type
    use cycle_curves, only: cycle_curve_type
-   use cycle_lines, only: cycle_line_type, hopf_start_type
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
+   use history_input, only: read_histories
+   use hopf_lines, only: hopf_on_line_type
+   use model_attributes, only: put_model, put_places
+   use model_description, only: description_type
+   use model_history, only: history_type, signal_name
+   use model_problem, only: model_type
+   use model_settings, only: model_settings_type
    use namelist_input, only: elements, namelist_file_type, word_length
    use netcdf_output, only: output_file_type
+   use periodic_orbit, only: periodic_orbit_type
    use special_points, only: kind_length, nearest_resonance, special_point_type
-   use spring_block, only: index_of_ln_v
    use value_checks, only: absent, check_choice, check_count, missing, missing_count
    implicit none (type, external)
    private
@@ -24,20 +28,22 @@ module cycles_files
       character(len=word_length) :: along = ""
       !> First and last value of this parameter
       real(wp) :: window(2) = missing
-      !> The other parameters; that along the line may be left out
-      type(block_parameters_type) :: parameters = missing_parameters
+      !> The model with its parameters; that along the line may be left out
+      type(model_settings_type) :: model
       !> Parameter values from which trajectories are followed to a cycle
       real(wp) :: starts(100) = absent
-      !> Velocity before these trajectories, and their time
-      real(wp) :: v = missing, t_transient = missing
+      !> Time of these trajectories
+      real(wp) :: t_transient = missing
       !> Degree and intervals of the first mesh
       integer :: degree = missing_count, intervals = missing_count
       !> Longest period of a branch
       real(wp) :: longest_period = missing
       !> Most orbits of a branch
       integer :: most_orbits = missing_count
-      !> Window in which curves of special points are followed; none are if it is left out
-      real(wp) :: epsilon_window(2) = absent, tau_window(2) = absent
+      !> Two parameters over which curves of special points are followed, and windows on them; none are
+      !> if these are left out
+      character(len=word_length) :: curves_along(2) = ""
+      real(wp) :: curves_windows(2, 2) = 0.0_wp
    end type cycles_section_type
 
    !> Multipliers written for each orbit
@@ -56,32 +62,39 @@ contains
       !> Error if the file cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
       type(cycles_section_type) :: cycles
+      type(cycle_line_type) :: line
+      type(history_type) :: history
       type(namelist_file_type) :: file
-      integer :: along
+      integer :: i
       namelist /settings/ cycles
 
       call file%open(path, error)
       if (allocated(error)) return
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       ! the value of the parameter along the line is not used
-      call cycles%parameters%put(trim(cycles%along), cycles%window(1))
+      call cycles%model%put(trim(cycles%along), cycles%window(1))
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
-      call cycles%parameters%check(path, error)
-      call check_choice(error, path, "along", cycles%along, cycles%parameters%names())
+      if (allocated(error)) return
+      call cycles%model%open(path, line%model, error)
+      call read_histories(path, line%model, history, error)
+      if (allocated(error)) return
+      call check_choice(error, path, "along", cycles%along, line%model%names)
       call check_count(error, path, "degree", cycles%degree, at_least=3)
-      along = findloc(cycles%parameters%names() == cycles%along, .true., dim=1)
-      line_settings = cycle_settings_type(line=cycle_line_type(along, cycles%parameters, &
-                                                               cycles%window), &
-                                     starts=elements(cycles%starts), &
-                                     t_transient=cycles%t_transient, degree=cycles%degree, &
-                                     intervals=cycles%intervals, &
-                                     longest_period=cycles%longest_period, &
-                                     most_orbits=cycles%most_orbits)
-      allocate (line_settings%start_v(size(line_settings%starts)), source=cycles%v)
-      if (any([cycles%epsilon_window, cycles%tau_window] < absent)) then
-         line_settings%curve_window = reshape([cycles%epsilon_window, cycles%tau_window], [2, 2])
-      end if
+      line%along = line%model%number_of(cycles%along)
+      line%window = cycles%window
+      line_settings = cycle_settings_type(line=line, starts=elements(cycles%starts), &
+                                          t_transient=cycles%t_transient, degree=cycles%degree, &
+                                          intervals=cycles%intervals, &
+                                          longest_period=cycles%longest_period, &
+                                          most_orbits=cycles%most_orbits)
+      if (all(cycles%curves_along == "")) return
+      do i = 1, 2
+         call check_choice(error, path, "curves_along", cycles%curves_along(i), line%model%names)
+      end do
+      if (.not. any(cycles%curves_along == cycles%along)) return
+      line_settings%curve_along = [(line%model%number_of(cycles%curves_along(i)), i=1, 2)]
+      line_settings%curve_window = cycles%curves_windows
    end subroutine read_cycles
 
    !> Write the orbits of all branches one after another, the branches, the starts left out, the
@@ -92,7 +105,7 @@ contains
       !> What was asked
       type(cycle_settings_type), intent(in) :: settings
       !> Hopf points
-      type(hopf_start_type), intent(in) :: hopf(:)
+      type(hopf_on_line_type), intent(in) :: hopf(:)
       !> Branches
       type(cycles_type), intent(in) :: found(:)
       !> Starts without a branch of their own
@@ -102,33 +115,40 @@ contains
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
-      character(len=key_length), allocatable :: names(:)
-      character(len=:), allocatable :: along, meaning
-      integer :: rows
+      type(description_type) :: about
+      character(len=:), allocatable :: along
+      integer :: i, rows
+      real(wp), allocatable :: numbers(:, :)
 
-      names = settings%line%parameters%names()
-      along = trim(key_of(names(settings%line%along)))
-      meaning = meaning_of(settings%line%parameters%law, names(settings%line%along))
-      names = key_of(names)
+      about = settings%line%model%describe()
+      along = trim(settings%line%model%names(settings%line%along))
       call file%create(path, "Cycles along a line of parameters: stable and unstable branches")
       call file%attribute("along", along)
-      call put_parameters(file, settings%line%parameters, but=along)
+      call put_model(file, settings%line%model, but=[along])
       call file%attribute("degree", int(settings%degree, int64))
-      call put_orbits(file, settings%line%along, along, meaning, found)
+      call put_orbits(file, settings%line%model, settings%line%along, along, &
+                      trim(about%parameters(settings%line%along)%meaning), found)
       rows = file%dimension("left_out", size(left_out))
       call file%words(rows, "left_out_origin", left_out%origin, "where it starts")
       call file%column(rows, "left_out_"//along, left_out%at, "parameter along the line")
       call file%words(rows, "left_out_reason", left_out%reason, "why no branch was followed")
-      call put_points(file, names, found)
-      call put_hopf(file, names, hopf)
-      call put_curves(file, curves)
-      call put_cusps(file, names, curves)
+      call put_points(file, settings%line%model, found)
+      allocate (numbers(size(settings%line%model%names), size(hopf)))
+      do i = 1, size(hopf)
+         numbers(:, i) = hopf(i)%numbers
+      end do
+      rows = file%dimension("hopf", size(hopf))
+      call put_places(file, rows, settings%line%model, numbers, "hopf_")
+      call file%column(rows, "hopf_omega", hopf%omega, "angular frequency of its pair")
+      call put_curves(file, settings, curves)
+      call put_cusps(file, settings%line%model, curves)
       call file%finish(error)
    end subroutine write_cycles
 
    !> Orbits, and the branches they are on.
-   subroutine put_orbits(file, along, name, meaning, found)
+   subroutine put_orbits(file, model, along, name, meaning, found)
       type(output_file_type), intent(inout) :: file
+      type(model_type), intent(in) :: model
       !> Number of the parameter along the line, its key and what it is
       integer, intent(in) :: along
       character(len=*), intent(in) :: name, meaning
@@ -152,7 +172,7 @@ contains
             row = row + 1
             associate (orbit => found(i)%branch%orbits(j), mu => found(i)%branch%multipliers(j))
                columns(row, 1:2) = [orbit%parameters(along), orbit%period]
-               columns(row, 3:4) = exp(orbit%range_of(index_of_ln_v))
+               columns(row, 3:4) = signal_range(model, orbit)
                columns(row, 5) = mu%trivial_error
                branch(row) = i
                intervals(row) = orbit%intervals()
@@ -166,8 +186,10 @@ contains
       rows = file%dimension("orbit", all, coordinates=name//" branch")
       call file%column(rows, name, columns(:, 1), meaning)
       call file%column(rows, "period", columns(:, 2), "period")
-      call file%column(rows, "v_least", columns(:, 3), "least velocity")
-      call file%column(rows, "v_most", columns(:, 4), "greatest velocity")
+      associate (signal => signal_name(model))
+         call file%column(rows, signal//"_least", columns(:, 3), "least "//signal)
+         call file%column(rows, signal//"_most", columns(:, 4), "greatest "//signal)
+      end associate
       call file%column(rows, "multiplier_error", columns(:, 5), &
                        "distance of the trivial multiplier from 1")
       call file%column(rows, "branch", branch, "number of the branch, from 1")
@@ -182,11 +204,20 @@ contains
       call file%words(rows, "branch_ending", words(:, 2), "why it ends")
    end subroutine put_orbits
 
+   !> Least and greatest signal on an orbit.
+   pure function signal_range(model, orbit) result(range)
+      type(model_type), intent(in) :: model
+      type(periodic_orbit_type), intent(in) :: orbit
+      real(wp) :: range(2)
+
+      range = orbit%range_of(model%sizes%observed%component)
+      if (model%sizes%observed%is_exponential) range = exp(range)
+   end function signal_range
+
    !> Special points.
-   subroutine put_points(file, names, found)
+   subroutine put_points(file, model, found)
       type(output_file_type), intent(inout) :: file
-      !> Names of the parameters
-      character(len=*), intent(in) :: names(:)
+      type(model_type), intent(in) :: model
       type(cycles_type), intent(in) :: found(:)
       character(len=kind_length), allocatable :: words(:, :)
       real(wp), allocatable :: columns(:, :), places(:, :)
@@ -194,7 +225,7 @@ contains
       integer :: all, i, j, row, rows
 
       all = sum([(size(found(i)%points), i=1, size(found))])
-      allocate (words(all, 2), columns(all, 10), numbers(all, 5), places(size(names), all))
+      allocate (words(all, 2), columns(all, 10), numbers(all, 5), places(size(model%names), all))
       columns = ieee_value(1.0_wp, ieee_quiet_nan)
       row = 0
       do i = 1, size(found)
@@ -202,28 +233,27 @@ contains
             row = row + 1
             associate (point => found(i)%points(j))
                words(row, :) = [point%kind, point%criticality()]
-               places(:, row) = point%orbit%parameters(:size(names))
+               places(:, row) = point%orbit%parameters
                columns(row, 1) = point%orbit%period
-               columns(row, 2) = exp(maxval(point%orbit%range_of(index_of_ln_v)))
+               columns(row, 2) = maxval(signal_range(model, point%orbit))
                columns(row, 3:7) = [real(point%multiplier), aimag(point%multiplier), &
                                      point%angle(), point%trivial_error, point%mesh_error]
                if (allocated(point%coefficient)) columns(row, 8) = point%coefficient
                if (allocated(point%coefficient_error)) columns(row, 9) = point%coefficient_error
                if (allocated(point%coefficient) .and. allocated(point%growth)) then
-                  columns(row, 10) = point%torus_amplitude(index_of_ln_v)
+                  columns(row, 10) = point%torus_amplitude(model%sizes%observed%component)
                end if
                numbers(row, :) = [i, point%unstable, nearest_resonance(abs(point%angle()))]
             end associate
          end do
       end do
-      rows = file%dimension("special", all, coordinates="special_tau special_epsilon")
+      rows = file%dimension("special", all)
       call file%words(rows, "special_kind", words(:, 1), "kind of the special point")
       call file%words(rows, "special_criticality", words(:, 2), "criticality of a torus point")
-      do i = 1, size(names)
-         call file%column(rows, "special_"//trim(names(i)), places(i, :), "its "//trim(names(i)))
-      end do
+      call put_places(file, rows, model, places, "special_")
       call file%column(rows, "special_period", columns(:, 1), "its period")
-      call file%column(rows, "special_v_most", columns(:, 2), "its greatest velocity")
+      call file%column(rows, "special_"//signal_name(model)//"_most", columns(:, 2), &
+                       "its greatest "//signal_name(model))
       call file%column(rows, "special_multiplier_real", columns(:, 3), &
                        "real part of the critical multiplier")
       call file%column(rows, "special_multiplier_imaginary", columns(:, 4), "imaginary part of it")
@@ -237,7 +267,7 @@ contains
       call file%column(rows, "special_coefficient_error", columns(:, 9), &
                        "difference of it on two meshes")
       call file%column(rows, "special_amplitude", columns(:, 10), &
-                       "half range of maxima of ln v of tori, over root of distance")
+                       "half range of maxima of the component of the signal of tori, over root of distance")
       call file%column(rows, "special_branch", numbers(:, 1), "its branch, from 1")
       call file%column(rows, "special_unstable_before", numbers(:, 2), &
                        "unstable multipliers before it")
@@ -249,8 +279,9 @@ contains
    end subroutine put_points
 
    !> Curves, each from one end to the other.
-   subroutine put_curves(file, curves)
+   subroutine put_curves(file, settings, curves)
       type(output_file_type), intent(inout) :: file
+      type(cycle_settings_type), intent(in) :: settings
       type(cycle_curve_type), intent(in) :: curves(:)
       character(len=kind_length) :: words(size(curves), 3)
       real(wp), allocatable :: columns(:, :)
@@ -274,14 +305,19 @@ contains
             row = row + 1
             number(row) = i
             associate (point => curves(i)%parts(merge(1, 2, j > 0))%points(merge(j, 2 - j, j > 0)))
-               columns(row, :) = [point%orbit%parameters(2), point%orbit%parameters(1), &
+               columns(row, :) = [point%orbit%parameters(settings%curve_along), &
                                   point%orbit%period, abs(point%angle()), point%trivial_error]
             end associate
          end do
       end do
-      rows = file%dimension("curve_point", all, coordinates="curve_tau curve_epsilon")
-      call file%column(rows, "curve_epsilon", columns(:, 1), "epsilon of a point of a curve")
-      call file%column(rows, "curve_tau", columns(:, 2), "its tau")
+      rows = file%dimension("curve_point", all)
+      if (allocated(settings%curve_along)) then
+         do k = 1, 2
+            associate (name => trim(settings%line%model%names(settings%curve_along(k))))
+               call file%column(rows, "curve_"//name, columns(:, k), name//" of a point of a curve")
+            end associate
+         end do
+      end if
       call file%column(rows, "curve_period", columns(:, 3), "its period")
       call file%column(rows, "curve_angle", columns(:, 4), &
                        "angle of the critical multiplier over a full turn")
@@ -295,33 +331,30 @@ contains
    end subroutine put_curves
 
    !> Cusps of curves of folds.
-   subroutine put_cusps(file, names, curves)
+   subroutine put_cusps(file, model, curves)
       type(output_file_type), intent(inout) :: file
-      !> Names of the parameters
-      character(len=*), intent(in) :: names(:)
+      type(model_type), intent(in) :: model
       type(cycle_curve_type), intent(in) :: curves(:)
       integer :: i, k, rows
       integer, allocatable :: number(:)
       real(wp), allocatable :: columns(:, :), places(:, :)
 
       i = sum([((size(curves(i)%parts(k)%cusps), k=1, 2), i=1, size(curves))])
-      allocate (columns(4, i), places(size(names), i), number(0))
+      allocate (columns(4, i), places(size(model%names), i), number(0))
       do i = 1, size(curves)
          do k = 1, 2
             call add_cusps(curves(i)%parts(k)%cusps)
          end do
       end do
-      rows = file%dimension("cusp", size(number), coordinates="cusp_tau cusp_epsilon")
-      do i = 1, size(names)
-         call file%column(rows, "cusp_"//trim(names(i)), places(i, :), &
-                          trim(names(i))//" of a cusp of a curve of folds")
-      end do
+      rows = file%dimension("cusp", size(number))
+      call put_places(file, rows, model, places, "cusp_")
       call file%column(rows, "cusp_period", columns(1, :), "its period")
-      call file%column(rows, "cusp_v_most", columns(2, :), "its greatest velocity")
+      call file%column(rows, "cusp_"//signal_name(model)//"_most", columns(2, :), &
+                       "its greatest "//signal_name(model))
       call file%column(rows, "cusp_multiplier_error", columns(3, :), &
                        "distance of the trivial multiplier from 1")
       call file%column(rows, "cusp_mesh_error", columns(4, :), &
-                       "difference of tau or epsilon on two meshes")
+                       "difference of the parameters on two meshes")
       call file%column(rows, "cusp_curve", number, "its curve, from 1")
 
    contains
@@ -334,32 +367,11 @@ contains
          do j = 1, size(cusps)
             number = [number, i]
             associate (orbit => cusps(j)%orbit)
-               places(:, size(number)) = orbit%parameters(:size(names))
-               columns(:, size(number)) = [orbit%period, &
-                                           exp(maxval(orbit%range_of(index_of_ln_v))), &
+               places(:, size(number)) = orbit%parameters
+               columns(:, size(number)) = [orbit%period, maxval(signal_range(model, orbit)), &
                                            cusps(j)%trivial_error, cusps(j)%mesh_error]
             end associate
          end do
       end subroutine add_cusps
    end subroutine put_cusps
-
-   !> Hopf points.
-   subroutine put_hopf(file, names, hopf)
-      type(output_file_type), intent(inout) :: file
-      !> Names of the parameters
-      character(len=*), intent(in) :: names(:)
-      type(hopf_start_type), intent(in) :: hopf(:)
-      real(wp) :: places(size(vector_of(block_parameters_type())), size(hopf))
-      integer :: i, rows
-
-      do i = 1, size(hopf)
-         places(:, i) = vector_of(hopf(i)%parameters)
-      end do
-      rows = file%dimension("hopf", size(hopf), coordinates="hopf_tau hopf_epsilon")
-      do i = 1, size(names)
-         call file%column(rows, "hopf_"//trim(names(i)), places(i, :), &
-                          trim(names(i))//" of the Hopf point")
-      end do
-      call file%column(rows, "hopf_omega", hopf%omega, "angular frequency of its pair")
-   end subroutine put_hopf
 end module cycles_files

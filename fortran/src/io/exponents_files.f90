@@ -1,17 +1,17 @@
 !> What the program `exponents` reads and writes: a scene and how its exponents are measured; these.
 module exponents_files
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use block_attributes, only: put_scene
-   use block_parameters, only: block_history_type
    use dde, only: integration_options
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
    use exponent_averages, only: average_growth, dimension_of, exponent_type, running_averages, &
                                 sign_of, zero
    use lyapunov_spectrum, only: growth_type
+   use model_history, only: history_type
+   use model_problem, only: model_type
    use namelist_input, only: elements, namelist_file_type
    use netcdf_output, only: output_file_type
-   use scene_input, only: check_scene, scene_type
+   use scene_input, only: open_scene, put_scene, scene_type
    use value_checks, only: absent, check_count, check_number, missing, missing_count, most_samples
    implicit none (type, external)
    private
@@ -60,11 +60,14 @@ contains
    end function options_of_runs
 
    !> Read and check a scene and the settings of its exponents.
-   subroutine read_exponents(path, scene, exponents, error)
+   subroutine read_exponents(path, scene, model, history, exponents, error)
       !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> The scene
       type(scene_type), intent(out) :: scene
+      !> Its model with its past, and its history
+      type(model_type), intent(out) :: model
+      type(history_type), intent(out) :: history
       !> The settings
       type(exponents_settings_type), intent(out) :: exponents
       !> They cannot be read, or a value is out of range
@@ -77,20 +80,21 @@ contains
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
-      call check_scene(path, scene, error)
+      call open_scene(path, scene, model, history, error)
       call check_count(error, path, "exponents%blocks", exponents%blocks, at_least=2)
       call check_number(error, path, "exponents%interval", exponents%interval, &
                         at_least=exponents%t_end/most_samples*exponents%count)
    end subroutine read_exponents
 
    !> Write the exponents of a scene: the first run has its own settings, the others are checks.
-   subroutine write_exponents(path, scene, histories, settings, options, measured, error)
+   subroutine write_exponents(path, scene, model, history, settings, options, measured, error)
       !> Path of the file
       character(len=*), intent(in) :: path
       !> The scene
       type(scene_type), intent(in) :: scene
-      !> Values for t <= 0 of each block
-      type(block_history_type), intent(in) :: histories(:)
+      !> Its model and its history
+      type(model_type), intent(in) :: model
+      type(history_type), intent(in) :: history
       !> How they were measured
       type(exponents_settings_type), intent(in) :: settings
       !> Tolerances and longest steps
@@ -122,7 +126,7 @@ contains
       associate (first => measured(1))
          call running_averages(with_flow(first%growth, flow), first%length, most_times, time, &
                                averages)
-         call file%create(path, "Lyapunov exponents of the spring block with delayed friction")
+         call file%create(path, "Lyapunov exponents of a motion")
          ids = [file%dimension("exponent", settings%count), &
                 file%dimension("run", size(options), coordinates="tolerance longest_step"), &
                 file%dimension("t", size(time)), file%dimension("time_block", settings%blocks)]
@@ -142,7 +146,7 @@ contains
          call file%table(ids([1, 2]), "sign", real(signs, wp), "sign of the exponent, 2: unclear")
          call file%table(ids([1, 4]), "block_value", blocks, "exponent in each block")
          call file%table(ids([1, 3]), "running_average", averages, "plain average up to a time")
-         call put_scene(file, scene, histories)
+         call put_scene(file, scene, model, history)
          call file%attribute("method", trim(scene%method))
          call file%attribute("t_begin", first%t_begin)
          call file%attribute("t_end", settings%t_end)

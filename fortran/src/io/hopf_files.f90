@@ -1,34 +1,29 @@
 !> What the program `hopf` reads and writes: the plane and window of Hopf curves; these curves.
 module hopf_files
-   use block_attributes, only: key_of, put_law
-   use block_parameters, only: block_parameters_type, meaning_of, missing_parameters, paper_law, &
-                               parameter_meanings, parameter_names, vector_of
-   use dde_errors, only: error_type, text
-   use hopf_condition, only: find_hopf_condition
+   use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use double_hopf, only: letters => word_length
    use hopf_curves, only: curve_point_type
-   use hopf_planes, only: curve_plane_type
+   use hopf_planes, only: curve_plane_type, middles
    use hopf_points, only: hopf_point_type
+   use model_attributes, only: put_model, put_places
+   use model_description, only: model_length => word_length
+   use model_settings, only: model_settings_type
    use namelist_input, only: namelist_file_type
-   use model_description, only: law_length => word_length
    use netcdf_output, only: output_file_type
-   use stability_map, only: middles
-   use value_checks, only: check_choice, missing, missing_count
+   use value_checks, only: check_choice, check_count, missing, missing_count
    implicit none (type, external)
    private
    public :: hopf_settings_type, read_plane, write_curves
 
    !> A plane as the namelist gives it; all nondimensional.
    type :: hopf_settings_type
-      !> Name of the parameter over epsilon
-      character(len=law_length) :: ordinate = ""
-      !> The other parameters; epsilon and the ordinate may be left out
-      type(block_parameters_type) :: parameters = missing_parameters
-      !> Window on epsilon
-      real(wp) :: epsilon_window(2) = missing
-      !> Window on the ordinate
-      real(wp) :: ordinate_window(2) = missing
+      !> The model with its parameters; abscissa and ordinate may be left out
+      type(model_settings_type) :: model
+      !> Names of the parameters that are abscissa and ordinate
+      character(len=model_length) :: along(2) = ""
+      !> Windows on both: least and most of the abscissa, then of the ordinate
+      real(wp) :: windows(2, 2) = missing
       !> Cells of the map of unstable pairs along each side of the window
       integer :: cells = missing_count
    end type hopf_settings_type
@@ -45,30 +40,32 @@ contains
       type(curve_plane_type), intent(out) :: plane
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
-      character(len=law_length), allocatable :: names(:)
       type(namelist_file_type) :: file
+      integer :: i
       namelist /settings/ hopf_curves
 
       call file%open(path, error)
       if (allocated(error)) return
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
-      associate (parameters => hopf_curves%parameters)
-         call parameters%put("epsilon", hopf_curves%epsilon_window(1))
-         call parameters%put(trim(hopf_curves%ordinate), hopf_curves%ordinate_window(1))
-         write (file%copy, nml=settings, delim="quote")
-         call file%close(error)
-         call parameters%check(path, error)
-         if (allocated(error)) return
-         names = parameters%names()
-         call check_choice(error, path, "ordinate", hopf_curves%ordinate, &
-                           pack(names, names /= "epsilon"))
-         plane%along = findloc(names, hopf_curves%ordinate, dim=1)
-         plane%fixed = parameters
-      end associate
-      plane%epsilon_window = hopf_curves%epsilon_window
-      plane%ordinate_window = hopf_curves%ordinate_window
+      do i = 1, 2
+         call hopf_curves%model%put(trim(hopf_curves%along(i)), hopf_curves%windows(1, i))
+      end do
+      write (file%copy, nml=settings, delim="quote")
+      call file%close(error)
       if (allocated(error)) return
-      call find_hopf_condition(plane%fixed, plane%condition, error)
+      call hopf_curves%model%open(path, plane%model, error, keep_delays=.true.)
+      call check_count(error, path, "cells", hopf_curves%cells, at_least=2)
+      do i = 1, 2
+         if (allocated(error)) return
+         call check_choice(error, path, "along", hopf_curves%along(i), plane%model%names)
+         plane%along(i) = plane%model%number_of(hopf_curves%along(i))
+      end do
+      plane%window = hopf_curves%windows
+      if (allocated(error)) return
+      if (plane%model%shape%blocks > 1) then
+         call raise(error, path//": blocks = "//text(plane%model%shape%blocks) &
+                    //"; expected 1: Hopf curves are those of one block or of one mode")
+      end if
    end subroutine read_plane
 
    !> Write all points of all curves, piece by piece, the special points and the map.
@@ -83,82 +80,59 @@ contains
       type(curve_point_type), intent(in) :: points(:)
       !> Special points
       type(hopf_point_type), intent(in) :: special(:)
-      !> Number of unstable pairs in cells of the window, epsilon first
+      !> Number of unstable pairs in cells of the window, the abscissa first
       integer, intent(in) :: pairs(:, :)
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
-      character(len=:), allocatable :: key
-      real(wp), allocatable :: vector(:)
+      real(wp) :: numbers(size(plane%model%names), size(points))
       integer :: cells(2), i, rows
 
       call file%create(path, "Hopf curves: where a pair of characteristic roots is imaginary")
-      rows = file%dimension("point", size(points), coordinates="epsilon tau xi")
-      associate (place => points%parameters)
-         call file%column(rows, "epsilon", place%epsilon, trim(parameter_meanings(2)))
-         call file%column(rows, "tau", place%tau, trim(parameter_meanings(1)))
-         call file%column(rows, "xi", place%xi, trim(parameter_meanings(3)))
-      end associate
-      call file%column(rows, "omega", points%omega, "angular frequency of the pair")
-      call file%column(rows, "branch", points%branch, "branch k of equation (10)")
+      call put_model(file, plane%model, but=settings%along)
+      call file%attribute("abscissa", trim(settings%along(1)))
+      call file%attribute("ordinate", trim(settings%along(2)))
+      rows = file%dimension("point", size(points))
+      do i = 1, size(points)
+         numbers(:, i) = points(i)%numbers
+      end do
+      call put_places(file, rows, plane%model, numbers, "")
+      call file%column(rows, "omega", points%at%omega, "angular frequency of the pair")
+      call file%column(rows, "branch", points%branch, &
+                       "turns that the pair makes in the longest delay: k of equation (10)")
       call file%column(rows, "piece", points%piece, "number of the unbroken piece of curve")
       call file%column(rows, "residual", points%residual, &
                        "residual of the characteristic function over its largest term")
-      call file%column(rows, "crossing", points%crossing, "sign of d Re(lambda)/d tau")
-      if (settings%parameters%law == paper_law) then
-         call file%column(rows, "printed_tau", points%printed_tau, "delay by (10) as printed")
-         call file%column(rows, "printed_residual", points%printed_residual, &
-                          "residual of (5) there over its largest term")
-      end if
+      call file%column(rows, "crossing", points%crossing, "sign of d Re(lambda)/d ordinate")
       call file%column(rows, "l1", points%l1, "first Lyapunov coefficient")
       call file%column(rows, "unstable_pairs", points%unstable_pairs, &
                        "unstable pairs beside this one")
-      key = trim(key_of(settings%ordinate))
-      call put_law(file, plane%fixed, [key])
-      call file%attribute("ordinate", key)
-      vector = vector_of(plane%fixed)
-      do i = 1, size(parameter_names)
-         if (parameter_names(i) == "epsilon" .or. parameter_names(i) == settings%ordinate) cycle
-         call file%attribute(trim(parameter_names(i)), vector(i))
-      end do
-      if (.not. plane%by_frequency()) then
-         call file%column(rows, key, &
-                          [(plane%ordinate(points(i)%parameters), i=1, size(points))], &
-                          meaning_of(settings%parameters%law, settings%ordinate))
-      end if
-      rows = file%dimension("special", size(special), &
-                            coordinates="special_epsilon special_tau special_xi")
-      call put_special(file, rows, special)
-      if (.not. plane%by_frequency()) then
-         call file%column(rows, "special_"//key, &
-                          [(plane%ordinate(special(i)%parameters), i=1, size(special))], &
-                          "its "//key)
-      end if
-      call put_unfoldings(file, settings, rows, special)
-      cells = [file%dimension("map_epsilon", size(pairs, 1)), &
+      call put_special(file, plane, special)
+      call put_unfoldings(file, settings, file%dimension("special", size(special)), special)
+      cells = [file%dimension("map_abscissa", size(pairs, 1)), &
                file%dimension("map_ordinate", size(pairs, 2))]
-      call file%column(cells(1), "map_epsilon", middles(settings%epsilon_window, size(pairs, 1)), &
-                       "epsilon in the middle of a cell")
-      call file%column(cells(2), "map_ordinate", &
-                       middles(settings%ordinate_window, size(pairs, 2)), &
+      call file%column(cells(1), "map_abscissa", middles(settings%windows(:, 1), size(pairs, 1)), &
+                       "abscissa in the middle of a cell")
+      call file%column(cells(2), "map_ordinate", middles(settings%windows(:, 2), size(pairs, 2)), &
                        "ordinate in the middle of a cell")
       call file%table(cells, "map_unstable_pairs", real(pairs, wp), "number of unstable pairs")
       call file%finish(error)
    end subroutine write_curves
 
    !> The special points.
-   subroutine put_special(file, rows, special)
+   subroutine put_special(file, plane, special)
       type(output_file_type), intent(inout) :: file
-      integer, intent(in) :: rows
+      type(curve_plane_type), intent(in) :: plane
       type(hopf_point_type), intent(in) :: special(:)
-      integer :: i
+      real(wp) :: numbers(size(plane%model%names), size(special))
+      integer :: i, rows
 
+      rows = file%dimension("special", size(special))
       call file%words(rows, "special_kind", special%kind, "kind of the special point")
-      associate (place => special%parameters)
-         call file%column(rows, "special_epsilon", place%epsilon, "its epsilon")
-         call file%column(rows, "special_tau", place%tau, "its tau")
-         call file%column(rows, "special_xi", place%xi, "its xi")
-      end associate
+      do i = 1, size(special)
+         numbers(:, i) = special(i)%numbers
+      end do
+      call put_places(file, rows, plane%model, numbers, "special_")
       call file%column(rows, "special_unstable_pairs", special%unstable_pairs, &
                        "unstable pairs beside those on the axis")
       do i = 1, 2
@@ -216,11 +190,11 @@ contains
       call file%words(rows, "special_unfolding", unfolding, &
                       "case of Guckenheimer and Holmes, table 7.5.1")
       do j = 1, 2
-         call put("start_epsilon_"//text(j), special%unfolding%start(1, j), &
-                  "direction of curve "//text(j)//" of folds or tori, epsilon")
-         call put("start_"//trim(key_of(settings%ordinate))//"_"//text(j), &
-                  special%unfolding%start(2, j), &
-                  "direction of curve "//text(j)//" of folds or tori, "//trim(settings%ordinate))
+         do k = 1, 2
+            call put("start_"//trim(settings%along(k))//"_"//text(j), &
+                     special%unfolding%start(k, j), &
+                     "direction of curve "//text(j)//" of folds or tori, "//trim(settings%along(k)))
+         end do
          call put("angle_"//text(j), angle(:, j), &
                   "angle of the multipliers where tori of cycle "//text(j)//" start")
          call file%words(rows, "special_criticality_"//text(j), criticality(:, j), &

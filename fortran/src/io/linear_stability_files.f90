@@ -1,38 +1,55 @@
-!> What the program `linear_stability` reads and writes: a state; its roots and stability changes.
+!> What the program `linear_stability` reads and writes: a model; its roots and stability changes.
 module linear_stability_files
-   use block_attributes, only: put_parameters
-   use block_parameters, only: block_parameters_type, missing_parameters
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
-   use namelist_input, only: namelist_file_type
+   use hopf_lines, only: hopf_on_line_type
+   use model_attributes, only: put_model
+   use model_problem, only: model_type
+   use model_settings, only: model_settings_type
+   use namelist_input, only: namelist_file_type, word_length
    use netcdf_output, only: output_file_type
-   use stability_changes, only: stability_change_type
-   use value_checks, only: missing
+   use value_checks, only: check_choice, missing
    implicit none (type, external)
    private
-   public :: linear_stability_settings_type, read_linear_stability, write_linear_stability
+   public :: changes_type, linear_stability_settings_type, read_linear_stability, &
+             write_linear_stability
 
-   !> State and bounds; all nondimensional.
+   !> Most parameters along which changes are looked for.
+   integer, parameter :: most = 16
+
+   !> Model and bounds; all nondimensional.
    type :: linear_stability_settings_type
-      !> Parameters of the block
-      type(block_parameters_type) :: parameters = missing_parameters
+      !> The model with its parameters
+      type(model_settings_type) :: model
       !> Roots with a real part above this are kept
       real(wp) :: root_bound = missing
-      !> Longest delay and largest epsilon at which a change of stability is looked for
-      real(wp) :: tau_most = missing, epsilon_most = missing
+      !> Parameters along which changes of stability are looked for, and windows on them
+      character(len=word_length) :: along(most) = ""
+      real(wp) :: windows(2, most) = 0.0_wp
    end type linear_stability_settings_type
+
+   !> Changes of stability along a parameter.
+   type :: changes_type
+      !> Number of the parameter
+      integer :: along = 0
+      !> The Hopf points, the parameter ascending
+      type(hopf_on_line_type), allocatable :: points(:)
+   end type changes_type
 
 contains
 
-   !> Read and check state and bounds.
-   subroutine read_linear_stability(path, linear_stability, error)
+   !> Read and check model and bounds.
+   subroutine read_linear_stability(path, linear_stability, model, error)
       !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> The settings
       type(linear_stability_settings_type), intent(out) :: linear_stability
+      !> The model
+      type(model_type), intent(out) :: model
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
       type(namelist_file_type) :: file
+      integer :: i
       namelist /settings/ linear_stability
 
       call file%open(path, error)
@@ -40,62 +57,69 @@ contains
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
-      call linear_stability%parameters%check(path, error)
+      if (allocated(error)) return
+      call linear_stability%model%open(path, model, error, keep_delays=.true.)
+      do i = 1, count(linear_stability%along /= "")
+         if (.not. allocated(error)) then
+            call check_choice(error, path, "along", linear_stability%along(i), model%names)
+         end if
+      end do
    end subroutine read_linear_stability
 
    !> Write roots and changes of stability.
-   subroutine write_linear_stability(path, settings, roots, pairs, with_tau, with_epsilon, &
-                                     unknown, error)
+   subroutine write_linear_stability(path, settings, model, roots, pairs, changes, error)
       !> Path of the file
       character(len=*), intent(in) :: path
       !> What was asked for
       type(linear_stability_settings_type), intent(in) :: settings
+      !> The model
+      type(model_type), intent(in) :: model
       !> Roots, the rightmost first
       complex(wp), intent(in) :: roots(:)
       !> Number of unstable pairs, and the same without delay
       integer, intent(in) :: pairs(2)
-      !> Changes as the delay grows
-      type(stability_change_type), intent(in) :: with_tau(:)
-      !> Changes as epsilon grows
-      type(stability_change_type), intent(in) :: with_epsilon(:)
-      !> Why changes are not known, if they are not
-      type(error_type), allocatable, intent(in) :: unknown
+      !> Changes along each parameter
+      type(changes_type), intent(in) :: changes(:)
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
-      integer :: rows
+      integer :: i, rows
 
-      call file%create(path, "Linear stability of steady sliding")
-      call put_parameters(file, settings%parameters)
+      call file%create(path, "Linear stability of a model at rest")
+      call put_model(file, model)
       call file%attribute("root_bound", settings%root_bound)
-      call file%attribute("tau_most", settings%tau_most)
-      call file%attribute("epsilon_most", settings%epsilon_most)
       call file%attribute("unstable_pairs", int(pairs(1), int64))
       call file%attribute("unstable_pairs_without_delay", int(pairs(2), int64))
-      if (allocated(unknown)) call file%attribute("changes", "not computed: "//unknown%message)
       rows = file%dimension("root", size(roots))
       call file%column(rows, "root_real", real(roots), "real part of a characteristic root")
       call file%column(rows, "root_imag", aimag(roots), "its imaginary part")
-      call put_changes(file, "tau", with_tau%parameters%tau, with_tau)
-      call put_changes(file, "epsilon", with_epsilon%parameters%epsilon, with_epsilon)
+      do i = 1, size(changes)
+         call put_changes(file, trim(model%names(changes(i)%along)), settings%windows(2, i), &
+                          changes(i))
+      end do
       call file%finish(error)
    end subroutine write_linear_stability
 
-   !> Changes of stability with one parameter.
-   subroutine put_changes(file, parameter_name, values, changes)
+   !> Changes of stability along one parameter.
+   subroutine put_changes(file, name, most, changes)
       type(output_file_type), intent(inout) :: file
-      character(len=*), intent(in) :: parameter_name
-      real(wp), intent(in) :: values(:)
-      type(stability_change_type), intent(in) :: changes(:)
-      integer :: rows
+      !> Name of the parameter, and the end of its window
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: most
+      type(changes_type), intent(in) :: changes
+      integer :: i, rows
 
-      rows = file%dimension("change_with_"//parameter_name, size(changes))
-      call file%column(rows, parameter_name//"_of_change", values, &
-                       parameter_name//" at which a pair crosses the axis")
-      call file%column(rows, parameter_name//"_change_omega", changes%omega, "its frequency")
-      call file%column(rows, parameter_name//"_change_pairs_before", changes%pairs_before, &
-                       "unstable pairs below")
-      call file%column(rows, parameter_name//"_change_pairs_after", changes%pairs_after, &
-                       "unstable pairs above")
+      call file%attribute(name//"_most", most)
+      associate (points => changes%points)
+         rows = file%dimension("change_with_"//name, size(points))
+         call file%column(rows, name//"_of_change", &
+                          [(points(i)%numbers(changes%along), i=1, size(points))], &
+                          name//" at which a pair crosses the axis")
+         call file%column(rows, name//"_change_omega", points%omega, "its frequency")
+         call file%column(rows, name//"_change_pairs_before", points%pairs_before, &
+                          "unstable pairs below")
+         call file%column(rows, name//"_change_pairs_after", points%pairs_behind, &
+                          "unstable pairs above")
+      end associate
    end subroutine put_changes
 end module linear_stability_files

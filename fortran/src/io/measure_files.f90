@@ -2,12 +2,14 @@
 !> samples.
 module measure_files
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use block_parameters, only: parameter_meanings
-   use cases_input, only: check_cases, missing_case, most_cases
+   use cases_input, only: case_settings_type, most_cases, open_cases
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
    use measured_case, only: case_type
    use measured_run, only: baseline_methods, run_type
+   use model_attributes, only: put_places
+   use model_description, only: description_type, model_length => word_length
+   use model_history, only: shown_name
    use namelist_input, only: element_length, elements, namelist_file_type
    use netcdf_output, only: output_file_type
    use value_checks, only: absent, check_count, missing, missing_count
@@ -50,26 +52,27 @@ module measure_files
 contains
 
    !> Read and check cases and settings.
-   subroutine read_measure(path, cases, measure, error)
+   subroutine read_measure(path, measured, measure, error)
       !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> The cases
-      type(case_type), allocatable, intent(out) :: cases(:)
+      type(case_type), allocatable, intent(out) :: measured(:)
       !> The settings
       type(measure_settings_type), intent(out) :: measure
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
+      type(case_settings_type), allocatable :: cases(:)
       type(namelist_file_type) :: file
       namelist /settings/ cases, measure
 
-      allocate (cases(most_cases), source=missing_case)
+      allocate (cases(most_cases))
       call file%open(path, error)
       if (allocated(error)) return
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       cases = pack(cases, cases%name /= "")
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
-      call check_cases(path, cases, error)
+      call open_cases(path, cases, measured, error)
       call check_count(error, path, "repeats", measure%repeats, at_least=0)
    end subroutine read_measure
 
@@ -88,7 +91,7 @@ contains
       end do
    end function runs_of_methods
 
-   !> Write all runs of all cases; a case with fewer samples than another is filled up with NaN.
+   !> Write all runs of all cases, which have one model; a case with fewer samples than another is filled up with NaN.
    subroutine write_measured_runs(path, measured, error)
       !> Path of the file
       character(len=*), intent(in) :: path
@@ -102,6 +105,8 @@ contains
       real(wp), allocatable :: table(:, :)
       character(len=reason_length), allocatable :: reasons(:)
       integer :: i, j, most_samples, run, sample, samples
+      character(len=:), allocatable :: name
+      real(wp), allocatable :: numbers(:, :), past(:, :)
 
       allocate (cases(0), runs(0))
       do i = 1, size(measured)
@@ -114,7 +119,7 @@ contains
       end do
       most_samples = maxval([(size(runs(i)%samples, 2), i=1, size(runs))])
 
-      call file%create(path, "Measured runs of the spring block with delayed friction")
+      call file%create(path, "Measured runs of a model")
       run = file%dimension("run", size(runs), coordinates="case method setting")
       sample = file%dimension("sample", most_samples, coordinates="time")
       call file%words(run, "case", cases%name, "name of the case")
@@ -123,14 +128,19 @@ contains
       call file%words(run, "reason", reasons, "the same in the solver's words")
       call file%column(run, "setting", runs%setting, &
                        "tolerance, or length of the steps of rk4 methods")
-      call file%words(run, "law", cases%parameters%law, "law of friction")
-      call file%column(run, "tau", cases%parameters%tau, trim(parameter_meanings(1)))
-      call file%column(run, "epsilon", cases%parameters%epsilon, trim(parameter_meanings(2)))
-      call file%column(run, "xi", cases%parameters%xi, trim(parameter_meanings(3)))
-      call file%column(run, "gamma", cases%parameters%gamma, trim(parameter_meanings(4)))
-      call file%column(run, "history_theta", cases%history%theta, "friction state for t <= 0")
-      call file%column(run, "history_u", cases%history%u, "displacement for t <= 0")
-      call file%column(run, "history_v", cases%history%v, "velocity for t <= 0")
+      call file%words(run, "model", [(model_name(cases(i)), i=1, size(cases))], "name of the model")
+      associate (model => cases(1)%model, history => cases(1)%history)
+         allocate (numbers(size(model%names), size(cases)), past(size(history%names), size(cases)))
+         do i = 1, size(cases)
+            numbers(:, i) = cases(i)%model%numbers
+            past(:, i) = cases(i)%history%values(:, 1, 1)
+         end do
+         call put_places(file, run, model, numbers, "")
+         do i = 1, size(history%names)
+            call file%column(run, "history_"//trim(history%names(i)), past(i, :), &
+                             trim(history%names(i))//" for t <= 0")
+         end do
+      end associate
       call file%column(run, "t_end", cases%t_end, "last time asked for")
       call file%column(run, "t_reached", runs%outcome%t, "last time reached")
       call file%column(run, "steps_accepted", real(runs%outcome%accepted, wp), "steps accepted")
@@ -142,10 +152,11 @@ contains
       call file%column(run, "factorisations", real(runs%outcome%factorisations, wp), &
                        "matrices factorised")
       call file%column(run, "switches", real(runs%outcome%switches, wp), "changes of method")
-      call file%column(run, "least_ln_v", runs%least_ln_v, &
-                       "smallest ln v on a grid 8 times that of samples")
-      call file%column(run, "most_ln_v", runs%most_ln_v, &
-                       "largest ln v on a grid 8 times that of samples")
+      name = shown_name(cases(1)%model, cases(1)%model%sizes%observed%component)
+      call file%column(run, "least_"//name, runs%least, &
+                       "smallest "//name//" on a grid 8 times that of samples")
+      call file%column(run, "most_"//name, runs%most, &
+                       "largest "//name//" on a grid 8 times that of samples")
       call file%column(run, "seconds", runs%seconds, &
                        "CPU time of the solver alone, median of repeats", "s")
 
@@ -156,24 +167,33 @@ contains
          table(:samples, i) = cases(i)%sample_times()
       end do
       call file%table([sample, run], "time", table, "time of the sample")
-      call put_samples("theta", 1, "friction state")
-      call put_samples("u", 2, "displacement")
-      call put_samples("ln_v", 3, "logarithm of the velocity")
+      do j = 1, size(runs(1)%samples, 1)
+         call put_samples(shown_name(cases(1)%model, j), j)
+      end do
       call file%finish(error)
 
    contains
 
+      !> Name of the model of a case.
+      function model_name(case) result(word)
+         type(case_type), intent(in) :: case
+         character(len=model_length) :: word
+         type(description_type) :: about
+
+         about = case%model%describe()
+         word = about%name
+      end function model_name
+
       !> Samples of one component of each run.
-      subroutine put_samples(name, component, long_name)
+      subroutine put_samples(name, component)
          character(len=*), intent(in) :: name
          integer, intent(in) :: component
-         character(len=*), intent(in) :: long_name
 
          table = ieee_value(1.0_wp, ieee_quiet_nan)
          do i = 1, size(runs)
             table(:size(runs(i)%samples, 2), i) = runs(i)%samples(component, :)
          end do
-         call file%table([sample, run], name, table, long_name)
+         call file%table([sample, run], name, table, name//" of the sample")
       end subroutine put_samples
    end subroutine write_measured_runs
 end module measure_files

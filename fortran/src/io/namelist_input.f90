@@ -16,8 +16,8 @@ module namelist_input
    integer, parameter :: word_length = 256
    !> Length of a word in a list.
    integer, parameter :: element_length = 32
-   !> Length and number of lines that hold the longest namelist: 16 words in a line, 1000 cases.
-   integer, parameter :: line_length = 1024, most_lines = 14000
+   !> Length and number of lines that hold the longest namelist: 1000 cases.
+   integer, parameter :: line_length = 1024, most_lines = 60000
    !> In place of a path: the keys of the group are written, and the program ends.
    character(len=*), parameter :: help = "--help"
    !> The group.

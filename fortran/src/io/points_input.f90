@@ -2,12 +2,14 @@
 !> most two parameters and a list of histories, or a sweep along one parameter.
 module points_input
    use attractor_points, only: point_type
-   use block_parameters, only: block_history_type, block_parameters_type, missing_parameters
    use dde_errors, only: error_type
    use dde_kinds, only: wp
-   use model_description, only: law_length => word_length
+   use model_description, only: model_length => word_length
+   use model_history, only: history_type
+   use model_problem, only: model_type
+   use model_settings, only: model_settings_type
    use namelist_input, only: word_length
-   use value_checks, only: check_choice, check_count, missing_count
+   use value_checks, only: check_choice, missing_count
    implicit none (type, external)
    private
    public :: points_settings_type
@@ -15,7 +17,7 @@ module points_input
    !> Evenly spaced values of one parameter, of which a part is computed.
    type :: axis_type
       !> Name of the parameter; blank where there is no axis
-      character(len=law_length) :: along = ""
+      character(len=model_length) :: along = ""
       !> First and last value
       real(wp) :: window(2) = 0.0_wp
       !> Number of values; the first alone when 1
@@ -28,57 +30,45 @@ module points_input
    type :: points_settings_type
       !> Name of what the points belong to
       character(len=word_length) :: name = ""
-      !> Parameters; those of the axes may be left out
-      type(block_parameters_type) :: parameters = missing_parameters
+      !> The model with its parameters; those of the axes may be left out
+      type(model_settings_type) :: model
       !> Axes of the grid
       type(axis_type) :: axes(2)
       !> Whether each point starts where the one before ended: "none", "up" or "down"
       character(len=word_length) :: sweep = ""
-      !> Every 2**refinements-th line in epsilon and tau is computed in full
+      !> Every 2**refinements-th line along both axes is computed in full
       integer :: refinements = missing_count
       !> Most maxima and points of the section kept of each
       integer :: kept = missing_count
    contains
-      procedure :: at => parameters_at
-      procedure :: check => check_points
+      procedure :: open => open_points
       procedure :: columns => columns_of_grid
       procedure :: list => list_points
    end type points_settings_type
 
 contains
 
-   !> The parameters with these values on the axes.
-   pure type(block_parameters_type) function parameters_at(self, x, y) result(parameters)
+   !> Open the model at the first corner of the grid. Refuse parameters without a meaning at both
+   !> corners; keep an earlier error.
+   subroutine open_points(self, place, model, error)
       class(points_settings_type), intent(in) :: self
-      !> Values on the first and on the second axis
-      real(wp), intent(in) :: x, y
-
-      parameters = self%parameters
-      call parameters%put(trim(self%axes(1)%along), x)
-      call parameters%put(trim(self%axes(2)%along), y)
-   end function parameters_at
-
-   !> Refuse parameters and histories without a meaning; keep an earlier error.
-   subroutine check_points(self, place, histories, error)
-      class(points_settings_type), intent(inout) :: self
       !> File and section, for messages
       character(len=*), intent(in) :: place
-      type(block_history_type), intent(in) :: histories(:)
+      !> The model
+      type(model_type), intent(out) :: model
       type(error_type), allocatable, intent(inout) :: error
-      type(block_parameters_type) :: corner
-      integer :: i
+      type(model_settings_type) :: corner
+      integer :: i, j
 
-      do i = 1, 2
-         corner = self%at(self%axes(1)%window(i), self%axes(2)%window(i))
-         call corner%check(place, error)
+      do i = 2, 1, -1
+         corner = self%model
+         do j = 1, size(self%axes)
+            call corner%put(trim(self%axes(j)%along), self%axes(j)%window(i))
+         end do
+         if (.not. allocated(error)) call corner%open(place, model, error)
       end do
-      self%parameters = corner
       call check_choice(error, place, "sweep", self%sweep, ["none", "up  ", "down"])
-      call check_count(error, place, "number of histories", size(histories), at_least=1)
-      do i = 1, size(histories)
-         call histories(i)%check(place, error)
-      end do
-   end subroutine check_points
+   end subroutine open_points
 
    !> Points in a line of the grid.
    pure integer function columns_of_grid(self) result(columns)
@@ -89,18 +79,35 @@ contains
 
    !> All points: the first axis runs fastest, then the second, and histories slowest; those of a
    !> sweep in its order.
-   pure function list_points(self, histories) result(points)
+   function list_points(self, model, history) result(points)
       class(points_settings_type), intent(in) :: self
-      type(block_history_type), intent(in) :: histories(:)
+      !> The model
+      type(model_type), intent(in) :: model
+      !> Histories
+      type(history_type), intent(in) :: history
       type(point_type), allocatable :: points(:)
       real(wp), allocatable :: x(:), y(:)
-      integer :: i, j, k
+      integer :: along(2), i, j, k
 
       x = values_on(self%axes(1))
       y = values_on(self%axes(2))
-      points = [(((point_type(self%at(x(i), y(j)), histories(k)), i=1, size(x)), j=1, size(y)), &
-                 k=1, size(histories))]
+      along = [(model%number_of(self%axes(i)%along), i=1, 2)]
+      points = [(((point_at(x(i), y(j), k), i=1, size(x)), j=1, size(y)), k=1, history%count())]
       if (self%sweep == "down") points = points(size(points):1:-1)
+
+   contains
+
+      !> The point with these values on the axes and a history.
+      type(point_type) function point_at(x, y, number) result(point)
+         real(wp), intent(in) :: x, y
+         integer, intent(in) :: number
+
+         point%numbers = model%numbers
+         if (along(1) > 0) point%numbers(along(1)) = x
+         if (along(2) > 0) point%numbers(along(2)) = y
+         point%history = number
+         point%past = history%past(model, number)
+      end function point_at
    end function list_points
 
    !> The values on an axis that are computed.

@@ -1,11 +1,12 @@
 !> What the program `reference` reads and writes: cases and how their references are computed;
 !> tables of text with 20 digits, more than a number in double precision holds.
 module reference_files
-   use cases_input, only: check_cases, missing_case, most_cases
+   use cases_input, only: case_settings_type, most_cases, open_cases
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
    use measured_case, only: case_type
    use measured_run, only: run_type
+   use model_history, only: shown_name
    use namelist_input, only: namelist_file_type, word_length
    use unfinished_file, only: unfinished_type
    use value_checks, only: check_number, missing, missing_count
@@ -21,7 +22,7 @@ module reference_files
       !> Method and larger tolerance of the run that it is checked by
       character(len=word_length) :: check_method = ""
       real(wp) :: check_tolerance = missing
-      !> Change of theta and u, and relative change of v, for t <= 0, that measures the conditioning
+      !> Change of the values before the initial time that measures the conditioning
       real(wp) :: disturbance = missing
       !> Most steps of a run
       integer(int64) :: most_steps = missing_count
@@ -46,40 +47,47 @@ module reference_files
 contains
 
    !> Read and check cases and settings.
-   subroutine read_reference(path, cases, reference, error)
+   subroutine read_reference(path, measured, reference, error)
       !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> The cases
-      type(case_type), allocatable, intent(out) :: cases(:)
+      type(case_type), allocatable, intent(out) :: measured(:)
       !> The settings
       type(reference_settings_type), intent(out) :: reference
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
+      type(case_settings_type), allocatable :: cases(:)
       type(namelist_file_type) :: file
       namelist /settings/ cases, reference
 
-      allocate (cases(most_cases), source=missing_case)
+      allocate (cases(most_cases))
       call file%open(path, error)
       if (allocated(error)) return
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       cases = pack(cases, cases%name /= "")
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
-      call check_cases(path, cases, error)
+      call open_cases(path, cases, measured, error)
       call check_number(error, path, "most_steps", real(reference%most_steps, wp), at_least=1.0_wp)
    end subroutine read_reference
 
    !> Begin a file with the names of the columns: a path that cannot be written is an error before
    !> the work begins.
-   subroutine create(self, path, error)
+   subroutine create(self, path, case, error)
       class(reference_file_type), intent(inout) :: self
       character(len=*), intent(in) :: path
+      !> A case, whose states name the columns
+      type(case_type), intent(in) :: case
       type(error_type), allocatable, intent(out) :: error
+      integer :: i
 
       call self%place%begin(path, error)
       if (allocated(error)) return
-      self%content = "case"//tab//"status"//tab//"time"//tab//"theta"//tab//"u"//tab//"ln_v" &
-                     //tab//"uncertainty"//tab//"amplification"//line_end
+      self%content = "case"//tab//"status"//tab//"time"
+      do i = 1, case%model%n
+         self%content = self%content//tab//shown_name(case%model, i)
+      end do
+      self%content = self%content//tab//"uncertainty"//tab//"amplification"//line_end
       call self%place%write(self%content, error)
    end subroutine create
 
@@ -88,7 +96,7 @@ contains
    subroutine put(self, case, disturbance, best, checking, disturbed)
       class(reference_file_type), intent(inout) :: self
       type(case_type), intent(in) :: case
-      !> Change of theta and u and relative change of v for t <= 0 in the disturbed run
+      !> Change of the values before the initial time in the disturbed run
       real(wp), intent(in) :: disturbance
       !> The reference
       type(run_type), intent(in) :: best
@@ -99,22 +107,42 @@ contains
       real(wp) :: time(size(best%samples, 2))
       character(len=row_length) :: row
       character(len=:), allocatable :: rows
-      integer :: i, used
+      integer :: i, j, used
 
       time = case%sample_times()
       allocate (character(len=row_length*size(time)) :: rows)
       used = 0
       do i = 1, size(time)
-         write (row, "(4a,4(es0.19e4,a),es0.3e4,a,es0.3e4,a)") trim(case%name), tab, &
-            trim(best%status), tab, time(i), tab, best%samples(1, i), tab, best%samples(2, i), &
-            tab, best%samples(3, i), tab, &
-            distance(checking%samples(:, i), best%samples(:, i)), tab, &
-            distance(disturbed%samples(:, i), best%samples(:, i))/disturbance, line_end
+         write (row, "(4a,*(g0))") trim(case%name), tab, trim(best%status), tab, &
+            digits_of(time(i)), tab, &
+            (digits_of(best%samples(j, i)), tab, j=1, size(best%samples, 1)), &
+            short_of(distance(checking%samples(:, i), best%samples(:, i))), tab, &
+            short_of(distance(disturbed%samples(:, i), best%samples(:, i))/disturbance), line_end
          rows(used + 1:used + len_trim(row)) = trim(row)
          used = used + len_trim(row)
       end do
       self%content = self%content//rows(:used)
    end subroutine put
+
+   !> A number with 20 digits.
+   pure function digits_of(number) result(text)
+      real(wp), intent(in) :: number
+      character(len=:), allocatable :: text
+      character(len=40) :: digits
+
+      write (digits, "(es0.19e4)") number
+      text = trim(digits)
+   end function digits_of
+
+   !> A number with 4 digits.
+   pure function short_of(number) result(text)
+      real(wp), intent(in) :: number
+      character(len=:), allocatable :: text
+      character(len=40) :: digits
+
+      write (digits, "(es0.3e4)") number
+      text = trim(digits)
+   end function short_of
 
    !> Largest difference of a component, relative to the component where that is above 1.
    pure real(wp) function distance(state, from) result(value)

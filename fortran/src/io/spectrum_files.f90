@@ -7,7 +7,7 @@ module spectrum_files
    use dde_kinds, only: int64, wp
    use namelist_input, only: namelist_file_type, word_length
    use netcdf, only: nf90_close, nf90_get_att, nf90_get_var, nf90_global, nf90_inq_dimid, &
-                     nf90_inq_varid, nf90_inquire_dimension, nf90_noerr, nf90_nowrite, nf90_open, &
+                     nf90_inq_varid, nf90_inquire_dimension, nf90_inquire_variable, nf90_noerr, nf90_nowrite, nf90_open, &
                      nf90_strerror
    use netcdf_output, only: output_file_type
    use spectral_peaks, only: base_peak, combination_peak, harmonic_peak, other_peak, peak_type, &
@@ -31,6 +31,8 @@ module spectrum_files
       real(wp) :: peak_floor = missing
       !> Least height of a peak over the valleys beside it
       real(wp) :: peak_prominence = missing
+      !> Number of the block of a chain
+      integer :: block = 1
    end type spectrum_settings_type
 
    !> Kinds of peaks
@@ -40,7 +42,7 @@ module spectrum_files
    character(len=*), parameter :: kind_names(5) = [character(len=12) :: "base", "harmonic", &
                                                    "second_base", "combination", "other"]
 
-   !> The velocity of a trajectory.
+   !> The signal of a trajectory.
    type :: trajectory_type
       !> Name of the scene
       character(len=64) :: scene = ""
@@ -50,10 +52,13 @@ module spectrum_files
       real(wp) :: t_transient = 0.0_wp
       !> Times of the samples, from t = 0 on
       real(wp), allocatable :: t(:)
-      !> v there
+      !> Name of the signal, and its values
+      character(len=64) :: signal = ""
       real(wp), allocatable :: v(:)
-      !> u there, where times are uneven
+      !> Where times are uneven, the state that grows by the integral of the signal less
+      !> `slope_at_rest` times the time
       real(wp), allocatable :: u(:)
+      real(wp) :: slope_at_rest = 0.0_wp
    end type trajectory_type
 
    !> What to do with a file that is damaged; the end of a message.
@@ -84,18 +89,22 @@ contains
       write (file%copy, nml=without_path, delim="quote")
       call file%close(error)
       call check_choice(error, path//": spectrum", "window", spectrum%window, ["hann  ", "boxcar"])
+      call check_count(error, path//": spectrum", "block", spectrum%block, at_least=1)
       call check_count(error, path//": spectrum", "segments", spectrum%segments, at_least=1)
       trajectory_path = trim(trajectory)
    end subroutine read_spectrum_settings
 
-   !> Read t and v, and u where the times are uneven.
-   subroutine read_trajectory(path, trajectory, error)
+   !> Read times and signal, and its integral where the times are uneven.
+   subroutine read_trajectory(path, block, trajectory, error)
       !> Path of the file
       character(len=*), intent(in) :: path
+      !> Number of the block of a chain
+      integer, intent(in) :: block
       !> What was read
       type(trajectory_type), intent(out) :: trajectory
       !> Error if the file cannot be read
       type(error_type), allocatable, intent(out) :: error
+      character(len=64) :: integral
       integer :: dimension, file, length, status
 
       call check(nf90_open(path, nf90_nowrite, file), &
@@ -111,11 +120,18 @@ contains
       if (.not. allocated(error)) then
          call check(nf90_inquire_dimension(file, dimension, len=length), "dimension 't'"//unread)
       end if
-      call read_variable("v", trajectory%v)
+      call check(nf90_get_att(file, nf90_global, "signal", trajectory%signal), &
+                 "attribute 'signal'"//unread)
+      call read_variable(trim(trajectory%signal), trajectory%v)
       call read_variable("t", trajectory%t)
       if (.not. allocated(error)) then
          if ((length - 1.5_wp)*trajectory%sample_interval > trajectory%t(length)) then
-            call read_variable("u", trajectory%u)
+            integral = ""
+            call check(nf90_get_att(file, nf90_global, "integral", integral), &
+                       "attribute 'integral'"//unread)
+            call check(nf90_get_att(file, nf90_global, "integral_slope", &
+                                    trajectory%slope_at_rest), "attribute 'integral_slope'"//unread)
+            if (.not. allocated(error)) call read_variable(trim(integral), trajectory%u)
          end if
       end if
       status = nf90_close(file)
@@ -126,13 +142,20 @@ contains
       subroutine read_variable(name, values)
          character(len=*), intent(in) :: name
          real(wp), allocatable, intent(out) :: values(:)
-         integer :: id
+         integer :: dimensions, id
 
          call check(nf90_inq_varid(file, name, id), "holds no variable '"//name &
                     //"' (add it to the variables of its scene)")
          if (allocated(error)) return
          allocate (values(length))
-         call check(nf90_get_var(file, id, values), "variable '"//name//"'"//unread)
+         call check(nf90_inquire_variable(file, id, ndims=dimensions), "variable '"//name//"'"//unread)
+         if (allocated(error)) return
+         if (dimensions == 1) then
+            call check(nf90_get_var(file, id, values), "variable '"//name//"'"//unread)
+         else
+            call check(nf90_get_var(file, id, values, start=[block, 1], count=[1, length]), &
+                       "block "//text(block)//" of variable '"//name//"'"//unread)
+         end if
          if (allocated(error)) return
          if (.not. all(ieee_is_finite(values))) then
             call raise(error, path//": variable '"//name//"' holds values that are not finite")
@@ -150,11 +173,14 @@ contains
    end subroutine read_trajectory
 
    !> Write a spectrum with its labelled peaks and what it is.
-   subroutine write_spectrum(path, scene, settings, frequency, power, variance, peaks, bases, error)
+   subroutine write_spectrum(path, scene, signal, settings, frequency, power, variance, peaks, bases, &
+                             error)
       !> Path of the file
       character(len=*), intent(in) :: path
       !> Name of the scene
       character(len=*), intent(in) :: scene
+      !> Name of the signal
+      character(len=*), intent(in) :: signal
       !> How it was made
       type(spectrum_settings_type), intent(in) :: settings
       !> Frequencies
@@ -172,11 +198,11 @@ contains
       type(output_file_type) :: file
       integer :: base, bins, rows
 
-      call file%create(path, "Power spectrum of the velocity v")
+      call file%create(path, "Power spectrum of "//signal)
       bins = file%dimension("frequency", size(frequency))
       rows = file%dimension("peak", size(peaks), coordinates="peak_frequency")
       call file%column(bins, "frequency", frequency, "frequency, cycles per unit of time")
-      call file%column(bins, "power", power, "one-sided power spectral density of v")
+      call file%column(bins, "power", power, "one-sided power spectral density of "//signal)
       call file%column(rows, "peak_frequency", peaks%frequency, &
                        "interpolated frequency of the peak")
       call file%column(rows, "peak_power", peaks%power, "interpolated height of the peak")

@@ -1,12 +1,13 @@
 !> What the program `synchrony` reads and writes: a scene and the modes of chains that are tried;
 !> whether their disturbances grow.
 module synchrony_files
-   use block_attributes, only: put_scene
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
+   use model_history, only: history_type
+   use model_problem, only: model_type
    use namelist_input, only: namelist_file_type
    use netcdf_output, only: output_file_type
-   use scene_input, only: check_scene, scene_type
+   use scene_input, only: open_scene, put_scene, scene_type
    use transverse_growth, only: transverse_growth_type, zero_type
    use transverse_multipliers, only: transverse_cycle_type
    use value_checks, only: check_count, check_number, missing, missing_count
@@ -49,11 +50,14 @@ contains
    end function values
 
    !> Read and check a scene and what is measured.
-   subroutine read_synchrony(path, scene, synchrony, error)
+   subroutine read_synchrony(path, scene, model, history, synchrony, error)
       !> Path of the namelist file
       character(len=*), intent(in) :: path
-      !> The scene, of one block
+      !> The scene, a chain of one block with kappa = 1
       type(scene_type), intent(out) :: scene
+      !> Its model with its past, and its history
+      type(model_type), intent(out) :: model
+      type(history_type), intent(out) :: history
       !> The settings
       type(synchrony_settings_type), intent(out) :: synchrony
       !> They cannot be read, or a value is out of range
@@ -66,24 +70,29 @@ contains
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
-      call check_scene(path, scene, error)
+      call open_scene(path, scene, model, history, error)
       associate (window => synchrony%s_window)
          call check_number(error, path, "synchrony%s_window(1)", window(1), at_least=1.0_wp)
          call check_number(error, path, "synchrony%s_window(2)", window(2), above=window(1))
       end associate
       call check_count(error, path, "synchrony%count", synchrony%count, at_least=2)
       call check_count(error, path, "synchrony%blocks", synchrony%blocks, at_least=2)
-      if (allocated(error) .or. .not. scene%parameters%is_chain()) return
-      call raise(error, path//": blocks = "//text(scene%parameters%blocks) &
-                 //"; expected 1: chains that move as one block are tried")
+      if (allocated(error)) return
+      if (model%shape%blocks > 1 .or. .not. model%is_chain()) then
+         call raise(error, path//": blocks = "//text(model%shape%blocks) &
+                    //"; expected a chain of 1 block: chains that move as one block are tried")
+      end if
    end subroutine read_synchrony
 
    !> Write the exponents.
-   subroutine write_synchrony(path, scene, settings, growth, zeros, on_cycle, error)
+   subroutine write_synchrony(path, scene, model, history, settings, growth, zeros, on_cycle, error)
       !> Path of the file
       character(len=*), intent(in) :: path
       !> The scene
       type(scene_type), intent(in) :: scene
+      !> Its model and its history
+      type(model_type), intent(in) :: model
+      type(history_type), intent(in) :: history
       !> How they were measured
       type(synchrony_settings_type), intent(in) :: settings
       !> Exponents by s
@@ -98,7 +107,7 @@ contains
       integer :: rows
 
       call file%create(path, "Growth of disturbances of chains that move as one block")
-      call put_scene(file, scene, [scene%history])
+      call put_scene(file, scene, model, history)
       call file%attribute("t_transient", scene%t_transient)
       call file%attribute("t_end", settings%t_end)
       call file%attribute("t_turning", settings%t_turning)

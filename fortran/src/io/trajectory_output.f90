@@ -1,19 +1,20 @@
 !> Trajectory files: samples go to disk in blocks while the integration runs, only the variables
-!> that the scene lists. For gamma > 1 those of one block also follow the steps of the solver, so
-!> that slip events shorter than the sample interval are resolved. Those of a chain are over time
-!> and block.
+!> that the scene lists. Where the fast state of a block alone relaxes within the sample interval, they
+!> also follow the steps of the solver, so that events shorter than the interval are resolved. Those of
+!> a chain are over time and block.
 module trajectory_output
-   use block_attributes, only: put_scene
-   use block_parameters, only: block_history_type
-   use chain, only: blocks_in_order
    use dde, only: integration_result, sampler_type
    use dde_errors, only: error_type, text
    use dde_kinds, only: int64, wp
+   use model_chain, only: blocks_in_order
+   use model_description, only: description_type
+   use model_history, only: display_names, history_type, shown_name
+   use model_problem, only: model_type
    use netcdf_output, only: output_file_type
    use program_arguments, only: stop_on
    use progress, only: progress_type
-   use scene_input, only: scene_type
-   use spring_block, only: components_of_block, index_of_ln_v, index_of_theta, index_of_u
+   use scene_input, only: put_scene, scene_type
+   use value_checks, only: check_choice
    implicit none (type, external)
    private
    public :: trajectory_writer_type
@@ -21,7 +22,7 @@ module trajectory_output
    !> Samples held before they are written: of one block, and at least.
    integer, parameter :: most_held = 8192, least_held = 32
 
-   !> Longest time between samples as a share of the step, for gamma > 1. The largest sample of a
+   !> Longest time between samples as a share of the step, where they follow the steps. The largest sample of a
    !> slip event is within 0.2 % of its maximum, measured for gamma from 100 to 1e10.
    real(wp), parameter :: largest_share = 0.25_wp
 
@@ -34,8 +35,11 @@ module trajectory_output
       type(progress_type) :: progress
       !> The scene
       type(scene_type) :: scene
-      !> Values for t <= 0 of each block
-      type(block_history_type), allocatable :: histories(:)
+      !> Its model and its history
+      type(model_type) :: model
+      type(history_type) :: history
+      !> Which variables are exponentials of their components
+      logical, allocatable :: exponential(:)
       !> Ids of time and of the variables
       integer, allocatable :: ids(:)
       !> Times of samples not written yet, and their values, shape (blocks, variables, samples)
@@ -58,50 +62,48 @@ module trajectory_output
 contains
 
    !> Begin the file of a scene.
-   function new_writer(path, scene, histories) result(writer)
+   function new_writer(path, scene, model, history) result(writer)
       character(len=*), intent(in) :: path
       type(scene_type), intent(in) :: scene
-      !> Values for t <= 0 of each block
-      type(block_history_type), intent(in) :: histories(:)
+      !> Its model and its history
+      type(model_type), intent(in) :: model
+      type(history_type), intent(in) :: history
       type(trajectory_writer_type) :: writer
-      integer :: block, dimension, i, length, variables
+      type(description_type) :: about
       integer, allocatable :: components(:), dimensions(:), places(:)
+      integer :: block, dimension, i, length, variables
       logical :: refined
 
       writer%scene = scene
-      writer%histories = histories
-      associate (blocks => scene%parameters%blocks)
-         variables = count(scene%variables /= "")
+      writer%model = model
+      writer%history = history
+      about = model%describe()
+      if (all(scene%variables == "")) writer%scene%variables(:size(about%states)) = display_names(about)
+      variables = count(writer%scene%variables /= "")
+      call find_components(path, about, writer%scene%variables(:variables), components, &
+                           writer%exponential, writer%file%error)
+      if (allocated(writer%file%error)) return
+      associate (blocks => model%shape%blocks)
          ! the quotient may be one rounding below a whole number
          writer%times = floor(scene%t_end/scene%sample_interval*(1.0_wp + epsilon(1.0_wp))) + 1
-         refined = scene%parameters%gamma > 1.0_wp .and. .not. scene%parameters%is_chain()
+         refined = blocks == 1 .and. model%sizes%observed%integral > 0 .and. &
+                   model%relaxation_rate(0.0_wp, model%steady_state())*scene%sample_interval > 1.0_wp
          if (refined) writer%share_of_step = largest_share
          length = max(least_held, most_held/blocks)
-         allocate (writer%ids(0:variables), components(variables), places(blocks))
+         allocate (writer%ids(0:variables), places(blocks))
          allocate (writer%time(length), writer%values(blocks, variables, length))
-         call writer%file%create(path, "Trajectory of the spring block with delayed friction")
+         call writer%file%create(path, "Trajectory of a model")
          ! length 0 is NetCDF's unlimited dimension
          dimension = writer%file%dimension("t", merge(0, writer%times, refined))
          writer%ids(0) = writer%file%real_variable("t", dimension, "time")
          dimensions = [dimension]
-         if (scene%parameters%is_chain()) then
-            dimensions = [writer%file%dimension("block", blocks), dimension]
-         end if
+         if (blocks > 1) dimensions = [writer%file%dimension("block", blocks), dimension]
          do i = 1, variables
-            select case (scene%variables(i))
-            case ("theta")
-               components(i) = index_of_theta
-               writer%ids(i) = new_variable(writer%file, "theta", dimensions, "friction state")
-            case ("u")
-               components(i) = index_of_u
-               writer%ids(i) = new_variable(writer%file, "u", dimensions, "displacement")
-            case default
-               components(i) = index_of_ln_v
-               writer%ids(i) = new_variable(writer%file, "v", dimensions, "velocity")
-            end select
+            writer%ids(i) = new_variable(writer%file, trim(writer%scene%variables(i)), dimensions, &
+                                         meaning_of(about, components(i), writer%exponential(i)))
          end do
-         places(blocks_in_order(blocks, scene%parameters%ends)) = [(block, block=1, blocks)]
-         writer%wanted = [((components_of_block*(places(block) - 1) + components(i), &
+         places(blocks_in_order(blocks, trim(model%ends))) = [(block, block=1, blocks)]
+         writer%wanted = [((model%states()*(places(block) - 1) + components(i), &
                             block=1, blocks), i=1, variables)]
       end associate
       writer%next = 0.0_wp
@@ -109,6 +111,43 @@ contains
                                       ceiling(8.0e-6_wp*writer%times*(1 + size(writer%wanted)))) &
                                       //" MB before compression)")
    end function new_writer
+
+   !> The components of variables by their names.
+   subroutine find_components(path, about, variables, components, exponential, error)
+      character(len=*), intent(in) :: path
+      !> What the definition says
+      type(description_type), intent(in) :: about
+      character(len=*), intent(in) :: variables(:)
+      integer, allocatable, intent(out) :: components(:)
+      !> Whether a variable is the exponential of its component
+      logical, allocatable, intent(out) :: exponential(:)
+      !> Error if there is no variable of a name
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: i, number
+
+      allocate (components(size(variables)), exponential(size(variables)))
+      do i = 1, size(variables)
+         call check_choice(error, path, "variable", variables(i), &
+                           [about%states, about%auxiliaries%name])
+         if (allocated(error)) return
+         components(i) = findloc(about%states, variables(i), dim=1)
+         exponential(i) = components(i) == 0
+         if (.not. exponential(i)) cycle
+         number = findloc(about%auxiliaries%name, variables(i), dim=1)
+         components(i) = about%auxiliaries(number)%state
+      end do
+   end subroutine find_components
+
+   !> What a variable is.
+   function meaning_of(about, component, exponential) result(meaning)
+      type(description_type), intent(in) :: about
+      integer, intent(in) :: component
+      logical, intent(in) :: exponential
+      character(len=:), allocatable :: meaning
+
+      meaning = trim(about%meanings(component))
+      if (exponential) meaning = "exp("//trim(about%states(component))//")"
+   end function meaning_of
 
    !> Define a variable over time, or over time and block.
    integer function new_variable(file, name, dimensions, long_name) result(id)
@@ -128,8 +167,9 @@ contains
    !> Take one sample; the next one is at the next even time, unless the solver brings it forward.
    subroutine take(self, y)
       class(trajectory_writer_type), intent(inout) :: self
-      !> theta, u, ln v as wanted
+      !> Components as wanted
       real(wp), intent(in) :: y(:)
+      integer :: i
 
       if (self%held == size(self%time)) call self%flush()
       if (allocated(self%file%error)) then
@@ -138,10 +178,11 @@ contains
       end if
       self%held = self%held + 1
       self%time(self%held) = self%next
-      associate (is_ln_v => modulo(self%wanted, components_of_block) &
-                 == modulo(index_of_ln_v, components_of_block))
-         self%values(:, :, self%held) = reshape(merge(exp(y), y, is_ln_v), &
-                                                shape(self%values(:, :, 1)))
+      associate (now => self%values(:, :, self%held))
+         now = reshape(y, shape(now))
+         do i = 1, size(now, 2)
+            if (self%exponential(i)) now(:, i) = exp(now(:, i))
+         end do
       end associate
       if (self%next >= self%even) then
          self%reached = self%reached + 1
@@ -162,7 +203,7 @@ contains
       associate (first => self%written + 1, held => self%held)
          call self%file%put(self%ids(0), self%time(:held), first=[first])
          do i = 1, ubound(self%ids, 1)
-            if (self%scene%parameters%is_chain()) then
+            if (self%model%shape%blocks > 1) then
                call self%file%put_rows(self%ids(i), self%values(:, i, :held), first=first)
             else
                call self%file%put(self%ids(i), self%values(1, i, :held), first=[first])
@@ -181,7 +222,13 @@ contains
 
       call self%flush()
       associate (file => self%file, scene => self%scene)
-         call put_scene(file, scene, self%histories)
+         call put_scene(file, scene, self%model, self%history)
+         associate (observed => self%model%sizes%observed)
+            if (observed%integral > 0) then
+               call file%attribute("integral", shown_name(self%model, observed%integral))
+               call file%attribute("integral_slope", merge(1.0_wp, 0.0_wp, observed%with_time))
+            end if
+         end associate
          call file%attribute("t_end", scene%t_end)
          call file%attribute("t_transient", scene%t_transient)
          call file%attribute("sample_interval", scene%sample_interval)

@@ -1,30 +1,30 @@
 !> Attractors at many points: parameters and histories. Points are shared among threads, or stand on
-!> a sweep: there each starts where the one before ended, with all of its past, so that the block
+!> a sweep: there each starts where the one before ended, with all of its past, so that the motion
 !> stays on its attractor as long as that exists.
 module attractor_points
    use attractors, only: attractor_settings_type, attractor_type, find_attractor
-   use block_parameters, only: block_history_type, block_parameters_type
    use dde, only: continuation_type, integrate, integration_options, integration_result
    use dde_errors, only: error_type
    use dde_kinds, only: wp
+   use model_problem, only: model_type
    use motion_classes, only: class_names, cycle_motion, undecided
    use progress_receiver, only: progress_receiver_type
    use refined_grid, only: refined_grid_type, uncertain
-   use spring_block, only: index_of_ln_v, index_of_theta, index_of_u, spring_block_type
    implicit none (type, external)
    private
    public :: finding_type, find_attractors, point_type, sweep_attractors
 
-   !> Change of u from point to point. Without it the block would stay in steady sliding where that
-   !> is unstable.
+   !> Change of a state from point to point: of the last coordinate of the section, or of the signal.
+   !> Without it the motion would stay at rest where that is unstable.
    real(wp), parameter :: disturbance = 1.0e-2_wp
 
    !> A point at which an attractor is looked for.
    type :: point_type
-      !> Parameters, nondimensional
-      type(block_parameters_type) :: parameters
-      !> Values for t <= 0
-      type(block_history_type) :: history
+      !> Parameters in the order of the definition
+      real(wp), allocatable :: numbers(:)
+      !> Number of the history, and its states
+      integer :: history = 1
+      real(wp), allocatable :: past(:)
    end type point_type
 
    !> Result of a search at a point.
@@ -42,7 +42,10 @@ contains
    !> Find the attractor of each point, or on a grid only where neighbours differ: other points take
    !> over the kind of their neighbours. Points do not influence each other: the number of threads
    !> changes no result.
-   subroutine find_attractors(points, settings, options, findings, progress, columns, refinements)
+   subroutine find_attractors(model, points, settings, options, findings, progress, columns, &
+                              refinements)
+      !> The model
+      type(model_type), intent(in) :: model
       !> Points; of a grid line by line
       type(point_type), intent(in) :: points(:)
       !> How attractors are found
@@ -71,8 +74,8 @@ contains
          !$omp parallel do schedule(dynamic)
          do k = 1, size(wanted)
             associate (point => points(wanted(k)), finding => findings(wanted(k)))
-               call find_attractor(spring_block_type(point%parameters, point%history), settings, &
-                                   options, finding%attractor, finding%problem)
+               call find_attractor(model_at(model, point%numbers, point%past), settings, options, &
+                                   finding%attractor, finding%problem)
             end associate
             !$omp critical (points_done)
             if (.not. grid%knows(wanted(k))) done = done + 1
@@ -107,7 +110,9 @@ contains
 
    !> Find the attractors of points in turn. The first point starts from its history. After a point
    !> whose run fails, the next starts from where that one did.
-   subroutine sweep_attractors(points, settings, options, findings, progress)
+   subroutine sweep_attractors(model, points, settings, options, findings, progress)
+      !> The model
+      type(model_type), intent(in) :: model
       !> Points, in the order of the sweep
       type(point_type), intent(in) :: points(:)
       !> How attractors are found
@@ -118,63 +123,77 @@ contains
       type(finding_type), allocatable, intent(out) :: findings(:)
       !> Receiver of the number of points done
       class(progress_receiver_type), intent(inout), optional :: progress
-      type(block_history_type) :: history
       type(continuation_type) :: arrived, start
-      type(spring_block_type) :: block_model
-      real(wp) :: longest_delay
+      type(model_type) :: here
+      real(wp) :: longest_delay, past(model%n)
       integer :: i
 
       allocate (findings(size(points)))
-      history = points(1)%history
+      past = points(1)%past
       longest_delay = 0.0_wp
       do i = 1, size(points)
-         block_model = spring_block_type(points(i)%parameters, history)
-         longest_delay = max(longest_delay, maxval(block_model%lag))
+         here = model_at(model, points(i)%numbers, past)
+         longest_delay = max(longest_delay, maxval(here%lag))
       end do
       do i = 1, size(points)
-         block_model = spring_block_type(points(i)%parameters, history)
-         call find_attractor(block_model, settings, options, findings(i)%attractor, &
+         here = model_at(model, points(i)%numbers, past)
+         call find_attractor(here, settings, options, findings(i)%attractor, &
                              findings(i)%problem, start, arrived)
          if (i < size(points) .and. .not. allocated(findings(i)%problem)) then
-            call hand_over(block_model, spring_block_type(points(i + 1)%parameters, history), &
-                           longest_delay, options, arrived, history, start)
+            call hand_over(here, model_at(model, points(i + 1)%numbers, past), longest_delay, &
+                           options, arrived, past, start)
          end if
          if (present(progress)) call progress%advance(i, size(points))
       end do
    end subroutine sweep_attractors
 
+   !> The model at a point.
+   pure type(model_type) function model_at(model, numbers, past) result(there)
+      type(model_type), intent(in) :: model
+      !> Parameters, and states before the initial time
+      real(wp), intent(in) :: numbers(:), past(:)
+
+      there = model
+      there%past = past
+      call there%put(numbers)
+   end function model_at
+
    !> Where the next point starts. A run on at the old parameters makes the past as long as the
-   !> longest delay of the sweep. There is no past to hand over between blocks with different
+   !> longest delay of the sweep. There is no past to hand over between models with different
    !> numbers of delays: then the last state holds for t <= 0.
-   subroutine hand_over(block_model, next, longest_delay, options, arrived, history, start)
-      type(spring_block_type), intent(in) :: block_model, next
+   subroutine hand_over(model, next, longest_delay, options, arrived, past, start)
+      type(model_type), intent(in) :: model, next
       real(wp), intent(in) :: longest_delay
       type(integration_options), intent(in) :: options
       type(continuation_type), intent(in) :: arrived
-      !> Values for t <= 0 of the next point, used if `start` is empty
-      type(block_history_type), intent(inout) :: history
+      !> States before the initial time of the next point, used if `start` is empty
+      real(wp), intent(inout) :: past(:)
       type(continuation_type), intent(inout) :: start
       type(continuation_type) :: onward
       type(error_type), allocatable :: error
       type(integration_options) :: keeping
       type(integration_result) :: outcome
-      real(wp) :: y(block_model%n)
+      real(wp) :: y(model%n)
+      integer :: disturbed
 
-      if (size(block_model%lag) /= size(next%lag)) then
+      associate (observed => model%sizes%observed)
+         disturbed = maxval(observed%coordinates)
+         if (disturbed == 0) disturbed = observed%component
+      end associate
+      if (size(model%lag) /= size(next%lag)) then
          start = continuation_type()
-         history = block_history_type(theta=arrived%y(index_of_theta), &
-                                      u=arrived%y(index_of_u) + disturbance, &
-                                      v=exp(arrived%y(index_of_ln_v)))
+         past = arrived%y
+         past(disturbed) = past(disturbed) + disturbance
          return
       end if
       keeping = options
       keeping%past_kept = longest_delay
       onward = arrived
-      call integrate(block_model, onward%time(1), onward%time(1) + longest_delay, keeping, &
+      call integrate(model, onward%time(1), onward%time(1) + longest_delay, keeping, &
                      outcome, error, continuation=onward)
       if (allocated(error)) return
       y = onward%y
-      y(index_of_u) = y(index_of_u) + disturbance
+      y(disturbed) = y(disturbed) + disturbance
       call onward%change_state(y, error)
       if (.not. allocated(error)) start = onward
    end subroutine hand_over

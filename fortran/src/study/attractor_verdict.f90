@@ -1,10 +1,10 @@
 !> The class of an attractor by its observation: by Lyapunov exponents, confirmed by a Poincare
-!> section and by the spectrum of v.
+!> section and by the spectrum of the signal.
 module attractor_verdict
    use base_frequencies, only: bases_type, descending, label_peaks
    use dde_errors, only: error_type
-   use exponent_averages, only: average_growth, exponent_type
    use dde_kinds, only: wp
+   use exponent_averages, only: average_growth, exponent_type
    use lyapunov_spectrum, only: growth_type
    use motion_classes, only: agree, chaos, class_by_exponents, clear_by_exponents, &
                              cycle_motion, no_class_by_exponents, none, three_torus, torus, &
@@ -15,7 +15,6 @@ module attractor_verdict
    use spectral_peaks, only: find_peaks, other_peak, peak_type
    use spectrum, only: power_spectrum
    use spectrum_verdict, only: continuum, line_share, one_base, spectrum_kind, two_bases
-   use spring_block, only: index_of_ln_v
    use value_checks, only: missing, missing_count
    implicit none (type, external)
    private
@@ -70,13 +69,13 @@ module attractor_verdict
       !> Roughness of the section as a function of two phases, of three on a 3-torus, see
       !> `section_roughness`
       real(wp) :: roughness = not_measured
-      !> Fundamental frequencies of v, 0 if none
+      !> Fundamental frequencies of the signal, 0 if none
       real(wp) :: bases(3) = 0.0_wp
-      !> Share of the power of v in the lines of these, or `not_measured`
+      !> Share of the power of the signal in the lines of these, or `not_measured`
       real(wp) :: line_share = not_measured
       !> Observation of the motion
       type(observed_motion_type) :: motion
-      !> A piece of it to be drawn, see `follow_path`; none of steady sliding
+      !> A piece of it to be drawn, see `follow_path`; none of rest
       real(wp), allocatable :: path(:, :)
    end type attractor_type
 
@@ -117,8 +116,7 @@ contains
                attractor%bases = [1.0_wp/(time(n) - time(n - attractor%period)), 0.0_wp, 0.0_wp]
             end associate
          else if (.not. clear) then
-            call judge_spectrum(exp(motion%samples(index_of_ln_v)), settings, attractor, peaks, &
-                                error)
+            call judge_spectrum(motion%signal_shown(), settings, attractor, peaks, error)
             if (allocated(error)) return
             attractor%roughness = section_roughness(motion%section, motion%section_time, &
                                                     motion%scale(), attractor%bases(:2))
@@ -132,9 +130,9 @@ contains
                  attractor%class, attractor%reason)
    end subroutine judge
 
-   !> The class by the lines in the spectrum of v.
-   subroutine judge_spectrum(v, settings, attractor, peaks, error)
-      real(wp), intent(in) :: v(:)
+   !> The class by the lines in the spectrum of the signal.
+   subroutine judge_spectrum(signal, settings, attractor, peaks, error)
+      real(wp), intent(in) :: signal(:)
       type(attractor_settings_type), intent(in) :: settings
       type(attractor_type), intent(inout) :: attractor
       type(peak_type), allocatable, intent(out) :: peaks(:)
@@ -142,8 +140,8 @@ contains
       type(bases_type) :: bases
       real(wp), allocatable :: frequency(:), power(:)
 
-      call power_spectrum(v, settings%sample_interval, trim(settings%window), settings%segments, &
-                          settings%overlap, frequency, power, error)
+      call power_spectrum(signal, settings%sample_interval, trim(settings%window), &
+                          settings%segments, settings%overlap, frequency, power, error)
       if (allocated(error)) return
       peaks = find_peaks(frequency, power, settings%peak_floor, settings%peak_prominence)
       call label_peaks(peaks, frequency(2), bases)

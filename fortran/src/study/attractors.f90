@@ -1,22 +1,22 @@
-!> The attractor that the delayed block reaches from one history, and its class.
+!> The attractor that a model reaches from one history, and its class.
 !>
-!> The approach ends when the block is at rest or on a cycle, at the latest after a stated time.
+!> The approach ends when the motion is at rest or on a cycle, at the latest after a stated time.
 !> Then the motion is observed and its exponents are measured, for longer and longer times, until
 !> the class is certain or a limit is reached.
 module attractors
    use attractor_verdict, only: attractor_settings_type, attractor_type, judge, on_cycle
    use dde, only: continuation_type, integrate, integration_options, integration_result
    use dde_errors, only: error_type
-   use exponent_averages, only: exponent_type, without_sign
    use dde_kinds, only: wp
+   use exponent_averages, only: exponent_type, without_sign
    use lyapunov_spectrum, only: extend_growth, growth_settings_type, growth_type, measure_growth
+   use model_problem, only: model_type
    use motion_classes, only: chaos, contradicted, cycle_motion, fixed_point, leaves_cycle, &
                              none, not_stationary, three_torus, torus, undecided, unstable_rest
    use motion_path, only: follow_path
    use observed_motion, only: observed_motion_type
+   use rest, only: exponents_at_rest, settles
    use section_motion, only: drifts
-   use steady_sliding, only: settles, sliding_exponents
-   use spring_block, only: index_of_ln_v, spring_block_type
    use tangent_vectors, only: undisturbed_part
    implicit none (type, external)
    private
@@ -31,10 +31,10 @@ module attractors
    !> plot of 250 pixels, and of 500 for a cycle.
    real(wp), parameter :: closeness_of_path = 1.0_wp/250.0_wp, closeness_of_cycle = 1.0_wp/500.0_wp
 
-   !> A block whose attractor is looked for.
+   !> A model whose attractor is looked for.
    type :: search_type
-      !> The block and its history
-      type(spring_block_type) :: block_model
+      !> The model and its past
+      class(model_type), allocatable :: model
       !> How the attractor is found and judged
       type(attractor_settings_type) :: settings
       !> Method and tolerances
@@ -45,10 +45,10 @@ module attractors
 
 contains
 
-   !> Find the attractor of the block's own history, or the one that an earlier motion reaches.
-   subroutine find_attractor(block_model, settings, options, attractor, error, start, arrived)
-      !> The block and its history
-      type(spring_block_type), intent(in) :: block_model
+   !> Find the attractor of the model's own past, or the one that an earlier motion reaches.
+   subroutine find_attractor(model, settings, options, attractor, error, start, arrived)
+      !> The model and its past
+      class(model_type), intent(in) :: model
       !> How the attractor is found and judged
       type(attractor_settings_type), intent(in) :: settings
       !> Method and tolerances
@@ -57,21 +57,23 @@ contains
       type(attractor_type), intent(out) :: attractor
       !> The run ended before its time, or exponents cannot be measured
       type(error_type), allocatable, intent(out) :: error
-      !> Where an earlier motion ended; empty: the block's own history
+      !> Where an earlier motion ended; empty: the model's own past
       type(continuation_type), intent(in), optional :: start
       !> Where the motion was left; empty on an error
       type(continuation_type), intent(out), optional :: arrived
       type(integration_result) :: outcome
       type(search_type) :: search
 
-      search = search_type(block_model, settings, options)
+      allocate (search%model, source=model)
+      search%settings = settings
+      search%options = options
       if (present(start)) attractor%motion%continuation = start
       if (.not. allocated(attractor%motion%continuation%y)) then
-         call integrate(block_model, 0.0_wp, 0.0_wp, options, outcome, error, &
+         call integrate(model, 0.0_wp, 0.0_wp, options, outcome, error, &
                         continuation=attractor%motion%continuation)
          if (allocated(error)) return
       end if
-      attractor%motion%sample_interval = settings%sample_interval
+      call attractor%motion%begin(model, settings%sample_interval)
       associate (now => attractor%motion%continuation%time)
          attractor%time = now(1)
          call approach(search, attractor, error)
@@ -104,12 +106,12 @@ contains
             time = min(time, passage(n) - passage(n - turns))
          end if
       end associate
-      call follow_path(search%block_model, attractor%motion%continuation, time, closeness, &
+      call follow_path(search%model, attractor%motion%continuation, time, closeness, &
                        search%options, attractor%path)
    end subroutine keep_path
 
-   !> Wait until the block is at rest or on a cycle, but not longer than the approach may take. Near
-   !> unstable steady sliding wait as long as a motion may be observed.
+   !> Wait until the motion is at rest or on a cycle, but not longer than the approach may take. Near
+   !> unstable rest wait as long as a motion may be observed.
    subroutine approach(search, attractor, error)
       type(search_type), intent(in) :: search
       type(attractor_type), intent(inout) :: attractor
@@ -120,7 +122,7 @@ contains
                                                /search%settings%t_transient))
       do part = 1, most_parts
          call attractor%motion%clear()
-         call attractor%motion%observe(search%block_model, &
+         call attractor%motion%observe(search%model, &
                                        search%settings%t_transient/approach_parts, &
                                        search%options, error)
          if (allocated(error)) return
@@ -128,7 +130,7 @@ contains
          if (allocated(error) .or. attractor%class == fixed_point) return
          if (on_cycle(attractor%motion)) return
          if (part < approach_parts) cycle
-         if (.not. settles(attractor%motion%samples(index_of_ln_v))) return
+         if (.not. settles(attractor%motion%signal() - search%model%rest_level())) return
       end do
       attractor%reason = unstable_rest
    end subroutine approach
@@ -146,19 +148,18 @@ contains
       integer, intent(in) :: wanted
 
       exponents = wanted
-      if (size(self%block_model%lag) == 0) exponents = min(exponents, self%block_model%n)
+      if (size(self%model%lag) == 0) exponents = min(exponents, self%model%n)
    end function most_exponents
 
-   !> Whether the block is at rest: it stays close to steady sliding or approaches it, and
-   !> steady sliding is stable.
+   !> Whether the motion is at rest: it stays close to rest or approaches it, and rest is stable.
    subroutine judge_rest(search, attractor, error)
       type(search_type), intent(in) :: search
       type(attractor_type), intent(inout) :: attractor
       type(error_type), allocatable, intent(out) :: error
       type(exponent_type), allocatable :: exponents(:)
 
-      if (.not. settles(attractor%motion%samples(index_of_ln_v))) return
-      call sliding_exponents(search%block_model%parameters, &
+      if (.not. settles(attractor%motion%signal() - search%model%rest_level())) return
+      call exponents_at_rest(search%model, &
                              search%most_exponents(search%settings%exponents), exponents, error)
       if (allocated(error)) return
       if (.not. all(exponents%value < 0.0_wp)) return
@@ -170,7 +171,7 @@ contains
       attractor%by_spectrum = fixed_point
    end subroutine judge_rest
 
-   !> A block in motion: observe it until its class is certain.
+   !> A motion: observe it until its class is certain.
    subroutine judge_motion(search, attractor, error)
       type(search_type), intent(in) :: search
       type(attractor_type), intent(inout) :: attractor
@@ -256,7 +257,7 @@ contains
       end do
    end subroutine judge_motion
 
-   !> Observe the block for a time, and measure exponents: go on, or begin if nothing was measured.
+   !> Observe the motion for a time, and measure exponents: go on, or begin if nothing was measured.
    subroutine go_on(search, exponents, time, motion, measured, error)
       type(search_type), intent(in) :: search
       integer, intent(in) :: exponents
@@ -267,24 +268,24 @@ contains
       type(continuation_type) :: now
       type(growth_settings_type) :: wanted
 
-      associate (block_model => search%block_model, settings => search%settings)
+      associate (model => search%model, settings => search%settings)
          now = motion%continuation
          wanted = growth_settings_type(exponents=exponents, t_turning=settings%t_turning, &
                                        t_end=now%time(1) + settings%t_turning + time, &
                                        interval=settings%interval, bounds=.true., &
                                        across_flow=.true.)
          if (allocated(measured%growth)) then
-            call extend_growth(block_model, wanted, search%options, measured, error, motion)
+            call extend_growth(model, wanted, search%options, measured, error, motion)
          else
-            call measure_growth(block_model, wanted, search%options, measured, error, now, &
+            call measure_growth(model, wanted, search%options, measured, error, now, &
                                 observer=motion)
          end if
          if (allocated(error)) return
-         call motion%arrive(undisturbed_part(measured%continuation, block_model%n))
+         call motion%arrive(undisturbed_part(measured%continuation, model%n))
       end associate
    end subroutine go_on
 
-   !> Chaos may be transient: see what the block does after some more time.
+   !> Chaos may be transient: see what the model does after some more time.
    subroutine outlive(search, attractor, error)
       type(search_type), intent(in) :: search
       type(attractor_type), intent(inout) :: attractor
@@ -292,12 +293,12 @@ contains
       type(integration_result) :: outcome
 
       associate (now => attractor%motion%continuation)
-         call integrate(search%block_model, now%time(1), now%time(1) + search%settings%t_lasting, &
+         call integrate(search%model, now%time(1), now%time(1) + search%settings%t_lasting, &
                         search%options, outcome, error, continuation=now)
       end associate
       if (allocated(error)) return
       call attractor%motion%clear()
-      call attractor%motion%observe(search%block_model, search%settings%t_observed, &
+      call attractor%motion%observe(search%model, search%settings%t_observed, &
                                     search%options, error)
    end subroutine outlive
 end module attractors

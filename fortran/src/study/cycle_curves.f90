@@ -1,14 +1,12 @@
-!> Curves of special points of cycles of the block over epsilon and tau.
+!> Curves of special points of cycles over two parameters.
 module cycle_curves
-   use block_cycles, only: cycle_settings_type, cycles_type
-   use block_family, only: block_family_type
    use branch_ends, only: follow_settings_type
-   use cycle_lines, only: along_epsilon, along_tau
+   use cycle_branches, only: cycle_settings_type, cycles_type
    use dde_errors, only: error_type
    use dde_kinds, only: wp
+   use model_family, only: family_type
    use orbit_curves, only: curve_type, follow_curve
    use orbit_mesh, only: adapted_mesh
-   use problem_family, only: free_family_type
    use progress_receiver, only: progress_receiver_type
    use special_points, only: branching, special_point_type
    implicit none (type, external)
@@ -17,7 +15,7 @@ module cycle_curves
 
    !> A curve in both directions from the point at which it starts.
    type :: cycle_curve_type
-      !> In the direction of smaller and of greater tau at first
+      !> In both directions from the point
       type(curve_type) :: parts(2)
    end type cycle_curve_type
 
@@ -55,9 +53,8 @@ contains
       count = 0
       if (allocated(settings%curve_window)) then
          associate (window => settings%curve_window)
-            how%family = free_family_type(block_family_type(settings%line%parameters), &
-                                          [along_epsilon, along_tau], &
-                                          window(2, :) - window(1, :))
+            how%family = family_type(settings%line%model%mode(1), settings%curve_along, &
+                                     window(2, :) - window(1, :))
          end associate
          how%window = settings%curve_window
          how%longest_period = settings%longest_period
@@ -98,7 +95,7 @@ contains
       value = .false.
       if (curve%parts(1)%points(1)%kind /= point%kind) return
       associate (along => settings%line%along, window => settings%line%window)
-         across = along_epsilon + along_tau - along
+         across = sum(settings%curve_along) - along
          do k = 1, 2
             do i = 1, size(curve%parts(k)%points) - 1
                associate (a => curve%parts(k)%points(i)%orbit, &

@@ -1,208 +1,355 @@
-!> Hopf curves in a plane of two parameters, drawn over the frequency omega, or over the ordinate,
-!> which then stands for omega below: the pieces inside a window are found by a scan, their ends by
-!> root finding, and points are set where the line bends.
+!> Hopf curves in a plane of two parameters. The number of unstable pairs is counted on a grid.
+!> Wherever it changes between neighbours and no known curve passes, a point of a curve is looked
+!> for, and the curve is followed from there in both directions: so all curves are found but those
+!> that close between the points of the grid.
 module hopf_curves
-   use block_family, only: along_tau
-   use block_parameters, only: block_parameters_type
    use characteristic_function, only: characteristic_type
    use dde_errors, only: error_type
-   use gsl_roots, only: find_root, scalar_function_type
-   use hopf_planes, only: curve_plane_type
    use dde_kinds, only: wp
-   use printed_delay, only: printed_tau
-   use spring_block, only: block_characteristic
+   use hopf_lines, only: find_hopf_on_line, hopf_on_line_type
+   use hopf_planes, only: axis_point_type, curve_plane_type, turn
    implicit none (type, external)
    private
-   public :: curve_point_type, trace_curves
+   public :: curve_point_type, piece_type, trace_curves
 
-   !> Omegas of the scan for pieces inside the window, or ordinates, which are dearer.
-   integer, parameter :: scan_omegas = 20000, scan_ordinates = 500
    !> Farthest a chord may lie from the curve, and longest chord, in units of the window.
    real(wp), parameter :: chord_deviation = 1.0e-4_wp, chord_length = 0.02_wp
-   !> Most halvings of one piece.
-   integer, parameter :: most_halvings = 14
+   !> First and least step along a curve in (place, ln omega), and its growth after an easy one.
+   real(wp), parameter :: first_step = 1.0e-3_wp, least_step = 1.0e-9_wp, growth = 1.5_wp
+   !> A point is on a known curve if it is so near to it, in units of the window and of omega.
+   real(wp), parameter :: near = 1.0e-3_wp
+   !> Most points of a curve in one direction, and the least frequency over that at its start.
+   integer, parameter :: most_points = 20000
+   real(wp), parameter :: least_share = 1.0e-8_wp
+
+   !> An unbroken piece of a curve, from one end to the other, the one with the lower frequency first.
+   type :: piece_type
+      !> Its points
+      type(axis_point_type), allocatable :: points(:)
+   end type piece_type
 
    !> One point of a Hopf curve.
    type :: curve_point_type
-      !> Parameters, nondimensional
-      type(block_parameters_type) :: parameters
-      !> Frequency of the pair
-      real(wp) :: omega = 0.0_wp
-      !> Branch k of equation (10)
+      !> All parameters
+      real(wp), allocatable :: numbers(:)
+      !> The pair, with its place in the plane
+      type(axis_point_type) :: at
+      !> Turns that the pair makes in the longest delay
       integer :: branch = 0
-      !> Number of the unbroken piece of curve it belongs to, from 1
+      !> Number of the piece, from 1
       integer :: piece = 0
       !> |Delta(i omega)| over its largest term
       real(wp) :: residual = 0.0_wp
-      !> +1 where a growing tau makes the pair unstable, -1 where it makes it stable
+      !> +1 where a growing ordinate makes the pair unstable, -1 where it makes it stable
       integer :: crossing = 0
       !> First Lyapunov coefficient, once judged: negative, supercritical
       real(wp) :: l1 = 0.0_wp
       !> Unstable pairs beside this one, once judged
       integer :: unstable_pairs = 0
-      !> Delay by equation (10) as printed
-      real(wp) :: printed_tau = 0.0_wp
-      !> Residual there
-      real(wp) :: printed_residual = 0.0_wp
    end type curve_point_type
-
-   !> How far inside the window branch k is at omega, -1..1 (negative: outside).
-   type, extends(scalar_function_type) :: margin_function_type
-      !> The plane
-      type(curve_plane_type) :: plane
-      !> Branch
-      integer :: k = 0
-   contains
-      procedure :: value => window_margin
-   end type margin_function_type
 
 contains
 
-   !> All points of all branches in the window of `plane`, piece by piece, omega ascending.
-   subroutine trace_curves(plane, points, error)
+   !> All pieces of curves in the window, by branch and frequency, as points.
+   subroutine trace_curves(plane, x, y, pairs, points, error)
       !> The plane and its window
       type(curve_plane_type), intent(in) :: plane
+      !> Columns and lines of a grid in units of the window, edges included
+      real(wp), intent(in) :: x(:), y(:)
+      !> Number of unstable pairs there
+      integer, intent(in) :: pairs(:, :)
       !> Points
       type(curve_point_type), allocatable, intent(out) :: points(:)
-      !> A root was not found
+      !> A point was not found
       type(error_type), allocatable, intent(out) :: error
-      type(margin_function_type) :: margin
-      real(wp), allocatable :: omega(:)
-      logical, allocatable :: inside(:)
-      real(wp) :: ends(2), omega_least, omega_most
-      integer :: first, i, k, k_most, last, piece, scan_points
+      type(piece_type), allocatable :: pieces(:)
+      integer :: i, j
 
-      scan_points = merge(scan_omegas, scan_ordinates, plane%by_frequency())
-      allocate (points(0), omega(0:scan_points), inside(0:scan_points))
-      margin%plane = plane
-      call plane%bounds(omega_least, omega_most, k_most)
-      omega(:) = [(omega_least + (omega_most - omega_least)*i/scan_points, i=0, scan_points)]
-      piece = 0
-      do k = 0, k_most
-         margin%k = k
-         do i = 0, scan_points
-            inside(i) = margin%value(omega(i)) >= 0.0_wp
-         end do
-         last = -1
-         do
-            first = findloc(inside(last + 1:), .true., dim=1) + last
-            if (first == last) exit
-            last = findloc(inside(first:), .false., dim=1) + first - 2
-            if (last < first) last = scan_points
-            call refine_end(margin, omega, first, first - 1, ends(1), error)
+      allocate (pieces(0))
+      do j = 1, size(y)
+         do i = 1, size(x)
+            if (i < size(x)) then
+               call explain(plane, [x(i), y(j)], [x(i + 1), y(j)], pairs(i, j), pairs(i + 1, j), &
+                            pieces, error)
+            end if
             if (allocated(error)) return
-            call refine_end(margin, omega, last, last + 1, ends(2), error)
+            if (j < size(y)) then
+               call explain(plane, [x(i), y(j)], [x(i), y(j + 1)], pairs(i, j), pairs(i, j + 1), &
+                            pieces, error)
+            end if
             if (allocated(error)) return
-            piece = piece + 1
-            points = [points, piece_of_curve(plane, k, ends, piece)]
-            if (last == scan_points) exit
          end do
       end do
+      points = points_of(plane, pieces)
    end subroutine trace_curves
 
-   !> Where a piece leaves the window, between scan points `inner` and `outer`.
-   subroutine refine_end(margin, omega, inner, outer, end_of_piece, error)
-      type(margin_function_type), intent(in) :: margin
-      real(wp), intent(in) :: omega(0:)
-      integer, intent(in) :: inner
-      !> First one outside, beyond the scan if there is none
-      integer, intent(in) :: outer
-      !> The omega between them at which the window ends
-      real(wp), intent(out) :: end_of_piece
+   !> Follow the curves between two neighbours of the grid whose numbers of pairs differ by more than
+   !> the known curves that pass.
+   subroutine explain(plane, from, to, pairs_from, pairs_to, pieces, error)
+      type(curve_plane_type), intent(in) :: plane
+      real(wp), intent(in) :: from(2), to(2)
+      integer, intent(in) :: pairs_from, pairs_to
+      type(piece_type), allocatable, intent(inout) :: pieces(:)
       type(error_type), allocatable, intent(out) :: error
+      type(axis_point_type) :: start
+      type(hopf_on_line_type), allocatable :: found(:)
+      type(piece_type), allocatable :: longer(:)
+      integer :: i, passing
 
-      end_of_piece = omega(inner)
-      if (outer < 0 .or. outer > ubound(omega, 1)) return
-      call find_root(margin, min(omega(inner), omega(outer)), max(omega(inner), omega(outer)), &
-                     end_of_piece, error)
-   end subroutine refine_end
-
-   !> Distance of branch k at omega to the nearest edge of the window, in units of the window.
-   real(wp) function window_margin(self, x) result(margin)
-      class(margin_function_type), intent(in) :: self
-      real(wp), intent(in) :: x
-      type(block_parameters_type) :: p
-      real(wp) :: place(2)
-
-      margin = -1.0_wp
-      p = self%plane%at(x, self%k)
-      if (.not. p%xi > 0.0_wp) return
-      place = place_in_window(self%plane, p)
-      margin = max(-1.0_wp, min(minval(place), minval(1.0_wp - place)))
-   end function window_margin
-
-   !> (epsilon, ordinate) in units of the window, 0..1 inside.
-   pure function place_in_window(plane, p) result(place)
-      type(curve_plane_type), intent(in) :: plane
-      type(block_parameters_type), intent(in) :: p
-      real(wp) :: place(2)
-
-      associate (x => plane%epsilon_window, y => plane%ordinate_window)
-         place = [(p%epsilon - x(1))/(x(2) - x(1)), (plane%ordinate(p) - y(1))/(y(2) - y(1))]
-      end associate
-   end function place_in_window
-
-   !> Points of branch k between two omegas, set so close that the chords look like the curve.
-   function piece_of_curve(plane, k, ends, piece) result(points)
-      type(curve_plane_type), intent(in) :: plane
-      integer, intent(in) :: k
-      real(wp), intent(in) :: ends(2)
-      integer, intent(in) :: piece
-      type(curve_point_type), allocatable :: points(:)
-      real(wp), allocatable :: omega(:)
-      logical, allocatable :: bent(:)
-      integer :: halving, i
-
-      allocate (omega, source=[(ends(1) + (ends(2) - ends(1))*i/16.0_wp, i=0, 16)])
-      do halving = 1, most_halvings
-         bent = [(chord_is_bad(plane, k, omega(i), omega(i + 1)), i=1, size(omega) - 1)]
-         if (.not. any(bent)) exit
-         omega = [omega(1), (pack([0.5_wp*(omega(i) + omega(i + 1)), omega(i + 1)], &
-                                  [bent(i), .true.]), i=1, size(bent))]
+      if (pairs_from == pairs_to) return
+      passing = sum([(crossings(pieces(i), from, to), i=1, size(pieces))])
+      if (passing >= abs(pairs_to - pairs_from)) return
+      call find_hopf_on_line(plane%model, plane%numbers_at(from), plane%numbers_at(to), 1, found, &
+                             error)
+      if (allocated(error)) return
+      do i = 1, size(found)
+         start = axis_point_type(plane%place_of(found(i)%numbers), found(i)%omega)
+         if (is_known(pieces, start)) cycle
+         allocate (longer(size(pieces) + 1))
+         longer(:size(pieces)) = pieces
+         call follow_both_ways(plane, start, longer(size(longer))%points)
+         call move_alloc(longer, pieces)
       end do
-      points = [(point_of_curve(plane, k, omega(i), piece), i=1, size(omega))]
-   end function piece_of_curve
+   end subroutine explain
 
-   !> Whether the chord between two omegas misses the curve's middle or is too long.
-   logical function chord_is_bad(plane, k, omega_1, omega_2) result(value)
+   !> How often a piece crosses the line between two places.
+   pure integer function crossings(piece, from, to) result(number)
+      type(piece_type), intent(in) :: piece
+      real(wp), intent(in) :: from(2), to(2)
+      integer :: i
+
+      number = 0
+      associate (p => piece%points)
+         do i = 1, size(p) - 1
+            if (min(p(i)%place(1), p(i + 1)%place(1)) > to(1)) cycle
+            if (max(p(i)%place(1), p(i + 1)%place(1)) < from(1)) cycle
+            if (min(p(i)%place(2), p(i + 1)%place(2)) > to(2)) cycle
+            if (max(p(i)%place(2), p(i + 1)%place(2)) < from(2)) cycle
+            if (side(from, to, p(i)%place)*side(from, to, p(i + 1)%place) <= 0.0_wp .and. &
+                side(p(i)%place, p(i + 1)%place, from)*side(p(i)%place, p(i + 1)%place, to) &
+                <= 0.0_wp) number = number + 1
+         end do
+      end associate
+   end function crossings
+
+   !> On which side of a line a place is.
+   pure real(wp) function side(from, to, place) result(value)
+      real(wp), intent(in) :: from(2), to(2), place(2)
+
+      value = (to(1) - from(1))*(place(2) - from(2)) - (to(2) - from(2))*(place(1) - from(1))
+   end function side
+
+   !> Whether a point is on a known piece.
+   pure logical function is_known(pieces, point) result(value)
+      type(piece_type), intent(in) :: pieces(:)
+      type(axis_point_type), intent(in) :: point
+      real(wp) :: share
+      integer :: i, j
+
+      value = .false.
+      do i = 1, size(pieces)
+         associate (p => pieces(i)%points)
+            do j = 1, size(p) - 1
+               if (norm2(p(j)%place - point%place) > near + chord_length) cycle
+               associate (chord => p(j + 1)%place - p(j)%place)
+                  share = dot_product(point%place - p(j)%place, chord) &
+                          /max(dot_product(chord, chord), tiny(1.0_wp))
+                  share = min(1.0_wp, max(0.0_wp, share))
+                  value = norm2(p(j)%place + share*chord - point%place) <= near .and. &
+                          abs(log(p(j)%omega/point%omega) &
+                              + share*log(p(j + 1)%omega/p(j)%omega)) <= near &
+                          + 0.5_wp*abs(log(p(j + 1)%omega/p(j)%omega))
+               end associate
+               if (value) return
+            end do
+         end associate
+      end do
+   end function is_known
+
+   !> The piece through a point.
+   subroutine follow_both_ways(plane, start, points)
       type(curve_plane_type), intent(in) :: plane
-      integer, intent(in) :: k
-      real(wp), intent(in) :: omega_1, omega_2
-      real(wp), dimension(2) :: chord, middle, start
+      type(axis_point_type), intent(in) :: start
+      type(axis_point_type), allocatable, intent(out) :: points(:)
+      type(axis_point_type), allocatable :: back(:), onward(:)
+      logical :: closed
 
-      start = place_in_window(plane, plane%at(omega_1, k))
-      chord = place_in_window(plane, plane%at(omega_2, k)) - start
-      middle = place_in_window(plane, plane%at(0.5_wp*(omega_1 + omega_2), k)) - start
-      value = norm2(chord) > chord_length
-      if (norm2(chord) > 0.0_wp) then
-         value = value .or. abs(chord(1)*middle(2) - chord(2)*middle(1)) &
-                 > chord_deviation*norm2(chord)
+      call follow(plane, start, 1.0_wp, onward, closed)
+      allocate (back(0))
+      if (.not. closed) call follow(plane, start, -1.0_wp, back, closed)
+      points = [back(size(back):1:-1), start, onward]
+      if (points(1)%omega > points(size(points))%omega) points = points(size(points):1:-1)
+   end subroutine follow_both_ways
+
+   !> Points of a curve from a point on until it leaves the window or comes back.
+   subroutine follow(plane, start, sense, points, closed)
+      type(curve_plane_type), intent(in) :: plane
+      type(axis_point_type), intent(in) :: start
+      !> 1 or -1
+      real(wp), intent(in) :: sense
+      !> The points behind the start
+      type(axis_point_type), allocatable, intent(out) :: points(:)
+      !> Whether the curve comes back to its start
+      logical, intent(out) :: closed
+      type(axis_point_type) :: here, next
+      real(wp) :: length, tangent(3), turned(3)
+      integer :: number
+      logical :: found
+
+      allocate (points(0))
+      closed = .false.
+      here = start
+      ! any direction gives the tangent; the sign is that of a growing abscissa
+      call plane%correct(here, [1.0_wp, 0.0_wp, 0.0_wp], start%place(1), found, tangent)
+      if (.not. found) then
+         here = start
+         call plane%correct(here, [0.0_wp, 1.0_wp, 0.0_wp], start%place(2), found, tangent)
       end if
-   end function chord_is_bad
+      if (.not. found) return
+      tangent = sense*tangent
+      here = start
+      length = first_step
+      do number = 1, most_points
+         do
+            next = moved(here, tangent, length)
+            call plane%correct(next, tangent, dot_product(tangent, [here%place, log(here%omega)]) &
+                               + length, found, turned)
+            if (found) found = is_smooth(here, next, tangent, turned)
+            if (found) exit
+            length = 0.5_wp*length
+            if (length < least_step) return
+         end do
+         if (any(next%place < 0.0_wp) .or. any(next%place > 1.0_wp)) then
+            call add_end(plane, here, next, points)
+            return
+         end if
+         if (next%omega < least_share*start%omega) return
+         if (number > 2 .and. passes(here, next, start)) then
+            points = [points, start]
+            closed = .true.
+            return
+         end if
+         points = [points, next]
+         here = next
+         tangent = turned
+         length = growth*length
+      end do
+   end subroutine follow
 
-   !> The point of branch k at a frequency or an ordinate, with its residuals and crossing.
-   type(curve_point_type) function point_of_curve(plane, k, x, piece) result(point)
+   !> A point further along a direction.
+   pure type(axis_point_type) function moved(point, direction, length) result(there)
+      type(axis_point_type), intent(in) :: point
+      real(wp), intent(in) :: direction(3), length
+
+      there%place = point%place + length*direction(:2)
+      there%omega = point%omega*exp(length*direction(3))
+   end function moved
+
+   !> Whether the chord between two points is short and looks like the curve in the plane.
+   pure logical function is_smooth(here, next, tangent, turned) result(value)
+      type(axis_point_type), intent(in) :: here, next
+      !> Tangents at both
+      real(wp), intent(in) :: tangent(3), turned(3)
+      real(wp) :: chord(2), length
+
+      chord = next%place - here%place
+      length = norm2(chord)
+      value = length <= chord_length .and. dot_product(tangent, turned) > 0.9_wp
+      if (.not. value .or. length <= 0.0_wp) return
+      ! an arc with these tangents is this far from its chord
+      value = max(bend(tangent(:2), chord), bend(turned(:2), chord)) <= 4.0_wp*chord_deviation
+
+   contains
+
+      !> Length of a chord times the sine of its angle to a tangent.
+      pure real(wp) function bend(along, chord)
+         real(wp), intent(in) :: along(2), chord(2)
+
+         bend = abs(along(1)*chord(2) - along(2)*chord(1))/max(norm2(along), tiny(1.0_wp))
+      end function bend
+   end function is_smooth
+
+   !> Whether a curve comes back to its start between two points.
+   pure logical function passes(here, next, start) result(value)
+      type(axis_point_type), intent(in) :: here, next, start
+      real(wp) :: chord(3), share, way(3)
+
+      chord = [next%place - here%place, log(next%omega/here%omega)]
+      way = [start%place - here%place, log(start%omega/here%omega)]
+      share = dot_product(way, chord)/dot_product(chord, chord)
+      value = share > 0.0_wp .and. share <= 1.0_wp .and. norm2(way - share*chord) <= near
+   end function passes
+
+   !> Add the point at which a curve leaves the window between two points.
+   subroutine add_end(plane, here, next, points)
       type(curve_plane_type), intent(in) :: plane
-      integer, intent(in) :: k
-      real(wp), intent(in) :: x
+      type(axis_point_type), intent(in) :: here, next
+      type(axis_point_type), allocatable, intent(inout) :: points(:)
+      type(axis_point_type) :: last
+      real(wp) :: direction(3), edge, share, shares(2)
+      integer :: axis
+      logical :: found
+
+      shares = huge(share)
+      do axis = 1, 2
+         edge = merge(0.0_wp, 1.0_wp, next%place(axis) < 0.0_wp)
+         if (next%place(axis) < 0.0_wp .or. next%place(axis) > 1.0_wp) then
+            shares(axis) = (edge - here%place(axis))/(next%place(axis) - here%place(axis))
+         end if
+      end do
+      axis = minloc(shares, dim=1)
+      share = shares(axis)
+      edge = merge(0.0_wp, 1.0_wp, next%place(axis) < 0.0_wp)
+      last = axis_point_type(here%place + share*(next%place - here%place), &
+                             here%omega*(next%omega/here%omega)**share)
+      direction = 0.0_wp
+      direction(axis) = 1.0_wp
+      call plane%correct(last, direction, edge, found)
+      if (.not. found) return
+      last%place(axis) = edge
+      ! a curve that starts at the edge leaves the window at once
+      if (norm2(last%place - here%place) > least_step) points = [points, last]
+   end subroutine add_end
+
+   !> All points of all pieces, these by their branch and frequency.
+   function points_of(plane, pieces) result(points)
+      type(curve_plane_type), intent(in) :: plane
+      type(piece_type), intent(in) :: pieces(:)
+      type(curve_point_type), allocatable :: points(:)
+      type(curve_point_type) :: first
+      real(wp) :: key(size(pieces))
+      integer :: i, j, k, number(size(pieces))
+
+      do i = 1, size(pieces)
+         first = point_of(plane, pieces(i)%points(1), 0)
+         key(i) = first%branch + first%at%omega/(1.0_wp + first%at%omega)
+      end do
+      do i = 1, size(pieces)
+         number(i) = count(key < key(i)) + count([(j, j=1, i)] < i .and. .not. abs(key(:i) - key(i)) &
+                                                 > 0.0_wp) + 1
+      end do
+      allocate (points(0))
+      do k = 1, size(pieces)
+         i = findloc(number, k, dim=1)
+         points = [points, [(point_of(plane, pieces(i)%points(j), k), j=1, size(pieces(i)%points))]]
+      end do
+   end function points_of
+
+   !> A point with its residual and crossing.
+   type(curve_point_type) function point_of(plane, at, piece) result(point)
+      type(curve_plane_type), intent(in) :: plane
+      type(axis_point_type), intent(in) :: at
       integer, intent(in) :: piece
-      type(block_parameters_type) :: printed
       type(characteristic_type) :: c
       complex(wp) :: s
 
-      point%branch = k
+      point%at = at
       point%piece = piece
-      point%parameters = plane%at(x, k, point%omega)
-      s = cmplx(0.0_wp, point%omega, kind=wp)
-      associate (p => point%parameters)
-         c = block_characteristic(p)
-         point%residual = c%relative_residual(s)
-         point%crossing = nint(sign(1.0_wp, real(c%root_by(along_tau, s))))
-         printed = p
-         printed%tau = printed_tau(point%omega, p%xi, p%gamma, k)
-      end associate
-      point%printed_tau = printed%tau
-      c = block_characteristic(printed)
-      point%printed_residual = c%relative_residual(s)
-   end function point_of_curve
+      point%numbers = plane%numbers_at(at%place)
+      s = cmplx(0.0_wp, at%omega, kind=wp)
+      c = plane%function_at(at%place)
+      point%branch = nint(at%omega*maxval(c%delay)/turn)
+      point%residual = c%relative_residual(s)
+      point%crossing = nint(sign(1.0_wp, real(c%root_by(plane%along(2), s))))
+   end function point_of
 end module hopf_curves

@@ -1,177 +1,196 @@
-!> Planes of two parameters in which Hopf curves are drawn, each with its window: over epsilon tau
-!> (Figure 2), xi (Figure 3), or another parameter of the law. Curves of tau and xi are in closed
-!> form over the frequency, others are found by root finding over the ordinate.
+!> A plane of two parameters of a model with a window, in which Hopf curves are drawn, and points of
+!> these curves: where Delta(i omega) = 0.
 module hopf_planes
-   use block_family, only: along_epsilon, along_tau, along_xi, vector_of, with_vector
-   use block_parameters, only: block_parameters_type
-   use dde_errors, only: error_type
-   use characteristic_function, only: characteristic_type
-   use hopf_condition, only: find_hopf_condition, hopf_condition_type, two_pi
+   use characteristic_function, only: characteristic_of, characteristic_type
    use dde_kinds, only: wp
-   use spring_block, only: block_characteristic
-   use stability_changes, only: angle_above, find_on_branch, omega_function_type
+   use model_problem, only: model_type
+   use root_counts, only: roots_right_of
    implicit none (type, external)
    private
-   public :: curve_plane_type
+   public :: axis_point_type, curve_plane_type, middles, turn
 
-   !> Places of the ordinate at which the largest frequency is looked for.
-   integer, parameter :: places = 20
+   !> One turn.
+   real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
+   !> Newton's method ends when its last step is this small in units of the window and of omega, or
+   !> when steps no longer become smaller below the second bound, or after so many steps.
+   real(wp), parameter :: last_step = 1.0e-15_wp, small_step = 1.0e-9_wp
+   integer, parameter :: most_steps = 12
 
-   !> A plane (epsilon, ordinate) with a window.
+   !> A plane (abscissa, ordinate) with a window.
    type :: curve_plane_type
-      !> Number of the parameter that is the ordinate
-      integer :: along = along_tau
-      !> The law and the parameters that are fixed
-      type(block_parameters_type) :: fixed
-      !> Where the law has pairs i omega, if the ordinate is no parameter of its own
-      type(hopf_condition_type) :: condition
-      !> Window on epsilon: least, most
-      real(wp) :: epsilon_window(2) = [0.0_wp, 1.0_wp]
-      !> Window on the ordinate: least, most
-      real(wp) :: ordinate_window(2) = [0.0_wp, 1.0_wp]
+      !> The model with its fixed parameters, delays of 0 kept
+      type(model_type) :: model
+      !> Numbers of the parameters that are abscissa and ordinate
+      integer :: along(2) = 0
+      !> Window on both: least, most, shape (2, 2)
+      real(wp) :: window(2, 2) = 0.0_wp
    contains
-      procedure :: at, by_frequency, condition_at, parameters, ordinate, root_slopes, bounds
+      procedure :: numbers_at, model_at, function_at, place_of, root_slopes, unstable_pairs, correct
    end type curve_plane_type
+
+   !> A pair of roots on the imaginary axis.
+   type :: axis_point_type
+      !> Place in units of the window, 0..1 inside
+      real(wp) :: place(2) = 0.0_wp
+      !> Frequency of the pair
+      real(wp) :: omega = 0.0_wp
+   end type axis_point_type
 
 contains
 
-   !> Whether curves are drawn over the frequency, or over the ordinate.
-   pure logical function by_frequency(self) result(value)
+   !> All parameters at a place.
+   pure function numbers_at(self, place) result(numbers)
       class(curve_plane_type), intent(in) :: self
+      !> Place in units of the window
+      real(wp), intent(in) :: place(2)
+      real(wp), allocatable :: numbers(:)
 
-      value = self%along == along_tau .or. self%along == along_xi
-   end function by_frequency
+      numbers = self%model%numbers
+      ! the ends of the window to all digits
+      numbers(self%along) = (1.0_wp - place)*self%window(1, :) + place*self%window(2, :)
+   end function numbers_at
 
-   !> Where the law has pairs i omega, with its own parameters at a place.
-   subroutine condition_at(self, p, condition, error)
+   !> The model at parameters.
+   function model_at(self, numbers) result(model)
       class(curve_plane_type), intent(in) :: self
-      !> The place
-      type(block_parameters_type), intent(in) :: p
-      type(hopf_condition_type), intent(out) :: condition
-      !> The law is outside of the form of the condition
-      type(error_type), allocatable, intent(out) :: error
+      !> All parameters
+      real(wp), intent(in) :: numbers(:)
+      type(model_type) :: model
 
-      condition = self%condition
-      if (.not. self%by_frequency()) call find_hopf_condition(p, condition, error)
-   end subroutine condition_at
+      model = self%model
+      call model%put(numbers)
+   end function model_at
 
-   !> The point of branch k at a frequency, or at an ordinate; xi <= 0 if there is none. Equations
-   !> (7) and (10) at fixed xi; at fixed tau (9) and (7), as far as (10) gives that tau back on
-   !> branch k.
-   type(block_parameters_type) function at(self, x, k, frequency) result(p)
+   !> The characteristic function at a place.
+   function function_at(self, place) result(c)
       class(curve_plane_type), intent(in) :: self
-      !> Frequency or ordinate, as `by_frequency` says
-      real(wp), intent(in) :: x
-      integer, intent(in) :: k
-      !> Frequency of the pair
-      real(wp), intent(out), optional :: frequency
-      type(error_type), allocatable :: error
-      type(hopf_condition_type) :: condition
-      real(wp) :: omega
+      !> Place in units of the window
+      real(wp), intent(in) :: place(2)
+      type(characteristic_type) :: c
 
-      omega = x
-      if (.not. self%by_frequency()) then
-         p = self%parameters(self%epsilon_window(1), x)
-         call self%condition_at(p, condition, error)
-         if (.not. allocated(error)) then
-            call find_on_branch(omega_function_type(angle_above, p, condition, k), &
-                                condition%largest_omega(self%epsilon_window(2)), omega, error)
-         end if
-         if (present(frequency)) frequency = omega
-         p%xi = merge(-1.0_wp, p%xi, allocated(error) .or. omega <= 0.0_wp)
-         if (p%xi > 0.0_wp) p%epsilon = condition%epsilon_at(omega, p%xi, p%gamma)
-         return
-      end if
-      if (present(frequency)) frequency = omega
-      p = self%fixed
-      associate (c => self%condition)
-         if (self%along == along_xi) p%xi = c%xi_at(omega, p%tau, p%gamma)
-         if (.not. p%xi > 0.0_wp) return
-         p%epsilon = c%epsilon_at(omega, p%xi, p%gamma)
-         associate (tau => c%tau_at(omega, p%epsilon, p%xi, p%gamma, k))
-            if (self%along == along_tau) then
-               p%tau = tau
-            else if (abs(omega*(tau - p%tau)) > 1.0_wp) then
-               p%xi = -1.0_wp
-            end if
-         end associate
-      end associate
-   end function at
+      c = characteristic_of(self%model_at(self%numbers_at(place)))
+   end function function_at
 
-   !> Parameters at a place of the plane.
-   pure type(block_parameters_type) function parameters(self, epsilon, ordinate) result(p)
+   !> The place of parameters in units of the window.
+   pure function place_of(self, numbers) result(place)
       class(curve_plane_type), intent(in) :: self
-      !> Abscissa and ordinate
-      real(wp), intent(in) :: epsilon, ordinate
-      real(wp), allocatable :: vector(:)
+      !> All parameters
+      real(wp), intent(in) :: numbers(:)
+      real(wp) :: place(2)
 
-      vector = vector_of(self%fixed)
-      vector([along_epsilon, self%along]) = [epsilon, ordinate]
-      p = with_vector(self%fixed, vector)
-   end function parameters
+      place = (numbers(self%along) - self%window(1, :))/(self%window(2, :) - self%window(1, :))
+   end function place_of
 
-   !> The ordinate among the parameters.
-   pure real(wp) function ordinate(self, p) result(value)
+   !> Derivatives of a root by abscissa and ordinate.
+   function root_slopes(self, numbers, s) result(slopes)
       class(curve_plane_type), intent(in) :: self
-      type(block_parameters_type), intent(in) :: p
-
-      real(wp), allocatable :: vector(:)
-
-      vector = vector_of(p)
-      value = vector(self%along)
-   end function ordinate
-
-   !> Derivatives of a root by epsilon and by the ordinate.
-   function root_slopes(self, p, s) result(slopes)
-      class(curve_plane_type), intent(in) :: self
-      type(block_parameters_type), intent(in) :: p
+      !> All parameters
+      real(wp), intent(in) :: numbers(:)
+      !> The root
       complex(wp), intent(in) :: s
       complex(wp) :: slopes(2)
       type(characteristic_type) :: c
 
-      c = block_characteristic(p)
-      slopes = [c%root_by(along_epsilon, s), c%root_by(self%along, s)]
+      c = characteristic_of(self%model_at(numbers))
+      slopes = [c%root_by(self%along(1), s), c%root_by(self%along(2), s)]
    end function root_slopes
 
-   !> Least and largest omega, or ordinate, and highest branch in the window. On branch k,
-   !> 2 pi k - pi <= omega tau.
-   subroutine bounds(self, least, most, k_most)
+   !> Number of unstable pairs at places on a grid.
+   function unstable_pairs(self, x, y) result(pairs)
       class(curve_plane_type), intent(in) :: self
-      !> Least and largest omega, or the window on the ordinate
-      real(wp), intent(out) :: least, most
-      !> Highest branch
-      integer, intent(out) :: k_most
-      type(error_type), allocatable :: error
-      type(hopf_condition_type) :: condition
-      real(wp) :: omega_least, omega_most, tau_most, xi_least
+      !> Places of columns and lines in units of the window
+      real(wp), intent(in) :: x(:), y(:)
+      integer :: pairs(size(x), size(y))
+      type(model_type) :: model
+      integer :: i, j
+
+      model = self%model
+      do j = 1, size(y)
+         do i = 1, size(x)
+            call model%put(self%numbers_at([x(i), y(j)]))
+            pairs(i, j) = roots_right_of(characteristic_of(model), 0.0_wp)/2
+         end do
+      end do
+   end function unstable_pairs
+
+   !> Middles of equal cells of an interval.
+   pure function middles(window, cells) result(x)
+      !> The interval
+      real(wp), intent(in) :: window(2)
+      !> Cells
+      integer, intent(in) :: cells
+      real(wp) :: x(cells)
       integer :: i
 
-      if (.not. self%by_frequency()) then
-         least = self%ordinate_window(1)
-         most = self%ordinate_window(2)
-         omega_most = 0.0_wp
-         do i = 0, places
-            call self%condition_at(self%parameters(0.0_wp, least + (most - least)*i/places), &
-                                   condition, error)
-            if (allocated(error)) cycle
-            omega_most = max(omega_most, condition%largest_omega(self%epsilon_window(2)))
+      x = [(window(1) + (window(2) - window(1))*(i - 0.5_wp)/cells, i=1, cells)]
+   end function middles
+
+   !> Newton's method to the point of a curve at which direction . (place, ln omega) has a value.
+   subroutine correct(self, point, direction, value, found, tangent)
+      class(curve_plane_type), intent(in) :: self
+      !> First guess, then the point
+      type(axis_point_type), intent(inout) :: point
+      !> Direction along which the distance is given, and the value
+      real(wp), intent(in) :: direction(3), value
+      !> Whether it converged
+      logical, intent(out) :: found
+      !> Direction of the curve there, of length 1, towards `direction`
+      real(wp), intent(out), optional :: tangent(3)
+      type(characteristic_type) :: c
+      complex(wp) :: delta, slopes(3), s
+      real(wp) :: before, matrix(3, 3), step(3)
+      integer :: i, k
+
+      found = .false.
+      before = huge(before)
+      do i = 1, most_steps
+         c = self%function_at(point%place)
+         s = cmplx(0.0_wp, point%omega, kind=wp)
+         delta = c%value(s)
+         do k = 1, 2
+            slopes(k) = c%by_parameter(self%along(k), s)*(self%window(2, k) - self%window(1, k))
          end do
-         k_most = ceiling(self%fixed%tau*omega_most/two_pi + 0.5_wp)
-         return
-      end if
-      tau_most = self%fixed%tau
-      xi_least = self%fixed%xi
-      if (self%along == along_tau) tau_most = self%ordinate_window(2)
-      if (self%along == along_xi) xi_least = self%ordinate_window(1)
-      associate (c => self%condition, epsilon_most => self%epsilon_window(2), &
-                 gamma => self%fixed%gamma)
-         omega_most = c%largest_omega(epsilon_most)
-         omega_least = min(c%least_omega(epsilon_most, xi_least, gamma), omega_most)
-         ! beyond gamma the inertia of the block holds the spring's place
-         if (c%has_inertia) omega_most = min(omega_most, gamma**2/omega_least)
-         least = omega_least
-         most = omega_most
+         slopes(3) = s*c%by_s(s)
+         ! rows of one size
+         associate (scale => maxval(abs(slopes)))
+            matrix = reshape([real(slopes)/scale, aimag(slopes)/scale, direction], [3, 3], &
+                             order=[2, 1])
+            if (found) exit
+            step = solution(matrix, [-real(delta)/scale, -aimag(delta)/scale, &
+                                     value - dot_product(direction, [point%place, log(point%omega)])])
+         end associate
+         if (.not. all(abs(step) < 1.0_wp)) return
+         point%place = point%place + step(:2)
+         point%omega = point%omega*exp(step(3))
+         associate (size_of_step => maxval(abs(step)))
+            found = size_of_step <= last_step .or. &
+                    (size_of_step <= small_step .and. size_of_step > 0.5_wp*before)
+            before = size_of_step
+         end associate
+      end do
+      found = found .or. before <= small_step
+      if (.not. present(tangent) .or. .not. found) return
+      tangent = cross(matrix(1, :), matrix(2, :))
+      tangent = tangent/norm2(tangent)
+      if (dot_product(tangent, direction) < 0.0_wp) tangent = -tangent
+   end subroutine correct
+
+   !> Solution of three equations, by Cramer's rule.
+   pure function solution(matrix, right) result(x)
+      real(wp), intent(in) :: matrix(3, 3), right(3)
+      real(wp) :: x(3)
+
+      associate (a => matrix(:, 1), b => matrix(:, 2), c => matrix(:, 3))
+         x = [dot_product(right, cross(b, c)), dot_product(a, cross(right, c)), &
+              dot_product(a, cross(b, right))]/dot_product(a, cross(b, c))
       end associate
-      k_most = ceiling(tau_most*omega_most/two_pi + 0.5_wp)
-   end subroutine bounds
+   end function solution
+
+   !> Vector product.
+   pure function cross(a, b) result(c)
+      real(wp), intent(in) :: a(3), b(3)
+      real(wp) :: c(3)
+
+      c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
+   end function cross
 end module hopf_planes

@@ -1,40 +1,39 @@
 !> What happens along Hopf curves: the first Lyapunov coefficient and the pairs that are unstable
 !> beside the one on the axis, and the points at which the kind of the bifurcation changes.
 module hopf_points
-   use block_equation, only: block_equation_type
-   use block_family, only: along_tau
-   use block_parameters, only: block_parameters_type
+   use characteristic_function, only: characteristic_of, characteristic_type
    use dde_errors, only: error_type
-   use gsl_roots, only: find_falling_root, find_root, scalar_function_type
-   use hopf_condition, only: hopf_condition_type, two_pi
-   use hopf_curves, only: curve_point_type
-   use hopf_planes, only: curve_plane_type
-   use hopf_unfoldings, only: unfold_double_hopf, unfold_generalised_hopf, unfolding_type
    use dde_kinds, only: wp
+   use gsl_roots, only: find_root, scalar_function_type
+   use hopf_curves, only: curve_point_type
+   use hopf_planes, only: axis_point_type, curve_plane_type, turn
+   use hopf_unfoldings, only: unfold_double_hopf, unfold_generalised_hopf, unfolding_type
+   use model_problem, only: model_type
    use normal_form, only: first_lyapunov_coefficient
    use root_counts, only: pairs_beside
-   use spring_block, only: block_characteristic
-   use stability_changes, only: angle_above, omega_function_type
    implicit none (type, external)
    private
    public :: find_hopf_points, hopf_point_type, judge_points, kind_length
 
    !> Letters of a kind of point.
    integer, parameter :: kind_length = 20
-   !> Marks a function that meets no branch.
-   integer, parameter :: no_branch = -1
    !> The coefficient passes through 0, not through a pole, where it is this small.
    real(wp), parameter :: small_coefficient = 1.0e-7_wp
+   !> Frequencies of two pairs differ by more than this share.
+   real(wp), parameter :: least_difference = 1.0e-3_wp
+   !> Steps of the way to a point at which two pairs are on the axis.
+   integer, parameter :: most_steps = 60
+   real(wp), parameter :: last_distance = 1.0e-14_wp
 
    !> A point at which two pairs of roots are imaginary, or the coefficient is 0, or the delay is 0.
    type :: hopf_point_type
       !> 'generalised_hopf', 'double_hopf' or 'hopf_without_delay'
       character(len=kind_length) :: kind = ""
-      !> Parameters, nondimensional
-      type(block_parameters_type) :: parameters
+      !> All parameters
+      real(wp), allocatable :: numbers(:)
       !> Frequency of the pair, and of the second one (0: none)
       real(wp) :: omega(2) = 0.0_wp
-      !> Branches of equation (10) (-1: none)
+      !> Turns that the pairs make in the longest delay (-1: none)
       integer :: branch(2) = -1
       !> First Lyapunov coefficients of the pairs
       real(wp) :: l1(2) = 0.0_wp
@@ -44,36 +43,36 @@ module hopf_points
       type(unfolding_type) :: unfolding
    end type hopf_point_type
 
-   !> Along a branch the first Lyapunov coefficient (0 if there is none, which `add_point` then
-   !> reports), or the number of the branch that a second frequency would be on, less a given one.
-   type, extends(scalar_function_type) :: branch_function_type
+   !> The first Lyapunov coefficient between two points of a curve (0 if there is none, which
+   !> `add_point` then reports).
+   type, extends(scalar_function_type) :: coefficient_type
       !> The plane
       type(curve_plane_type) :: plane
-      !> Branch
-      integer :: k = 0
-      !> The branch to meet, or `no_branch` for the coefficient
-      integer :: other = no_branch
+      !> The points
+      type(axis_point_type) :: ends(2)
    contains
-      procedure :: value => value_along_branch
-   end type branch_function_type
+      procedure :: value => coefficient_between
+   end type coefficient_type
 
 contains
 
    !> First Lyapunov coefficients and numbers of unstable pairs of points on curves.
-   subroutine judge_points(points, error)
+   subroutine judge_points(plane, points, error)
+      !> The plane
+      type(curve_plane_type), intent(in) :: plane
       !> The points
       type(curve_point_type), intent(inout) :: points(:)
       !> No coefficient: another root at 2 i omega
       type(error_type), allocatable, intent(out) :: error
+      type(model_type) :: model
       integer :: i
 
       do i = 1, size(points)
+         model = plane%model_at(points(i)%numbers)
          associate (point => points(i))
-            call first_lyapunov_coefficient(block_equation_type(point%parameters), point%omega, &
-                                            point%l1, error)
+            call first_lyapunov_coefficient(model, point%at%omega, point%l1, error)
             if (allocated(error)) return
-            point%unstable_pairs = pairs_beside(block_characteristic(point%parameters), &
-                                                [point%omega])
+            point%unstable_pairs = pairs_beside(characteristic_of(model), [point%at%omega])
          end associate
       end do
    end subroutine judge_points
@@ -88,128 +87,183 @@ contains
       type(hopf_point_type), allocatable, intent(out) :: found(:)
       !> A root was not found
       type(error_type), allocatable, intent(out) :: error
-      type(branch_function_type) :: coefficient, meeting
-      real(wp) :: x
-      integer :: i, m
+      type(coefficient_type) :: coefficient
+      type(axis_point_type) :: at, other
+      real(wp) :: share
+      integer :: i, j
 
       allocate (found(0))
       coefficient%plane = plane
-      meeting%plane = plane
-      call find_start(plane, found, error)
-      do i = 1, size(points) - 1
+      do i = 1, size(points)
+         ! without delay a curve ends at the edge of the window
+         if (maxval(plane%model%delays(points(i)%numbers)) > 0.0_wp) cycle
+         call add_point(found, "hopf_without_delay", plane, points(i)%at, [points(i)%at%omega], &
+                        error)
          if (allocated(error)) return
-         associate (p => points(i), q => points(i + 1))
-            if (p%piece /= q%piece) cycle
-            coefficient%k = p%branch
-            if (p%l1 < 0.0_wp .neqv. q%l1 < 0.0_wp) then
-               call find_root(coefficient, place(p), place(q), x, error)
+      end do
+      do i = 1, size(points) - 1
+         if (points(i)%piece /= points(i + 1)%piece) cycle
+         if (points(i)%l1 < 0.0_wp .neqv. points(i + 1)%l1 < 0.0_wp) then
+            coefficient%ends = points(i:i + 1)%at
+            call find_root(coefficient, 0.0_wp, 1.0_wp, share, error)
+            if (allocated(error)) return
+            if (abs(coefficient%value(share)) <= small_coefficient) then
+               at = point_between(plane, coefficient%ends, share)
+               call add_point(found, "generalised_hopf", plane, at, [at%omega], error, &
+                              chord_of(coefficient%ends))
                if (allocated(error)) return
-               if (abs(coefficient%value(x)) <= small_coefficient) then
-                  call add_point(found, "generalised_hopf", plane, x, [p%branch], error)
-               end if
             end if
-            ! of two frequencies at the same parameters, the lower one's pair becomes stable
-            if (p%crossing > 0 .or. q%crossing > 0) cycle
-            meeting%k = p%branch
-            meeting%other = 0
-            associate (here => meeting%value(place(p)), there => meeting%value(place(q)))
-               do m = max(0, ceiling(min(here, there))), floor(max(here, there))
-                  if (m == p%branch .or. allocated(error)) cycle
-                  meeting%other = m
-                  call find_root(meeting, place(p), place(q), x, error)
-                  if (allocated(error)) return
-                  call add_point(found, "double_hopf", plane, x, [p%branch, m], error)
-               end do
+         end if
+         do j = i + 1, size(points) - 1
+            if (points(j)%piece /= points(j + 1)%piece) cycle
+            if (.not. cross(points(i:i + 1)%at, points(j:j + 1)%at)) cycle
+            call find_meeting(plane, points(i:i + 1)%at, points(j:j + 1)%at, at, other)
+            associate (low => min(at%omega, other%omega), high => max(at%omega, other%omega))
+               if (high - low <= least_difference*high) cycle
+               call add_point(found, "double_hopf", plane, at, [low, high], error)
             end associate
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine find_hopf_points
+
+   !> The point of a curve at a share of the way between two points.
+   type(axis_point_type) function point_between(plane, ends, share) result(point)
+      type(curve_plane_type), intent(in) :: plane
+      type(axis_point_type), intent(in) :: ends(2)
+      real(wp), intent(in) :: share
+      real(wp) :: chord(3)
+      logical :: found
+
+      chord = chord_of(ends)
+      point%place = (1.0_wp - share)*ends(1)%place + share*ends(2)%place
+      point%omega = ends(1)%omega**(1.0_wp - share)*ends(2)%omega**share
+      call plane%correct(point, chord, dot_product(chord, [point%place, log(point%omega)]), found)
+   end function point_between
+
+   !> The direction from one point to another in (place, ln omega), of length 1.
+   pure function chord_of(ends) result(chord)
+      type(axis_point_type), intent(in) :: ends(2)
+      real(wp) :: chord(3)
+
+      chord = [ends(2)%place - ends(1)%place, log(ends(2)%omega/ends(1)%omega)]
+      chord = chord/norm2(chord)
+   end function chord_of
+
+   !> The coefficient at a share of the way between the points.
+   real(wp) function coefficient_between(self, x) result(value)
+      class(coefficient_type), intent(in) :: self
+      !> The share
+      real(wp), intent(in) :: x
+      type(axis_point_type) :: point
+      type(error_type), allocatable :: error
+
+      point = point_between(self%plane, self%ends, x)
+      call first_lyapunov_coefficient(self%plane%model_at(self%plane%numbers_at(point%place)), &
+                                      point%omega, value, error)
+   end function coefficient_between
+
+   !> Whether two chords cross in the plane.
+   pure logical function cross(one, other) result(value)
+      type(axis_point_type), intent(in) :: one(2), other(2)
+
+      value = .false.
+      if (max(one(1)%place(1), one(2)%place(1)) < min(other(1)%place(1), other(2)%place(1))) return
+      if (min(one(1)%place(1), one(2)%place(1)) > max(other(1)%place(1), other(2)%place(1))) return
+      if (max(one(1)%place(2), one(2)%place(2)) < min(other(1)%place(2), other(2)%place(2))) return
+      if (min(one(1)%place(2), one(2)%place(2)) > max(other(1)%place(2), other(2)%place(2))) return
+      value = side(one, other(1))*side(one, other(2)) <= 0.0_wp .and. &
+              side(other, one(1))*side(other, one(2)) < 0.0_wp
+   end function cross
+
+   !> On which side of a chord a point is.
+   pure real(wp) function side(chord, point) result(value)
+      type(axis_point_type), intent(in) :: chord(2), point
+
+      associate (way => chord(2)%place - chord(1)%place, from => point%place - chord(1)%place)
+         value = way(1)*from(2) - way(2)*from(1)
+      end associate
+   end function side
+
+   !> Where two curves meet, near where their chords do: the points on both go along the tangents
+   !> until they are at the same place.
+   subroutine find_meeting(plane, one, other, at, there)
+      type(curve_plane_type), intent(in) :: plane
+      type(axis_point_type), intent(in) :: one(2), other(2)
+      !> The meeting on both curves
+      type(axis_point_type), intent(out) :: at, there
+      real(wp) :: determinant, tangents(3, 2), way(2)
+      integer :: i
+      logical :: found(2)
+
+      at = one(1)
+      there = other(1)
+      tangents(:, 1) = chord_of(one)
+      tangents(:, 2) = chord_of(other)
+      do i = 1, most_steps
+         way = there%place - at%place
+         if (i > 1 .and. maxval(abs(way)) <= last_distance) exit
+         associate (a => tangents(:2, 1), b => tangents(:2, 2))
+            determinant = a(1)*b(2) - a(2)*b(1)
+            way = [way(1)*b(2) - way(2)*b(1), way(1)*a(2) - way(2)*a(1)]/determinant
          end associate
+         call advance(at, tangents(:, 1), way(1), found(1))
+         call advance(there, tangents(:, 2), way(2), found(2))
+         if (.not. all(found)) exit
       end do
 
    contains
 
-      !> Where a point is on its branch: its frequency, or its ordinate.
-      pure real(wp) function place(point) result(x)
-         type(curve_point_type), intent(in) :: point
+      !> Go along a curve.
+      subroutine advance(point, tangent, length, found)
+         type(axis_point_type), intent(inout) :: point
+         real(wp), intent(inout) :: tangent(3)
+         real(wp), intent(in) :: length
+         logical, intent(out) :: found
+         real(wp) :: before(3), value
 
-         x = merge(point%omega, plane%ordinate(point%parameters), plane%by_frequency())
-      end function place
-   end subroutine find_hopf_points
-
-   !> The point without delay, where the plane shows it.
-   subroutine find_start(plane, found, error)
-      type(curve_plane_type), intent(in) :: plane
-      type(hopf_point_type), allocatable, intent(inout) :: found(:)
-      type(error_type), allocatable, intent(out) :: error
-      real(wp) :: omega
-
-      if (plane%along /= along_tau .or. plane%ordinate_window(1) > 0.0_wp) return
-      ! omega tau falls from pi/2 as omega grows
-      call find_falling_root(omega_function_type(angle_above, plane%fixed, plane%condition), &
-                             1.0_wp, omega, error)
-      if (allocated(error)) return
-      associate (p => plane%at(omega, 0), window => plane%epsilon_window)
-         if (p%epsilon < window(1) .or. p%epsilon > window(2)) return
-      end associate
-      call add_point(found, "hopf_without_delay", plane, omega, [0], error)
-   end subroutine find_start
+         before = tangent
+         value = dot_product(before, [point%place, log(point%omega)]) + length
+         point = axis_point_type(point%place + length*before(:2), &
+                                 point%omega*exp(length*before(3)))
+         call plane%correct(point, before, value, found, tangent)
+      end subroutine advance
+   end subroutine find_meeting
 
    !> Append a point with its coefficients and its normal form.
-   subroutine add_point(found, kind, plane, x, branch, error)
+   subroutine add_point(found, kind, plane, at, omega, error, direction)
       type(hopf_point_type), allocatable, intent(inout) :: found(:)
       character(len=*), intent(in) :: kind
       type(curve_plane_type), intent(in) :: plane
-      !> Where the point is on the first branch
-      real(wp), intent(in) :: x
-      !> Branches, that of the lower frequency first
-      integer, intent(in) :: branch(:)
+      type(axis_point_type), intent(in) :: at
+      !> Frequencies of the pairs, ascending
+      real(wp), intent(in) :: omega(:)
       type(error_type), allocatable, intent(out) :: error
-      type(hopf_condition_type) :: condition
+      !> Direction of the curve of a generalised Hopf point
+      real(wp), intent(in), optional :: direction(3)
+      type(characteristic_type) :: c
       type(hopf_point_type) :: point
-      real(wp) :: omega(size(branch))
+      type(model_type) :: model
       integer :: i
 
       point%kind = kind
-      point%parameters = plane%at(x, branch(1), omega(1))
-      call plane%condition_at(point%parameters, condition, error)
-      if (allocated(error)) return
-      associate (p => point%parameters)
-         omega(2:) = condition%partner_omega(omega(1), p%epsilon, p%xi, p%gamma)
-      end associate
-      point%parameters%tau = max(point%parameters%tau, 0.0_wp)
-      point%unstable_pairs = pairs_beside(block_characteristic(point%parameters), omega)
+      point%numbers = plane%numbers_at(at%place)
+      model = plane%model_at(point%numbers)
+      c = characteristic_of(model)
+      point%unstable_pairs = pairs_beside(c, omega)
+      point%branch(:size(omega)) = nint(omega*maxval(c%delay)/turn)
       do i = 1, size(omega)
          point%omega(i) = omega(i)
-         point%branch(i) = branch(i)
-         call first_lyapunov_coefficient(block_equation_type(point%parameters), omega(i), &
-                                         point%l1(i), error)
+         call first_lyapunov_coefficient(model, omega(i), point%l1(i), error)
          if (allocated(error)) return
       end do
       select case (kind)
       case ("generalised_hopf")
-         call unfold_generalised_hopf(plane, x, branch(1), point%unfolding, error)
+         call unfold_generalised_hopf(plane, at, direction, point%unfolding, error)
       case ("double_hopf")
-         call unfold_double_hopf(plane, point%parameters, point%omega, point%unfolding, error)
+         call unfold_double_hopf(plane, point%numbers, point%omega, point%unfolding, error)
       case default
       end select
       found = [found, point]
    end subroutine add_point
-
-   !> The coefficient, or 0 where the second frequency is one of the other branch, too.
-   real(wp) function value_along_branch(self, x) result(value)
-      class(branch_function_type), intent(in) :: self
-      real(wp), intent(in) :: x
-      type(block_parameters_type) :: p
-      type(error_type), allocatable :: error
-      type(hopf_condition_type) :: c
-      real(wp) :: omega, partner
-
-      p = self%plane%at(x, self%k, omega)
-      if (self%other == no_branch) then
-         call first_lyapunov_coefficient(block_equation_type(p), omega, value, error)
-      else
-         call self%plane%condition_at(p, c, error)
-         partner = c%partner_omega(omega, p%epsilon, p%xi, p%gamma)
-         value = partner*(p%tau - c%tau_at(partner, p%epsilon, p%xi, p%gamma, 0))/two_pi &
-                 - self%other
-      end if
-   end function value_along_branch
 end module hopf_points

@@ -1,10 +1,10 @@
-!> A case to measure: one parameter set of the delayed block, its history and its sample times. All
-!> quantities are nondimensional. A program compiled in quadruple precision rounds them to double
-!> precision, so that it solves the very problem that the program in double precision solves.
+!> A case to measure: a model with its parameters, its history and its sample times. A program
+!> compiled in quadruple precision rounds them to double precision, so that it solves the very problem
+!> that the program in double precision solves.
 module measured_case
-   use block_parameters, only: block_history_type, block_parameters_type
    use dde_kinds, only: wp
-   use spring_block, only: spring_block_type
+   use model_history, only: history_type
+   use model_problem, only: model_type
    implicit none (type, external)
    private
    public :: as_double, case_type
@@ -16,10 +16,10 @@ module measured_case
    type :: case_type
       !> Name
       character(len=256) :: name = ""
-      !> Parameters
-      type(block_parameters_type) :: parameters
-      !> Values for t <= 0
-      type(block_history_type) :: history
+      !> The model with its parameters
+      type(model_type) :: model
+      !> Its history
+      type(history_type) :: history
       !> Last time
       real(wp) :: t_end = 1.0_wp
       !> Time between samples
@@ -30,22 +30,28 @@ module measured_case
 
 contains
 
-   !> The block with this case's parameters, rounded to double precision in any precision.
-   function problem(self, disturbance) result(block)
+   !> The model with this case's parameters, rounded to double precision in any precision.
+   function problem(self, disturbance) result(model)
       class(case_type), intent(in) :: self
-      !> Change of theta and u and relative change of v for t <= 0
+      !> Change of the values before the initial time, relative where they are exponentials of states
       real(wp), intent(in) :: disturbance
-      type(spring_block_type) :: block
+      type(model_type) :: model
+      type(history_type) :: history
+      integer :: i
 
-      associate (p => self%parameters, past => self%history)
-         block = spring_block_type( &
-                 block_parameters_type(tau=as_double(p%tau), epsilon=as_double(p%epsilon), &
-                                       xi=as_double(p%xi), gamma=as_double(p%gamma), &
-                                       law=p%law, own=as_double(p%own)), &
-                 block_history_type(theta=as_double(past%theta) + disturbance, &
-                                    u=as_double(past%u) + disturbance, &
-                                    v=as_double(past%v)*(1.0_wp + disturbance)))
-      end associate
+      model = self%model
+      history = self%history
+      do i = 1, size(history%names)
+         associate (values => as_double(history%values(i, :, :)))
+            if (history%exponential(i)) then
+               history%states(i, :, :) = log(values*(1.0_wp + disturbance))
+            else
+               history%states(i, :, :) = values + disturbance
+            end if
+         end associate
+      end do
+      model%past = history%past(model, 1)
+      call model%put(as_double(model%numbers))
    end function problem
 
    !> Times of samples: multiples of the interval up to t_end.

@@ -5,11 +5,11 @@ module measured_run
    use dde, only: integrate, integration_options, integration_result, out_of_memory, reached_end, &
                   sampler_type
    use dde_errors, only: error_type
-   use fixed_step_rk4, only: integrate_rk4
    use dde_kinds, only: int64, wp
+   use fixed_step_rk4, only: integrate_rk4
    use measured_case, only: as_double, case_type
+   use model_problem, only: model_type
    use progress_receiver, only: progress_receiver_type
-   use spring_block, only: index_of_ln_v, spring_block_type
    implicit none (type, external)
    private
    public :: baseline_methods, measure_run, run_type, time_runs
@@ -38,10 +38,11 @@ module measured_run
       character(len=:), allocatable :: reason
       !> What the solver did
       type(integration_result) :: outcome = integration_result()
-      !> theta, u, ln v, shape (3, times); not a number at times not reached
+      !> States, shape (n, times); not a number at times not reached
       real(wp), allocatable :: samples(:, :)
-      !> Smallest and largest ln v over a grid eight times as fine as the samples
-      real(wp) :: least_ln_v = 0.0_wp, most_ln_v = 0.0_wp
+      !> Smallest and largest value of the component of the signal over a grid eight times as fine as
+      !> the samples
+      real(wp) :: least = 0.0_wp, most = 0.0_wp
       !> CPU seconds; with its samples where the run was not repeated
       real(wp) :: seconds = 0.0_wp
    end type run_type
@@ -57,7 +58,8 @@ module measured_run
       real(wp), allocatable :: values(:, :)
       !> Number of samples received
       integer :: received = 0
-      !> Smallest and largest ln v
+      !> Component of the signal, its smallest and its largest value
+      integer :: component = 1
       real(wp) :: least = huge(1.0_wp), most = -huge(1.0_wp)
       !> Receiver of the number of samples received, if any
       class(progress_receiver_type), pointer :: progress => null()
@@ -73,7 +75,7 @@ contains
    subroutine measure_run(case, disturbance, most_steps, run, progress)
       !> The case
       type(case_type), intent(in) :: case
-      !> Change of theta and u and relative change of v for t <= 0
+      !> Change of the values before the initial time, relative where they are exponentials of states
       real(wp), intent(in) :: disturbance
       !> Most steps of the solver
       integer(int64), intent(in) :: most_steps
@@ -82,27 +84,28 @@ contains
       !> Receiver of the number of samples
       class(progress_receiver_type), intent(inout), target, optional :: progress
       type(error_type), allocatable :: error
-      type(spring_block_type) :: block_model
+      type(model_type) :: model
       type(extremes_sampler_type) :: sampler
       real(wp) :: no_number, now, start
       integer :: i
 
       no_number = ieee_value(1.0_wp, ieee_quiet_nan)
-      block_model = case%problem(disturbance)
-      sampler%wanted = [(i, i=1, block_model%n)]
+      model = case%problem(disturbance)
+      sampler%component = model%sizes%observed%component
+      sampler%wanted = [(i, i=1, model%n)]
       sampler%time = case%sample_times()
       sampler%next = sampler%time(1)
-      allocate (sampler%values(block_model%n, size(sampler%time)), source=no_number)
+      allocate (sampler%values(model%n, size(sampler%time)), source=no_number)
       if (present(progress)) sampler%progress => progress
       call cpu_time(start)
-      call solve(block_model, as_double(case%t_end), most_steps, run, error, sampler)
+      call solve(model, as_double(case%t_end), most_steps, run, error, sampler)
       call cpu_time(now)
       run%status = status_names(run%outcome%reason)
       run%reason = ""
       if (allocated(error)) run%reason = error%message
       run%samples = sampler%values
-      run%least_ln_v = merge(sampler%least, no_number, sampler%received > 0)
-      run%most_ln_v = merge(sampler%most, no_number, sampler%received > 0)
+      run%least = merge(sampler%least, no_number, sampler%received > 0)
+      run%most = merge(sampler%most, no_number, sampler%received > 0)
       run%seconds = now - start
    end subroutine measure_run
 
@@ -140,8 +143,8 @@ contains
    end subroutine time_runs
 
    !> Solve it by the run's method.
-   subroutine solve(block_model, t_end, most_steps, run, error, sampler)
-      type(spring_block_type), intent(in) :: block_model
+   subroutine solve(model, t_end, most_steps, run, error, sampler)
+      type(model_type), intent(in) :: model
       real(wp), intent(in) :: t_end
       integer(int64), intent(in) :: most_steps
       !> Method and setting; filled with the outcome
@@ -150,10 +153,10 @@ contains
       type(extremes_sampler_type), intent(inout), optional :: sampler
 
       if (any(baseline_methods == run%method)) then
-         call integrate_rk4(block_model, t_end, run%setting, run%method == "rk4_cubic", &
+         call integrate_rk4(model, t_end, run%setting, run%method == "rk4_cubic", &
                             run%outcome, error, sampler)
       else
-         call integrate(block_model, 0.0_wp, t_end, &
+         call integrate(model, 0.0_wp, t_end, &
                         integration_options(method=run%method(:8), relative=run%setting, &
                                             absolute=run%setting, most_steps=most_steps), &
                         run%outcome, error, sampler)
@@ -203,8 +206,8 @@ contains
       class(extremes_sampler_type), intent(inout) :: self
       real(wp), intent(in) :: y(:)
 
-      self%least = min(self%least, y(index_of_ln_v))
-      self%most = max(self%most, y(index_of_ln_v))
+      self%least = min(self%least, y(self%component))
+      self%most = max(self%most, y(self%component))
       if (self%looked == 0) then
          self%received = self%received + 1
          self%values(:, self%received) = y

@@ -1,48 +1,51 @@
-!> A piece of a motion to be drawn: v over time, and v over u, as a line through few points.
+!> A piece of a motion to be drawn: the signal over time, and over the last coordinate of the section,
+!> as a line through few points.
 module motion_path
    use dde, only: continuation_type, event_table, integrate, integration_options, &
                   integration_result, sampler_type
    use dde_errors, only: error_type
    use dde_kinds, only: wp
-   use spring_block, only: index_of_ln_v, index_of_u, spring_block_type
+   use model_problem, only: model_type
    implicit none (type, external)
    private
    public :: find_kept_points, follow_path
 
-   !> Longest time and longest slip between two samples. The mean of v is one: there are about as
-   !> many samples by time as by slip, and slip events of any speed are resolved.
+   !> Longest time between two samples, and longest integral of a signal that is an exponential. If
+   !> its mean is one, there are about as many samples by time as by its integral, and events of any
+   !> height are resolved.
    real(wp), parameter :: longest_time = 0.05_wp, longest_slip = 0.05_wp
 
-   !> Samples of u and ln v.
+   !> Samples of a coordinate and of the component of the signal.
    type, extends(sampler_type) :: path_sampler_type
-      !> Time, u and ln v, shape (3, >= received)
+      !> Time, coordinate and component of the signal, shape (3, >= received)
       real(wp), allocatable :: rows(:, :)
       !> Number of samples received
       integer :: received = 0
       !> Time of the last one
       real(wp) :: last = 0.0_wp
+      !> Whether the signal is the exponential of its component
+      logical :: is_exponential = .false.
    contains
       procedure :: take
    end type path_sampler_type
 
 contains
 
-   !> Follow a motion for a time, from its next passage of v = 1 with v rising, if there is one in
-   !> that time. There is no path if the run ends before its time: that of the class of the motion
+   !> Follow a motion for a time, from its next passage of the section, if there is one in that time. There is no path if the run ends before its time: that of the class of the motion
    !> was another.
-   subroutine follow_path(block_model, from, time, closeness, options, path)
-      !> The block
-      type(spring_block_type), intent(in) :: block_model
+   subroutine follow_path(model, from, time, closeness, options, path)
+      !> The model
+      class(model_type), intent(in) :: model
       !> Where the motion is
       type(continuation_type), intent(in) :: from
       !> How long
       real(wp), intent(in) :: time
-      !> How close the line is to the motion, as a share of its extent in ln v and u. In time it is
+      !> How close the line is to the motion, as a share of its extent in the signal and the coordinate. In time it is
       !> half of that: plots over time are wide.
       real(wp), intent(in) :: closeness
       !> Method and tolerances
       type(integration_options), intent(in) :: options
-      !> Time from the beginning of the piece, u and ln v, shape (3, points)
+      !> Time from the beginning of the piece, coordinate and component of the signal, shape (3, points)
       real(wp), allocatable, intent(out) :: path(:, :)
       type(continuation_type) :: here
       type(error_type), allocatable :: error
@@ -52,16 +55,21 @@ contains
       real(wp) :: start
 
       here = from
-      passage = event_table([index_of_ln_v], level=[0.0_wp], direction=[1], terminal=[.true.])
-      call integrate(block_model, here%time(1), here%time(1) + time, options, outcome, error, &
+      associate (observed => model%sizes%observed)
+         passage = event_table([observed%component], level=[model%section_level()], direction=[1], &
+                               terminal=[.true.])
+         samples%wanted = [maxval(observed%coordinates), observed%component]
+         if (samples%wanted(1) == 0) samples%wanted(1) = observed%component
+         samples%is_exponential = observed%is_exponential
+      end associate
+      call integrate(model, here%time(1), here%time(1) + time, options, outcome, error, &
                      watcher=passage, continuation=here)
       if (allocated(error)) return
       start = here%time(1)
-      samples%wanted = [index_of_u, index_of_ln_v]
       samples%next = start
       samples%last = start + time
       allocate (samples%rows(3, ceiling(time/longest_time)))
-      call integrate(block_model, start, samples%last, options, outcome, error, &
+      call integrate(model, start, samples%last, options, outcome, error, &
                      sampler=samples, continuation=here)
       if (allocated(error)) return
       path = samples%rows(:, :samples%received)
@@ -69,11 +77,12 @@ contains
       path = thinned(path, closeness)
    end subroutine follow_path
 
-   !> Keep a sample. The next one follows after the longest time or the longest slip at this v.
+   !> Keep a sample. The next one follows after the longest time or the longest integral.
    subroutine take(self, y)
       class(path_sampler_type), intent(inout) :: self
-      !> u and ln v
+      !> Coordinate and component of the signal
       real(wp), intent(in) :: y(:)
+      real(wp) :: step
 
       if (self%received == size(self%rows, 2)) then
          self%rows = reshape(self%rows, [3, 2*self%received], pad=[0.0_wp])
@@ -84,14 +93,16 @@ contains
          self%next = huge(1.0_wp)
          return
       end if
-      ! the last term lets time go on however fast the block is
-      self%next = self%next + max(min(longest_time, longest_slip*exp(-y(2))), spacing(self%next))
+      step = longest_time
+      if (self%is_exponential) step = min(step, longest_slip*exp(-y(2)))
+      ! time goes on however large the signal is
+      self%next = self%next + max(step, spacing(self%next))
       self%next = min(self%next, self%last)
    end subroutine take
 
    !> The points of a path that matter in a picture of it.
    pure function thinned(path, closeness) result(line)
-      !> Time, u and ln v
+      !> Time, coordinate and component of the signal
       real(wp), intent(in) :: path(:, :)
       real(wp), intent(in) :: closeness
       real(wp), allocatable :: line(:, :)

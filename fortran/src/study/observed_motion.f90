@@ -1,12 +1,13 @@
-!> What is kept of a block in motion: samples, maxima of v that stand out, and the section v = 1, v
-!> rising (where u is least), with points (theta, u).
+!> What is kept of a motion: samples of the signal, its maxima that stand out, and the section, in
+!> which it rises through a level, with two coordinates of each point.
 module observed_motion
    use dde, only: continuation_type, dde_problem_type, event_table, integrate, &
                   integration_options, integration_result, sampler_type
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use lyapunov_spectrum, only: interval_observer_type
-   use spring_block, only: index_of_ln_v, index_of_theta, index_of_u, spring_block_type
+   use model_description, only: observed_type
+   use model_problem, only: model_type
    implicit none (type, external)
    private
    public :: observed_motion_type
@@ -16,8 +17,8 @@ module observed_motion
       enumerator :: section = 1, maximum, minimum
    end enum
 
-   !> ln v rises by this much at least from a minimum to a maximum. Where v of a stuck block hardly
-   !> changes, errors within the tolerance make smaller ones.
+   !> The component of the signal rises by this much at least from a minimum to a maximum. Where it
+   !> hardly changes, errors within the tolerance make smaller ones.
    real(wp), parameter :: least_rise = 1.0e-3_wp
 
    !> Samples that there is room for at first.
@@ -39,15 +40,19 @@ module observed_motion
    type, extends(interval_observer_type) :: observed_motion_type
       !> Time between samples
       real(wp) :: sample_interval = 0.0_wp
-      !> Maxima of v
+      !> Maxima of the signal
       real(wp), allocatable :: maxima(:)
-      !> Points (theta, u) of the section, shape (2, points)
+      !> Points of the section, shape (2, points): the coordinates of the definition; where it has
+      !> fewer, the time since the passage before and the greatest signal since then
       real(wp), allocatable :: section(:, :)
       !> Times of these points, shape (points)
       real(wp), allocatable :: section_time(:)
-      !> Least ln v since the last maximum
-      real(wp), private :: lowest = huge(1.0_wp)
-      !> Samples of theta, u and ln v
+      !> Least value since the last maximum, greatest one since the last passage, and its time
+      real(wp), private :: lowest = huge(1.0_wp), highest = -huge(1.0_wp), passed = -huge(1.0_wp)
+      !> What is observed, and the level of the section
+      type(observed_type), private :: observed
+      real(wp), private :: level = 0.0_wp
+      !> Samples of the signal's component and of the coordinates
       type(even_sampler_type), private :: sampler
       !> Events since the motion arrived somewhere, and how many of them are kept
       type(event_table), private :: events
@@ -55,11 +60,24 @@ module observed_motion
       !> Where the motion is; empty at its beginning
       type(continuation_type) :: continuation
    contains
-      procedure :: clear, forget_path, observe, observe_interval, keep_interval, arrive, samples, &
-         scale
+      procedure :: begin, clear, forget_path, observe, observe_interval, keep_interval, arrive, &
+         signal, signal_shown, scale
    end type observed_motion_type
 
 contains
+
+   !> Look at a model from now on.
+   pure subroutine begin(self, model, sample_interval)
+      class(observed_motion_type), intent(inout) :: self
+      class(model_type), intent(in) :: model
+      !> Time between samples
+      real(wp), intent(in) :: sample_interval
+
+      self%observed = model%sizes%observed
+      self%level = model%section_level()
+      self%sample_interval = sample_interval
+      call self%clear()
+   end subroutine begin
 
    !> Forget the observations, not where the motion is.
    pure subroutine clear(self)
@@ -68,12 +86,16 @@ contains
       real(wp) :: nothing(0)
 
       self%sampler = empty
-      self%sampler%wanted = [index_of_theta, index_of_u, index_of_ln_v]
+      associate (observed => self%observed)
+         self%sampler%wanted = [observed%component, pack(observed%coordinates, &
+                                                         observed%coordinates > 0)]
+      end associate
       self%sampler%interval = self%sample_interval
       allocate (self%sampler%rows(size(self%sampler%wanted), first_rows))
       self%section = reshape(nothing, [2, 0])
       self%section_time = nothing
       self%maxima = nothing
+      self%passed = -huge(1.0_wp)
       call await_events(self)
    end subroutine clear
 
@@ -89,9 +111,9 @@ contains
    end subroutine forget_path
 
    !> Observe on for a time.
-   subroutine observe(self, block_model, time, options, error)
+   subroutine observe(self, model, time, options, error)
       class(observed_motion_type), intent(inout) :: self
-      type(spring_block_type), intent(in) :: block_model
+      class(model_type), intent(in) :: model
       real(wp), intent(in) :: time
       type(integration_options), intent(in) :: options
       type(error_type), allocatable, intent(out) :: error
@@ -99,16 +121,16 @@ contains
       type(integration_result) :: outcome
 
       now = self%continuation
-      call self%observe_interval(block_model, now%time(1) + time, options, outcome, error, now)
+      call self%observe_interval(model, now%time(1) + time, options, outcome, error, now)
       if (allocated(error)) return
       call self%keep_interval()
       call self%arrive(now)
    end subroutine observe
 
-   !> Observe a run of the block up to `time`, with or without tangent vectors.
+   !> Observe a run up to `time`, with or without tangent vectors.
    subroutine observe_interval(self, problem, time, options, outcome, error, continuation)
       class(observed_motion_type), intent(inout) :: self
-      !> The block, maybe with tangent vectors
+      !> The model, maybe with tangent vectors
       class(dde_problem_type), intent(in) :: problem
       real(wp), intent(in) :: time
       type(integration_options), intent(in) :: options
@@ -149,21 +171,28 @@ contains
       class(observed_motion_type), intent(inout) :: self
       integer :: i
 
-      self%events = event_table([(index_of_ln_v, i=section, minimum)], &
-                                level=[(0.0_wp, i=section, minimum)], direction=[1, -1, 1], &
+      self%events = event_table([(self%observed%component, i=section, minimum)], &
+                                level=[self%level, 0.0_wp, 0.0_wp], direction=[1, -1, 1], &
                                 of_slope=[.false., .true., .true.])
       self%events_kept = 0
    end subroutine await_events
 
-   !> One of theta, u and ln v at even times.
-   pure function samples(self, component) result(values)
+   !> The component of the signal at even times.
+   pure function signal(self) result(values)
       class(observed_motion_type), intent(in) :: self
-      !> `index_of_theta`, `index_of_u` or `index_of_ln_v`
-      integer, intent(in) :: component
       real(wp) :: values(self%sampler%kept)
 
-      values = self%sampler%rows(component, :self%sampler%kept)
-   end function samples
+      values = self%sampler%rows(1, :self%sampler%kept)
+   end function signal
+
+   !> The signal itself at even times.
+   pure function signal_shown(self) result(values)
+      class(observed_motion_type), intent(in) :: self
+      real(wp) :: values(self%sampler%kept)
+
+      values = self%signal()
+      if (self%observed%is_exponential) values = exp(values)
+   end function signal_shown
 
    !> Keep a sample, and wait for the next one.
    subroutine take(self, y)
@@ -179,46 +208,89 @@ contains
       self%next = self%begun + (self%received + 1)*self%interval
    end subroutine take
 
-   !> Take over maxima of v and points of the section.
+   !> Take over maxima of the signal and points of the section.
    pure subroutine take_over(self)
       class(observed_motion_type), intent(inout) :: self
-      logical :: kept(self%events%received)
-      integer :: i
+      real(wp) :: maxima(self%events%received), points(2, self%events%received), &
+                  times(self%events%received)
+      integer :: given, i, peaks, passages
 
-      associate (events => self%events)
+      associate (events => self%events, observed => self%observed)
+         given = count(observed%coordinates > 0)
+         peaks = 0
+         passages = 0
          do i = 1, events%received
-            associate (ln_v => events%y(index_of_ln_v, i))
-               kept(i) = events%which(i) == maximum .and. ln_v - self%lowest >= least_rise
-               if (kept(i)) self%lowest = huge(1.0_wp)
-               if (events%which(i) == minimum) self%lowest = min(self%lowest, ln_v)
+            associate (value => events%y(observed%component, i))
+               select case (events%which(i))
+               case (maximum)
+                  self%highest = max(self%highest, value)
+                  if (value - self%lowest >= least_rise) then
+                     peaks = peaks + 1
+                     maxima(peaks) = value
+                     self%lowest = huge(1.0_wp)
+                  end if
+               case (minimum)
+                  self%lowest = min(self%lowest, value)
+               case default
+                  associate (time => events%time(i)%hi)
+                     if (given == 2 .or. self%passed > -huge(1.0_wp)) then
+                        passages = passages + 1
+                        times(passages) = time
+                        points(:, passages) = point_at(i)
+                     end if
+                     self%passed = time
+                     self%highest = -huge(1.0_wp)
+                  end associate
+               end select
             end associate
          end do
-         associate (rows => [(i, i=1, events%received)])
-            self%maxima = [self%maxima, exp(events%y(index_of_ln_v, pack(rows, kept)))]
-            associate (passages => pack(rows, events%which(:events%received) == section))
-               self%section = reshape([self%section, &
-                                       events%y([index_of_theta, index_of_u], passages)], &
-                                      [2, size(self%section, 2) + size(passages)])
-               self%section_time = [self%section_time, events%time(passages)%hi]
+         if (observed%is_exponential) maxima(:peaks) = exp(maxima(:peaks))
+         self%maxima = [self%maxima, maxima(:peaks)]
+         self%section = reshape([self%section, points(:, :passages)], &
+                                [2, size(self%section, 2) + passages])
+         self%section_time = [self%section_time, times(:passages)]
+      end associate
+
+   contains
+
+      !> The coordinates of a passage.
+      pure function point_at(number) result(point)
+         !> Number of the event
+         integer, intent(in) :: number
+         real(wp) :: point(2)
+         real(wp) :: all(4)
+
+         associate (events => self%events, given => self%observed%coordinates)
+            all(3:) = [events%time(number)%hi - self%passed, self%highest]
+            all(:2) = events%y(max(1, given), number)
+            associate (chosen => pack(all, [given > 0, .true., .true.]))
+               point = chosen(:2)
             end associate
          end associate
-      end associate
+      end function point_at
    end subroutine take_over
 
-   !> Standard deviations of theta and u, over all samples.
+   !> Standard deviations of the coordinates: over all samples, or over the points of the section.
    pure function scale(self) result(deviations)
       class(observed_motion_type), intent(in) :: self
       real(wp) :: deviations(2)
-      integer, parameter :: component(2) = [index_of_theta, index_of_u]
       integer :: i
 
       do i = 1, 2
-         associate (values => self%samples(component(i)))
-            associate (n => max(1, size(values)))
-               deviations(i) = max(norm2(values - sum(values)/n)/sqrt(real(n, wp)), &
-                                   tiny(1.0_wp))
-            end associate
-         end associate
+         if (i < size(self%sampler%wanted)) then
+            deviations(i) = deviation(self%sampler%rows(i + 1, :self%sampler%kept))
+         else
+            deviations(i) = deviation(self%section(i, :))
+         end if
       end do
    end function scale
+
+   !> Standard deviation, not 0.
+   pure real(wp) function deviation(values)
+      real(wp), intent(in) :: values(:)
+
+      associate (n => max(1, size(values)))
+         deviation = max(norm2(values - sum(values)/n)/sqrt(real(n, wp)), tiny(1.0_wp))
+      end associate
+   end function deviation
 end module observed_motion

@@ -1,20 +1,19 @@
 !> Whether blocks that move alike stay alike: the master stability function (Pecora and Carroll
-!> 1998, Phys. Rev. Lett. 80, 2109). Disturbances of the mode of a chain that has the eigenvalue mu
-!> grow along the motion of one block as those of a block with gamma^2 du -> s gamma^2 du in the
-!> disturbance alone, s = 1 + kappa mu. s = 1 is the block itself.
+!> 1998, Phys. Rev. Lett. 80, 2109). Along the motion of one block, disturbances of a mode of a chain
+!> have second differences of -mu times the disturbance, where mu is the eigenvalue of the mode. They
+!> are given by s = 1 + kappa mu, s = 1 for the block itself.
 module transverse_growth
-   use block_parameters, only: block_history_type, block_parameters_type
    use dde, only: integration_options
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use exponent_averages, only: average_growth, exponent_type
    use lyapunov_spectrum, only: growth_settings_type, growth_type, measure_growth
+   use model_problem, only: model_type
    use progress_receiver, only: progress_receiver_type
    use sign_change, only: sign_change_type
-   use spring_block, only: transverse_block
    implicit none (type, external)
    private
-   public :: find_zeros, measure_transverse_growth, transverse_growth_type, zero_type
+   public :: find_zeros, measure_transverse_growth, of_mode, transverse_growth_type, zero_type
 
    !> An exponent within so many standard errors of 0 has no sign.
    real(wp), parameter :: most_bars = 3.0_wp
@@ -39,12 +38,9 @@ module transverse_growth
 contains
 
    !> The largest exponents along the motion of one block, for each s.
-   subroutine measure_transverse_growth(parameters, history, s, settings, options, growth, error, &
-                                        progress)
-      !> Parameters of one block, which were checked
-      type(block_parameters_type), intent(in) :: parameters
-      !> Values for t <= 0
-      type(block_history_type), intent(in) :: history
+   subroutine measure_transverse_growth(model, s, settings, options, growth, error, progress)
+      !> A chain of one block with kappa = 1, and its past
+      type(model_type), intent(in) :: model
       !> Stiffness of the modes over that of one block, >= 1
       real(wp), intent(in) :: s(:)
       !> When exponents are measured; of each s one is
@@ -61,16 +57,26 @@ contains
 
       allocate (growth(size(s)))
       do i = 1, size(s)
-         call measure_one(parameters, history, s(i), settings, options, growth(i), error)
+         call measure_one(model, s(i), settings, options, growth(i), error)
          if (allocated(error)) return
          if (present(progress)) call progress%advance(i, size(s))
       end do
    end subroutine measure_transverse_growth
 
+   !> The block whose disturbances are those of a mode.
+   pure type(model_type) function of_mode(model, s) result(block)
+      !> A chain of one block with kappa = 1
+      type(model_type), intent(in) :: model
+      !> 1 + kappa mu of the mode
+      real(wp), intent(in) :: s
+
+      block = model
+      block%shape%mode = s - 1.0_wp
+   end function of_mode
+
    !> The largest exponent for one s.
-   subroutine measure_one(parameters, history, s, settings, options, growth, error)
-      type(block_parameters_type), intent(in) :: parameters
-      type(block_history_type), intent(in) :: history
+   subroutine measure_one(model, s, settings, options, growth, error)
+      type(model_type), intent(in) :: model
       real(wp), intent(in) :: s
       type(growth_settings_type), intent(in) :: settings
       type(integration_options), intent(in) :: options
@@ -84,8 +90,7 @@ contains
       one = settings
       one%exponents = 1
       one%across_flow = .false.
-      call measure_growth(transverse_block(parameters, history, s - 1.0_wp), one, options, &
-                          measured, problem)
+      call measure_growth(of_mode(model, s), one, options, measured, problem)
       if (allocated(problem)) then
          call raise(error, "s = "//text(s)//": "//problem%message)
          return
@@ -97,11 +102,9 @@ contains
    !> Zeros between values of s whose exponents have signs. Exponents are measured in between, until
    !> one has no sign; the error of the zero is that of this exponent over the slope. On cycles and
    !> tori the exponent at s = 1, that of the flow, has no sign.
-   subroutine find_zeros(parameters, history, settings, options, growth, zeros, error)
-      !> Parameters of one block, which were checked
-      type(block_parameters_type), intent(in) :: parameters
-      !> Values for t <= 0
-      type(block_history_type), intent(in) :: history
+   subroutine find_zeros(model, settings, options, growth, zeros, error)
+      !> A chain of one block with kappa = 1, and its past
+      type(model_type), intent(in) :: model
       !> When exponents are measured
       type(growth_settings_type), intent(in) :: settings
       !> Method and tolerances
@@ -125,7 +128,7 @@ contains
          if ((ends(1)%value > 0.0_wp) .eqv. (ends(2)%value > 0.0_wp)) cycle
          bracket = sign_change_type(ends%s, ends%value)
          do round = 1, most_rounds
-            call measure_one(parameters, history, bracket%next(), settings, options, here, error)
+            call measure_one(model, bracket%next(), settings, options, here, error)
             if (allocated(error)) return
             if (abs(here%value) <= most_bars*here%error) exit
             call bracket%narrow(here%s, here%value, moved)

@@ -2,22 +2,21 @@
 !> the modes of a chain by Floquet multipliers, ln|mu|/T, with the same linear equations as in
 !> `transverse_growth`. All is found on two meshes, the second finer.
 module transverse_multipliers
-   use block_cycles, only: find_reached_orbit
-   use block_family, only: block_family_type, transverse_family_type
-   use block_parameters, only: block_history_type, block_parameters_type
    use branch_ends, only: refinement_type
    use collocation_basis, only: collocation_basis_type, radau_points
+   use cycle_branches, only: find_reached_orbit
    use dde, only: integration_options
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use floquet_multipliers, only: find_largest_multiplier, find_multipliers, multipliers_type
    use gsl_roots, only: find_root, scalar_function_type
+   use model_family, only: family_type, fixed_model
+   use model_problem, only: model_type
    use orbit_change, only: orbit_change_type
    use orbit_equations, only: correct_orbit, newton_type
    use orbit_mesh, only: adapted_mesh
    use periodic_orbit, only: periodic_orbit_type
-   use problem_family, only: free_family_type, problem_family_type
-   use transverse_growth, only: transverse_growth_type, zero_type
+   use transverse_growth, only: of_mode, transverse_growth_type, zero_type
    implicit none (type, external)
    private
    public :: find_transverse_cycle, transverse_cycle_type
@@ -49,8 +48,8 @@ module transverse_multipliers
 
    !> The largest exponent as a function of s.
    type, extends(scalar_function_type) :: exponent_of_mode_type
-      !> Parameters of one block
-      type(block_parameters_type) :: parameters
+      !> A chain of one block with kappa = 1
+      type(model_type) :: model
       !> Its cycle
       type(periodic_orbit_type) :: orbit
    contains
@@ -60,11 +59,9 @@ module transverse_multipliers
 contains
 
    !> Exponents along the cycle at which a motion of one block ends.
-   subroutine find_transverse_cycle(parameters, history, t_end, options, s, on_cycle)
-      !> Parameters of one block, which were checked
-      type(block_parameters_type), intent(in) :: parameters
-      !> Values for t <= 0
-      type(block_history_type), intent(in) :: history
+   subroutine find_transverse_cycle(model, t_end, options, s, on_cycle)
+      !> A chain of one block with kappa = 1, and its past
+      type(model_type), intent(in) :: model
       !> Time at which the cycle is looked for
       real(wp), intent(in) :: t_end
       !> Method and tolerances of the motion
@@ -77,32 +74,31 @@ contains
       type(periodic_orbit_type) :: orbits(2)
 
       allocate (on_cycle%growth(0), on_cycle%zeros(0))
-      call find_cycle(parameters, history, t_end, options, orbits, error)
+      call find_cycle(model, t_end, options, orbits, error)
       if (.not. allocated(error)) then
          on_cycle%period = orbits(2)%period
-         call find_exponents(exponent_of_mode_type(parameters, orbits(1)), &
-                             exponent_of_mode_type(parameters, orbits(2)), s, on_cycle, error)
+         call find_exponents(exponent_of_mode_type(kept(model), orbits(1)), &
+                             exponent_of_mode_type(kept(model), orbits(2)), s, on_cycle, error)
       end if
       on_cycle%reason = ""
       if (allocated(error)) on_cycle%reason = error%message
    end subroutine find_transverse_cycle
 
    !> The stable cycle on which a motion is at a time, on both meshes.
-   subroutine find_cycle(parameters, history, t_end, options, orbits, error)
-      type(block_parameters_type), intent(in) :: parameters
-      type(block_history_type), intent(in) :: history
+   subroutine find_cycle(model, t_end, options, orbits, error)
+      type(model_type), intent(in) :: model
       real(wp), intent(in) :: t_end
       type(integration_options), intent(in) :: options
       type(periodic_orbit_type), intent(out) :: orbits(2)
       !> There is none
       type(error_type), allocatable, intent(out) :: error
-      type(free_family_type) :: family
+      type(family_type) :: family
       type(multipliers_type) :: multipliers
       type(periodic_orbit_type) :: reached
       type(error_type), allocatable :: problem
       real(wp) :: distance
 
-      call find_reached_orbit(parameters, history, t_end, options, &
+      call find_reached_orbit(model, t_end, options, &
                               collocation_basis_type(degree, radau_points), first_intervals, &
                               reached, error)
       if (allocated(error)) return
@@ -110,7 +106,7 @@ contains
          call raise(error, "the motion comes to rest")
          return
       end if
-      family = without_free(block_family_type(parameters))
+      family = fixed_model(kept(model))
       call make_accurate(family, reached, orbits(1), multipliers, problem)
       if (allocated(problem)) then
          call raise(error, "no cycle was found at the end of the motion: "//problem%message)
@@ -133,7 +129,7 @@ contains
 
    !> Correct a cycle on adapted meshes until its trivial multiplier is accurate.
    subroutine make_accurate(family, start, orbit, multipliers, error)
-      type(free_family_type), intent(in) :: family
+      type(family_type), intent(in) :: family
       type(periodic_orbit_type), intent(in) :: start
       type(periodic_orbit_type), intent(out) :: orbit
       type(multipliers_type), intent(out) :: multipliers
@@ -226,9 +222,7 @@ contains
       real(wp) :: modulus
 
       exponent = -huge(1.0_wp)
-      call find_largest_multiplier(without_free(transverse_family_type(self%parameters, &
-                                                                       s - 1.0_wp)), &
-                                   self%orbit, modulus, error)
+      call find_largest_multiplier(fixed_model(of_mode(self%model, s)), self%orbit, modulus, error)
       if (allocated(error)) return
       exponent = log(modulus)/self%orbit%period
    end subroutine find_exponent
@@ -243,10 +237,12 @@ contains
       call find_exponent(self, x, value, error)
    end function exponent_at
 
-   !> Problems without a free parameter.
-   type(free_family_type) function without_free(problems) result(family)
-      class(problem_family_type), intent(in) :: problems
+   !> A model that keeps delays of 0.
+   pure type(model_type) function kept(model)
+      type(model_type), intent(in) :: model
 
-      family = free_family_type(problems, [integer ::], [real(wp) ::])
-   end function without_free
+      kept = model
+      kept%keeps_delays = .true.
+      call kept%put(model%numbers)
+   end function kept
 end module transverse_multipliers

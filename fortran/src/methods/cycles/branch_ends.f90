@@ -1,8 +1,8 @@
 !> How far a branch or a curve of periodic orbits is followed.
 module branch_ends
    use dde_kinds, only: wp
+   use model_family, only: family_type
    use periodic_orbit, only: periodic_orbit_type
-   use problem_family, only: free_family_type
    implicit none (type, external)
    private
    public :: follow_settings_type, has_ended, is_closed, longer_step, most_rounds, &
@@ -27,7 +27,7 @@ module branch_ends
    !> How far a branch or a curve is followed, and how.
    type :: follow_settings_type
       !> The problems, and one free parameter of a branch, two of a curve
-      type(free_family_type) :: family
+      type(family_type) :: family
       !> Windows on the free parameters, shape (2, parameters)
       real(wp) :: window(2, 2) = reshape([-1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp]*huge(1.0_wp), [2, 2])
       !> First and least step, in units of arclength, and longest step over the amplitude
@@ -114,7 +114,7 @@ contains
    !> Whether a branch or a curve comes back to its first orbit.
    pure logical function is_closed(family, orbits, step) result(value)
       !> What the orbits have in common
-      type(free_family_type), intent(in) :: family
+      type(family_type), intent(in) :: family
       !> Orbits of the branch
       type(periodic_orbit_type), intent(in) :: orbits(:)
       !> Length of the last step

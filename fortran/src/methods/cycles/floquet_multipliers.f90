@@ -4,10 +4,10 @@ module floquet_multipliers
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use linear_map, only: leading_eigenvalues, linear_map_type
+   use model_family, only: family_type
    use orbit_linearisation, only: linearise_orbit
    use orbit_passes, only: orbit_passes_type
    use periodic_orbit, only: periodic_orbit_type
-   use problem_family, only: free_family_type
    implicit none (type, external)
    private
    public :: find_largest_multiplier, find_multipliers, multipliers_type
@@ -38,8 +38,8 @@ contains
 
    !> Multipliers of greatest modulus.
    subroutine find_multipliers(family, orbit, wanted, found, error, disturbances, linear)
-      !> Problems and free parameters
-      type(free_family_type), intent(in) :: family
+      !> The model and its free parameters
+      type(family_type), intent(in) :: family
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
       !> Number of multipliers
@@ -76,7 +76,7 @@ contains
    !> flow: then no multiplier is trivial.
    subroutine find_largest_multiplier(family, orbit, modulus, error)
       !> Problems; a solution of them is the orbit
-      type(free_family_type), intent(in) :: family
+      type(family_type), intent(in) :: family
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
       !> The modulus
@@ -94,7 +94,7 @@ contains
 
    !> Eigenvalues of greatest modulus of the map of the past, and their eigenvectors.
    subroutine find_eigenvalues(family, orbit, wanted, map, values, pasts, error, linear)
-      type(free_family_type), intent(in) :: family
+      type(family_type), intent(in) :: family
       type(periodic_orbit_type), intent(in) :: orbit
       integer, intent(in) :: wanted
       !> The map

@@ -5,12 +5,12 @@ module orbit_branch
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use floquet_multipliers, only: find_multipliers, multipliers_type
+   use model_family, only: family_type
    use orbit_change, only: amplitude_direction, inner_product, orbit_change_type, &
                            parameter_direction
    use orbit_equations, only: correct_orbit, newton_type, turn_to_tangent
    use orbit_mesh, only: adapted_mesh
    use periodic_orbit, only: periodic_orbit_type
-   use problem_family, only: free_family_type
    implicit none (type, external)
    private
    public :: branch_type, follow_branch
@@ -133,7 +133,7 @@ contains
 
    !> The first orbit of a branch and its tangent.
    subroutine first_orbit(family, start, orbit, along, newton, error, tangent)
-      type(free_family_type), intent(in) :: family
+      type(family_type), intent(in) :: family
       type(periodic_orbit_type), intent(in) :: start
       type(periodic_orbit_type), intent(out) :: orbit
       type(orbit_change_type), intent(out) :: along

@@ -1,8 +1,8 @@
 !> Changes of periodic orbits as vectors, with an inner product.
 module orbit_change
    use dde_kinds, only: wp
+   use model_family, only: family_type
    use periodic_orbit, only: periodic_orbit_type
-   use problem_family, only: free_family_type
    implicit none (type, external)
    private
    public :: amplitude_direction, difference_of, inner_product, orbit_change_type, &
@@ -113,7 +113,7 @@ contains
       !> The orbit, the one it is compared with
       type(periodic_orbit_type), intent(in) :: orbit, reference
       !> The free parameters
-      type(free_family_type), intent(in) :: family
+      type(family_type), intent(in) :: family
       type(orbit_change_type) :: change
 
       change%nodes = orbit%nodes - reference%nodes
@@ -126,7 +126,7 @@ contains
    subroutine add_to(self, orbit, family)
       class(orbit_change_type), intent(in) :: self
       type(periodic_orbit_type), intent(inout) :: orbit
-      type(free_family_type), intent(in) :: family
+      type(family_type), intent(in) :: family
 
       orbit%nodes = orbit%nodes + self%nodes
       orbit%nodes(:, size(orbit%nodes, 2)) = orbit%nodes(:, 1)

@@ -5,13 +5,13 @@ module orbit_curve_steps
    use branch_ends, only: follow_settings_type, most_rounds, refinement_type
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
+   use model_family, only: family_type
    use orbit_change, only: amplitude_direction, inner_product, orbit_change_type, &
                            parameter_direction
    use orbit_equations, only: correct_orbit, find_tangents, newton_type
    use orbit_mesh, only: adapted_mesh
    use orbit_passes, only: orbit_passes_type
    use periodic_orbit, only: periodic_orbit_type
-   use problem_family, only: free_family_type
    use special_points, only: fold, judge_point, special_point_type
    implicit none (type, external)
    private
@@ -198,8 +198,8 @@ contains
 
    !> Orthonormal directions of the tangent plane at an orbit.
    subroutine first_plane(family, orbit, plane, error)
-      !> Problems and free parameters
-      type(free_family_type), intent(in) :: family
+      !> The model and its free parameters
+      type(family_type), intent(in) :: family
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
       !> The directions
@@ -216,7 +216,7 @@ contains
    !> Turn two directions into orthonormal ones of the tangent plane; the first keeps its direction
    !> in it.
    subroutine turn_frame(family, orbit, directions, error, linear)
-      type(free_family_type), intent(in) :: family
+      type(family_type), intent(in) :: family
       type(periodic_orbit_type), intent(in) :: orbit
       type(orbit_change_type), intent(inout) :: directions(2)
       type(error_type), allocatable, intent(out) :: error

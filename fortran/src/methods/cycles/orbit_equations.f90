@@ -4,12 +4,12 @@ module orbit_equations
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use linear_map, only: linear_map_type, solve_by_gmres
+   use model_family, only: family_type
    use orbit_change, only: difference_of, inner_product, orbit_change_type, phase_condition, &
                            weights_of
    use orbit_linearisation, only: linearise_orbit
    use orbit_passes, only: orbit_passes_type
    use periodic_orbit, only: periodic_orbit_type
-   use problem_family, only: free_family_type
    implicit none (type, external)
    private
    public :: correct_orbit, find_tangents, newton_type, turn_to_tangent
@@ -54,8 +54,8 @@ contains
    !> parameter a condition that the inner product of a direction with the change from the reference
    !> is given.
    subroutine correct_orbit(family, reference, directions, distances, orbit, newton, error)
-      !> Problems and free parameters
-      type(free_family_type), intent(in) :: family
+      !> The model and its free parameters
+      type(family_type), intent(in) :: family
       !> An orbit on the same mesh
       type(periodic_orbit_type), intent(in) :: reference
       !> Directions, one for each free parameter
@@ -101,8 +101,8 @@ contains
    !> Changes that keep an orbit one: tangents. Tangent i has the inner product 1 with
    !> direction i and 0 with the others.
    subroutine find_tangents(family, orbit, directions, tangents, error, linear)
-      !> Problems and free parameters
-      type(free_family_type), intent(in) :: family
+      !> The model and its free parameters
+      type(family_type), intent(in) :: family
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
       !> Directions, one for each free parameter
@@ -136,7 +136,7 @@ contains
    subroutine set_conditions(orbit, directions, family, conditions)
       type(periodic_orbit_type), intent(in) :: orbit
       type(orbit_change_type), intent(in) :: directions(:)
-      type(free_family_type), intent(in) :: family
+      type(family_type), intent(in) :: family
       type(orbit_change_type), intent(out) :: conditions(:)
       integer :: i
 
@@ -148,8 +148,8 @@ contains
 
    !> Turn a direction to the tangent of norm 1 whose inner product with it is positive.
    subroutine turn_to_tangent(family, orbit, direction, error, linear)
-      !> Problems and free parameters
-      type(free_family_type), intent(in) :: family
+      !> The model and its free parameters
+      type(family_type), intent(in) :: family
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
       !> The direction, then the tangent
@@ -234,7 +234,7 @@ contains
    !> Values that the conditions must still gain.
    subroutine find_targets(reference, family, conditions, distances, orbit, target)
       type(periodic_orbit_type), intent(in) :: reference
-      type(free_family_type), intent(in) :: family
+      type(family_type), intent(in) :: family
       type(orbit_change_type), intent(in) :: conditions(:)
       !> Inner products wanted, one less than conditions
       real(wp), intent(in) :: distances(:)

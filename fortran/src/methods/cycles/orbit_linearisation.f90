@@ -1,12 +1,13 @@
 !> The collocation equations of a periodic orbit of x' = T f(x(s), z(s)), z = x_c(s - lag/T), made
 !> linear about an approximation and solved on each interval.
 module orbit_linearisation
-   use dde, only: dde_problem_type, find_jacobian
+   use dde, only: find_jacobian
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
+   use model_family, only: family_type
+   use model_problem, only: model_type
    use orbit_passes, only: orbit_passes_type
    use periodic_orbit, only: periodic_orbit_type
-   use problem_family, only: free_family_type
    use small_systems, only: group, solve_equations
    implicit none (type, external)
    private
@@ -18,7 +19,7 @@ module orbit_linearisation
    !> A problem of the family.
    type :: member_type
       !> The problem
-      class(dde_problem_type), allocatable :: problem
+      class(model_type), allocatable :: problem
    end type member_type
 
    !> A collocation point: state, delayed values, and derivatives there.
@@ -39,8 +40,8 @@ contains
 
    !> The equations about an orbit.
    subroutine linearise_orbit(family, orbit, whole_past, self, error, further)
-      !> Problems and free parameters
-      type(free_family_type), intent(in) :: family
+      !> The model and its free parameters
+      type(family_type), intent(in) :: family
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
       !> Whether delays reach back over periods and no parameter is free, as is needed for
@@ -53,14 +54,14 @@ contains
       !> Further forcings at the collocation points, shape (n, m, intervals, forcings); they follow
       !> those of the parameters
       real(wp), intent(in), optional :: further(:, :, :, :)
-      class(dde_problem_type), allocatable :: problem
+      class(model_type), allocatable :: problem
       type(member_type), allocatable :: beside(:, :)
       type(point_type) :: point
       real(wp), allocatable :: equations(:, :), parameters(:), slope(:, :, :, :)
       integer :: first, forcings, i, numbers, p
       logical :: singular
 
-      call family%problems%at(orbit%parameters, problem)
+      call family%at(orbit%parameters, problem)
       allocate (beside(2, merge(0, size(family%free), whole_past)))
       do p = 1, size(beside, 2)
          do i = 1, 2
@@ -68,7 +69,7 @@ contains
             associate (moved => parameters(family%free(p)))
                moved = moved + (3 - 2*i)*difference*family%unit(p)
             end associate
-            call family%problems%at(parameters, beside(i, p)%problem)
+            call family%at(parameters, beside(i, p)%problem)
          end do
       end do
       self%n = problem%n
@@ -110,7 +111,7 @@ contains
    !> Where delayed values come from.
    subroutine find_sources(self, problem, orbit, whole_past, slope)
       type(orbit_passes_type), intent(inout) :: self
-      class(dde_problem_type), intent(in) :: problem
+      class(model_type), intent(in) :: problem
       type(periodic_orbit_type), intent(in) :: orbit
       logical, intent(in) :: whole_past
       !> Weights of the slope of a delayed value, by the place in its interval; as `weight`
@@ -158,7 +159,7 @@ contains
    !> the inputs on the right-hand side; those of further forcings are left.
    subroutine set_equations(self, problem, beside, orbit, slope, i, point, equations)
       type(orbit_passes_type), intent(inout) :: self
-      class(dde_problem_type), intent(in) :: problem
+      class(model_type), intent(in) :: problem
       type(member_type), intent(in) :: beside(:, :)
       type(periodic_orbit_type), intent(in) :: orbit
       !> Weights of the slopes of delayed values, shape (m + 1, delays, m)
@@ -214,7 +215,7 @@ contains
    !> Derivatives and forcings at a collocation point.
    subroutine evaluate_point(self, problem, beside, orbit, slope, i, k, point)
       type(orbit_passes_type), intent(in) :: self
-      class(dde_problem_type), intent(in) :: problem
+      class(model_type), intent(in) :: problem
       type(member_type), intent(in) :: beside(:, :)
       type(periodic_orbit_type), intent(in) :: orbit
       !> Weights of the slopes of delayed values, shape (m + 1, delays)
@@ -271,7 +272,7 @@ contains
 
    !> The Jacobian as full matrices, also of a problem that gives it as a band.
    pure subroutine find_full_jacobian(problem, y, z, by_y, by_z)
-      class(dde_problem_type), intent(in) :: problem
+      class(model_type), intent(in) :: problem
       real(wp), intent(in) :: y(:), z(:)
       !> Derivatives by y and z, shapes (n, n) and (n, delays)
       real(wp), intent(out) :: by_y(:, :), by_z(:, :)

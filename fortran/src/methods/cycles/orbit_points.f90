@@ -6,12 +6,12 @@ module orbit_points
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use floquet_multipliers, only: find_multipliers, multipliers_type
+   use model_family, only: family_type
    use orbit_branch, only: branch_type
    use orbit_change, only: difference_of, inner_product, orbit_change_type
    use orbit_equations, only: correct_orbit, newton_type, turn_to_tangent
    use orbit_mesh, only: adapted_mesh
    use periodic_orbit, only: periodic_orbit_type
-   use problem_family, only: free_family_type
    use sign_change, only: sign_change_type
    use special_points, only: branching, fold, judge_point, period_doubling, special_point_type, &
                              torus_bifurcation
@@ -276,7 +276,7 @@ contains
    !> The segment between two orbits, on the mesh of the first.
    type(segment_type) function segment_between(first, second, family) result(segment)
       type(periodic_orbit_type), intent(in) :: first, second
-      type(free_family_type), intent(in) :: family
+      type(family_type), intent(in) :: family
 
       segment%ends(1) = first
       segment%ends(2) = second%on_mesh(first%mesh)
@@ -291,7 +291,7 @@ contains
 
    !> The orbit at a place on a segment.
    subroutine find_orbit_at(family, segment, place, orbit, newton, error)
-      type(free_family_type), intent(in) :: family
+      type(family_type), intent(in) :: family
       type(segment_type), intent(in) :: segment
       real(wp), intent(in) :: place
       type(periodic_orbit_type), intent(out) :: orbit

@@ -6,13 +6,14 @@ module orbit_start
                   integration_options, integration_result, table_sampler
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use delay_equation, only: linear_part, linear_system_type
    use floquet_multipliers, only: find_multipliers, multipliers_type
    use lapack, only: null_vectors
+   use linear_system, only: linear_part, linear_system_type
+   use model_family, only: family_type
+   use model_problem, only: model_type
    use orbit_change, only: orbit_change_type
    use orbit_mesh, only: adapted_mesh, uniform_mesh
    use periodic_orbit, only: periodic_orbit_type
-   use problem_family, only: free_family_type
    use special_points, only: period_doubling, special_point_type
    implicit none (type, external)
    private
@@ -115,14 +116,15 @@ contains
       if (value == 1) value = minloc(distance, dim=1) + 1
    end function repetition
 
-   !> The small orbit x = x0 + a Re(q exp(2 pi i s)), T = 2 pi/omega, near a Hopf point, where q is
-   !> the null vector of the characteristic matrix at i omega and its greatest component is 1.
-   subroutine orbit_at_hopf_point(family, parameters, state, omega, amplitude, basis, intervals, &
-                                  orbit, tangent, error)
-      !> Problems and free parameters
-      type(free_family_type), intent(in) :: family
-      !> Parameters of the Hopf point, stationary state x0; frequency of the imaginary pair, > 0
-      real(wp), intent(in) :: parameters(:), state(:), omega
+   !> The small orbit x = x0 + a Re(q exp(2 pi i s)), T = 2 pi/omega, near a Hopf point of the
+   !> state at rest x0, where q is the null vector of the characteristic matrix at i omega and its
+   !> greatest component is 1.
+   subroutine orbit_at_hopf_point(family, parameters, omega, amplitude, basis, intervals, orbit, &
+                                  tangent, error)
+      !> The model and its free parameters
+      type(family_type), intent(in) :: family
+      !> Parameters of the Hopf point; frequency of the imaginary pair, > 0
+      real(wp), intent(in) :: parameters(:), omega
       !> Amplitude a > 0
       real(wp), intent(in) :: amplitude
       !> Polynomials of the orbit
@@ -135,14 +137,16 @@ contains
       type(orbit_change_type), intent(out) :: tangent
       !> There is no null vector
       type(error_type), allocatable, intent(out) :: error
-      complex(wp), dimension(size(state)) :: p, q
-      class(dde_problem_type), allocatable :: problem
+      complex(wp), dimension(family%model%n) :: p, q
+      real(wp) :: state(family%model%n)
+      class(model_type), allocatable :: problem
       type(linear_system_type) :: linear
       real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
       integer :: i
 
-      call family%problems%at(parameters, problem)
-      linear = linear_part(problem, state)
+      call family%at(parameters, problem)
+      state = problem%steady_state()
+      linear = linear_part(problem)
       call null_vectors(linear%characteristic_matrix(cmplx(0.0_wp, omega, kind=wp)), q, p, error)
       if (allocated(error)) return
       q = q/q(maxloc(abs(q), dim=1))
@@ -165,8 +169,8 @@ contains
    !> doubling: the orbit passed twice, plus a multiple of the
    !> disturbance v with v(s + 1) = -v(s).
    subroutine orbit_of_double_period(family, point, amplitude, orbit, tangent, error)
-      !> Problems and free parameters
-      type(free_family_type), intent(in) :: family
+      !> The model and its free parameters
+      type(family_type), intent(in) :: family
       !> The period doubling
       type(special_point_type), intent(in) :: point
       !> Largest change of a component

@@ -5,8 +5,9 @@
 !>
 !> Delayed values are those at s - (1 + a |z|^2) lag/T. Derivatives are differences in z.
 module torus_expansion
-   use dde, only: dde_problem_type, find_jacobian
+   use dde, only: find_jacobian
    use dde_kinds, only: wp
+   use model_problem, only: model_type
    use periodic_orbit, only: periodic_orbit_type
    implicit none (type, external)
    private
@@ -18,7 +19,7 @@ module torus_expansion
    !> The expansion.
    type :: torus_expansion_type
       !> The problem
-      class(dde_problem_type), allocatable :: problem
+      class(model_type), allocatable :: problem
       !> x0
       type(periodic_orbit_type) :: orbit
       !> All terms at the nodes of the orbit, shape (n, nodes, 0:3); 0 before they are known

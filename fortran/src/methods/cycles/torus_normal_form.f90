@@ -14,11 +14,11 @@ module torus_normal_form
    use dde_kinds, only: wp
    use floquet_multipliers, only: find_multipliers, multipliers_type
    use linear_map, only: linear_map_type, solve_by_gmres
+   use model_family, only: family_type
    use orbit_change, only: orbit_change_type, phase_condition, weights_of
    use orbit_linearisation, only: linearise_orbit
    use orbit_passes, only: orbit_passes_type
    use periodic_orbit, only: periodic_orbit_type
-   use problem_family, only: free_family_type
    use torus_expansion, only: h11, h20, q, torus_expansion_type, x0
    implicit none (type, external)
    private
@@ -50,8 +50,8 @@ contains
    !> The coefficient Re d/T: d|z|/dt = Re d/T |z|^3, where the mean of |q|^2 over the period is 1.
    subroutine find_torus_coefficient(family, orbit, multiplier, wanted, coefficient, disturbed, &
                                      error)
-      !> Problems and free parameters
-      type(free_family_type), intent(in) :: family
+      !> The model and its free parameters
+      type(family_type), intent(in) :: family
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
       !> The critical multiplier
@@ -75,7 +75,7 @@ contains
       call find_multipliers(family, orbit, wanted, found, error, disturbances)
       if (allocated(error)) return
       critical = minloc(abs(found%values - multiplier), dim=1)
-      call family%problems%at(orbit%parameters, x%problem)
+      call family%at(orbit%parameters, x%problem)
       x%orbit = orbit
       x%multiplier(q:h20) = found%values(critical)**[1, 2]
       allocate (x%nodes(size(orbit%nodes, 1), size(orbit%nodes, 2), 0:3), source=(0.0_wp, 0.0_wp))

@@ -12,10 +12,11 @@
 !>     h_m'(a) = s h_m(a) + r_m(a),   s h_m(0) + r_m(0) = sum_l A_l h_m(-lag_l) + N_m,
 !>     r_m = sum over k of (sum over j of (m - k)_j g_j,e_j+k) h_(m - k),   k a product of pairs.
 module centre_manifold
-   use delay_equation, only: delay_equation_type
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use lapack, only: solve
+   use linear_system, only: linear_part, linear_system_type
+   use model_problem, only: model_type
    use normal_form, only: critical_vectors
    implicit none (type, external)
    private
@@ -42,9 +43,9 @@ module centre_manifold
 contains
 
    !> The coefficient g_jm of z^m in z_j', with |q| = 1.
-   subroutine normal_form_coefficient(equation, omega, m, coefficient, error)
-      !> The equation, which has simple roots +-i omega
-      class(delay_equation_type), intent(in) :: equation
+   subroutine normal_form_coefficient(model, omega, m, coefficient, error)
+      !> The model, which keeps delays of 0 and has simple roots +-i omega at rest
+      class(model_type), intent(in) :: model
       !> Frequencies of the pairs, > 0, without low resonances
       real(wp), intent(in) :: omega(:)
       !> Resonant multi-index, shape (2 size(omega))
@@ -53,26 +54,28 @@ contains
       complex(wp), intent(out) :: coefficient
       !> A combination of the frequencies is a root, too
       type(error_type), allocatable, intent(out) :: error
+      type(linear_system_type) :: linear
       type(series_type) :: series
       integer :: i
 
       coefficient = 0.0_wp
-      call set_first_order(equation, omega, m, series, error)
+      linear = linear_part(model)
+      call set_first_order(linear, omega, m, series, error)
       do i = 2, size(series%flow)
          if (allocated(error)) return
-         if (sum(series%power(:, i)) > 1) call add_term(equation, series, i, error)
+         if (sum(series%power(:, i)) > 1) call add_term(model, linear, series, i, error)
       end do
       coefficient = series%flow(size(series%flow))
    end subroutine normal_form_coefficient
 
    !> The terms of first order.
-   subroutine set_first_order(equation, omega, m, series, error)
-      class(delay_equation_type), intent(in) :: equation
+   subroutine set_first_order(linear, omega, m, series, error)
+      type(linear_system_type), intent(in) :: linear
       real(wp), intent(in) :: omega(:)
       integer, intent(in) :: m(:)
       type(series_type), intent(out) :: series
       type(error_type), allocatable, intent(out) :: error
-      complex(wp), dimension(size(equation%linear%a, 1)) :: p, q
+      complex(wp), dimension(size(linear%a, 1)) :: p, q
       integer :: i, j, modes, terms, unit_index(size(m))
 
       modes = size(m)
@@ -84,11 +87,11 @@ contains
       allocate (series%s, source=[(cmplx(0.0_wp, [omega(i), -omega(i)], kind=wp), &
                                    i=1, size(omega))])
       allocate (series%polynomial(size(q), 0:sum(m)/2, terms), &
-                series%history(size(q), size(equation%linear%lag), terms), series%flow(terms), &
+                series%history(size(q), size(linear%lag), terms), series%flow(terms), &
                 source=(0.0_wp, 0.0_wp))
       do i = 1, modes
          if (m(i) == 0) cycle
-         call critical_vectors(equation%linear, cmplx(0.0_wp, omega((i + 1)/2), kind=wp), q, p, &
+         call critical_vectors(linear, cmplx(0.0_wp, omega((i + 1)/2), kind=wp), q, p, &
                                error)
          if (allocated(error)) return
          if (modulo(i, 2) == 0) q = conjg(q)
@@ -97,24 +100,25 @@ contains
          j = series%place(unit_index)
          series%polynomial(:, 0, j) = q
          series%history(:, :, j) = values_at_lags(series%polynomial(:, :, j), series%s(i), &
-                                                  equation%linear%lag)
+                                                  linear%lag)
       end do
    end subroutine set_first_order
 
    !> The term of a multi-index of second or higher order, all lower ones being known.
-   subroutine add_term(equation, series, term, error)
-      class(delay_equation_type), intent(in) :: equation
+   subroutine add_term(model, linear, series, term, error)
+      class(model_type), intent(in) :: model
+      type(linear_system_type), intent(in) :: linear
       type(series_type), intent(inout) :: series
       integer, intent(in) :: term
       !> A combination of the frequencies is a root
       type(error_type), allocatable, intent(out) :: error
       complex(wp), dimension(size(series%polynomial, 1), &
                              0:ubound(series%polynomial, 2)) :: rest, integral
-      complex(wp) :: at_lags(size(series%polynomial, 1), size(equation%linear%lag))
+      complex(wp) :: at_lags(size(series%polynomial, 1), size(linear%lag))
       complex(wp) :: right(size(series%polynomial, 1)), s
       integer :: i, mode
 
-      associate (m => series%power(:, term), linear => equation%linear)
+      associate (m => series%power(:, term))
          s = sum(m*series%s)
          call find_rest(series, term, rest)
          integral = 0.0_wp
@@ -122,7 +126,7 @@ contains
             integral(:, i) = rest(:, i - 1)/i
          end do
          right = -rest(:, 0)
-         call add_products(equation, series, m, [integer ::], right)
+         call add_products(model, series, m, [integer ::], right)
          at_lags = values_at_lags(integral, s, linear%lag)
          do i = 1, size(linear%lag)
             right = right + matmul(linear%a(:, :, i), at_lags(:, i))
@@ -149,8 +153,8 @@ contains
          n = size(right)
          associate (q => series%polynomial(:, 0, 1 + series%stride(mode)))
             bordered = 0.0_wp
-            bordered(:n, :n) = equation%linear%characteristic_matrix(s)
-            bordered(:n, n + 1) = matmul(equation%linear%characteristic_slope(s), q)
+            bordered(:n, :n) = linear%characteristic_matrix(s)
+            bordered(:n, n + 1) = matmul(linear%characteristic_slope(s), q)
             bordered(n + 1, :n) = conjg(q)
             call solve_scaled(bordered, [right, (0.0_wp, 0.0_wp)], answer, error)
             series%flow(term) = answer(n + 1)
@@ -196,8 +200,8 @@ contains
 
    !> Add N_m, the sum of the derivatives of all orders k of k terms with the product z^m, over k!;
    !> of these those that begin with given terms.
-   pure recursive subroutine add_products(equation, series, left, terms, total)
-      class(delay_equation_type), intent(in) :: equation
+   pure recursive subroutine add_products(model, series, left, terms, total)
+      class(model_type), intent(in) :: model
       type(series_type), intent(in) :: series
       !> Multi-index of the product of the further terms
       integer, intent(in) :: left(:)
@@ -206,13 +210,13 @@ contains
       integer :: i
 
       if (all(left == 0)) then
-         if (size(terms) > 1) total = total + equation%derivative(series%history(:, :, terms)) &
+         if (size(terms) > 1) total = total + model%derivative(series%history(:, :, terms)) &
                                       /gamma(size(terms) + 1.0_wp)
          return
       end if
       do i = 2, series%place(left)
          if (any(series%power(:, i) > left)) cycle
-         call add_products(equation, series, left - series%power(:, i), [terms, i], total)
+         call add_products(model, series, left - series%power(:, i), [terms, i], total)
       end do
    end subroutine add_products
 

@@ -3,10 +3,10 @@
 !> det Delta(s). The number of nodes grows until the expected number of roots is found or, if that
 !> number is not known, until twice as many nodes change nothing.
 module characteristic_roots
-   use delay_equation, only: linear_system_type
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use lapack, only: eigenvalues, solve
+   use linear_system, only: linear_system_type
    implicit none (type, external)
    private
    public :: find_roots, most_roots

@@ -8,9 +8,9 @@
 !> born. Tori exist where sum_k p_jk |z_k|^2 = -mu_j has positive solutions, between these lines.
 module double_hopf
    use centre_manifold, only: normal_form_coefficient
-   use delay_equation, only: delay_equation_type
    use dde_errors, only: error_type
    use dde_kinds, only: wp
+   use model_problem, only: model_type
    implicit none (type, external)
    private
    public :: double_hopf_type, find_double_hopf, word_length
@@ -32,9 +32,9 @@ module double_hopf
 contains
 
    !> The coefficients at a double Hopf point.
-   subroutine find_double_hopf(equation, omega, form, error)
-      !> The equation, which has simple roots +-i omega
-      class(delay_equation_type), intent(in) :: equation
+   subroutine find_double_hopf(model, omega, form, error)
+      !> The model, which keeps delays of 0 and has simple roots +-i omega at rest
+      class(model_type), intent(in) :: model
       !> Frequencies of the pairs
       real(wp), intent(in) :: omega(2)
       !> The coefficients
@@ -49,7 +49,7 @@ contains
             m = 0
             m(2*k - 1:2*k) = 1
             m(2*j - 1) = m(2*j - 1) + 1
-            call normal_form_coefficient(equation, omega, m, form%g(j, k), error)
+            call normal_form_coefficient(model, omega, m, form%g(j, k), error)
             if (allocated(error)) return
          end do
       end do

@@ -1,9 +1,10 @@
-!> The normal form of a Hopf bifurcation of a delay equation.
+!> The normal form of a Hopf bifurcation of a delayed model.
 module normal_form
-   use delay_equation, only: delay_equation_type, linear_system_type
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use lapack, only: null_vectors, solve
+   use linear_system, only: linear_part, linear_system_type
+   use model_problem, only: model_type
    implicit none (type, external)
    private
    public :: critical_vectors, first_lyapunov_coefficient
@@ -18,34 +19,33 @@ contains
    !>     l1  = Re(c1)/omega.
    !>
    !> If negative, the bifurcation is supercritical; if positive, subcritical.
-   subroutine first_lyapunov_coefficient(equation, omega, l1, error)
-      !> The equation, which has a pair of simple roots +-i omega
-      class(delay_equation_type), intent(in) :: equation
+   subroutine first_lyapunov_coefficient(model, omega, l1, error)
+      !> The model, which keeps delays of 0 and has a pair of simple roots +-i omega at rest
+      class(model_type), intent(in) :: model
       !> Frequency of the pair, > 0
       real(wp), intent(in) :: omega
       !> The coefficient
       real(wp), intent(out) :: l1
       !> 0 or 2 i omega is a root, too
       type(error_type), allocatable, intent(out) :: error
-      complex(wp), dimension(size(equation%linear%a, 1)) :: p, q
-      complex(wp), dimension(size(equation%linear%a, 1), size(equation%linear%lag)) :: &
-         phi, history_11, history_20
+      complex(wp), dimension(model%n) :: p, q
+      complex(wp), dimension(model%n, 1 + size(model%lag)) :: phi, history_11, history_20
       complex(wp) :: s
+      type(linear_system_type) :: linear
 
       l1 = 0.0_wp
       s = cmplx(0.0_wp, omega, kind=wp)
-      associate (linear => equation%linear)
-         call critical_vectors(linear, s, q, p, error)
-         if (allocated(error)) return
-         phi = history_of(q, s, linear%lag)
-         call find_response(equation, 2.0_wp*s, second(phi, phi), history_20, error)
-         if (allocated(error)) return
-         call find_response(equation, (0.0_wp, 0.0_wp), second(phi, conjg(phi)), history_11, error)
-         if (allocated(error)) return
-      end associate
+      linear = linear_part(model)
+      call critical_vectors(linear, s, q, p, error)
+      if (allocated(error)) return
+      phi = history_of(q, s, linear%lag)
+      call find_response(linear, 2.0_wp*s, second(phi, phi), history_20, error)
+      if (allocated(error)) return
+      call find_response(linear, (0.0_wp, 0.0_wp), second(phi, conjg(phi)), history_11, error)
+      if (allocated(error)) return
       l1 = real(0.5_wp*sum(p*(second(conjg(phi), history_20) + 2.0_wp*second(phi, history_11) &
-                              + equation%derivative(reshape([phi, phi, conjg(phi)], &
-                                                            [shape(phi), 3])))))/omega
+                              + model%derivative(reshape([phi, phi, conjg(phi)], &
+                                                         [shape(phi), 3])))))/omega
 
    contains
 
@@ -54,7 +54,7 @@ contains
          complex(wp), intent(in) :: x(:, :), y(:, :)
          complex(wp) :: form(size(x, 1))
 
-         form = equation%derivative(reshape([x, y], [shape(x), 2]))
+         form = model%derivative(reshape([x, y], [shape(x), 2]))
       end function second
    end subroutine first_lyapunov_coefficient
 
@@ -81,8 +81,8 @@ contains
    end subroutine critical_vectors
 
    !> The answer of the linear system to a forcing exp(s t), as history.
-   subroutine find_response(equation, s, forcing, history, error)
-      class(delay_equation_type), intent(in) :: equation
+   subroutine find_response(linear, s, forcing, history, error)
+      type(linear_system_type), intent(in) :: linear
       complex(wp), intent(in) :: s
       !> Amplitude of the forcing, shape (n)
       complex(wp), intent(in) :: forcing(:)
@@ -90,9 +90,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
       complex(wp) :: answer(size(forcing), 1)
 
-      call solve(equation%linear%characteristic_matrix(s), reshape(forcing, shape(answer)), &
-                 answer, error)
-      history = history_of(answer(:, 1), s, equation%linear%lag)
+      call solve(linear%characteristic_matrix(s), reshape(forcing, shape(answer)), answer, error)
+      history = history_of(answer(:, 1), s, linear%lag)
    end subroutine find_response
 
    !> amplitude exp(-s lag) for all lags.

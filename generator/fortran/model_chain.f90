@@ -3,7 +3,7 @@
 !>
 !> The blocks of a ring are folded: 1, N, 2, N - 1, ..., so that neighbours are at most two places
 !> apart and the Jacobian is banded.
-module chain
+module model_chain
    use dde_kinds, only: wp
    implicit none (type, external)
    private
@@ -80,4 +80,4 @@ contains
       ! 2 - 2 cos(angle) without its cancellation
       value = 4.0_wp*sin(0.5_wp*angle)**2
    end function mode_eigenvalue
-end module chain
+end module model_chain

@@ -1,33 +1,43 @@
-!> Cycles of the block along a line of parameters: branches from all Hopf points on it and from
+!> Cycles of a model along a line of one parameter: branches from all Hopf points on it and from
 !> trajectories, with their special points.
-module block_cycles
-   use block_family, only: block_family_type, vector_of, with_vector
-   use block_parameters, only: block_history_type, block_parameters_type
+module cycle_branches
    use branch_ends, only: follow_settings_type
    use collocation_basis, only: collocation_basis_type, radau_points
-   use cycle_lines, only: cycle_line_type, find_hopf_starts, hopf_start_type
    use dde, only: continuation_type, integrate, integration_options, integration_result
    use dde_errors, only: error_type
    use dde_kinds, only: wp
+   use hopf_lines, only: find_hopf_on_line, hopf_on_line_type
+   use model_family, only: family_type
+   use model_problem, only: model_type
    use orbit_branch, only: branch_type, follow_branch
    use orbit_change, only: orbit_change_type
    use orbit_points, only: find_special_points
    use orbit_start, only: orbit_at_hopf_point, orbit_of_double_period, orbit_of_trajectory
    use periodic_orbit, only: periodic_orbit_type
-   use problem_family, only: free_family_type
    use progress_receiver, only: progress_receiver_type
    use special_points, only: period_doubling, special_point_type
-   use spring_block, only: index_of_ln_v, spring_block_type
    implicit none (type, external)
    private
-   public :: cycle_settings_type, cycles_type, find_cycles, find_reached_orbit, left_out_type
+   public :: cycle_line_type, cycle_settings_type, cycles_type, find_cycles, find_reached_orbit, &
+             left_out_type
+
+   !> A line of one parameter.
+   type :: cycle_line_type
+      !> The model with its other parameters, and with the past of trajectories
+      type(model_type) :: model
+      !> Number of the parameter that varies, and window on it
+      integer :: along = 0
+      real(wp) :: window(2) = 0.0_wp
+   contains
+      procedure :: numbers_at
+   end type cycle_line_type
 
    !> What is computed.
    type :: cycle_settings_type
       !> The line
       type(cycle_line_type) :: line
-      !> Parameter values from which trajectories are followed to a cycle, with v = start_v before
-      real(wp), allocatable :: starts(:), start_v(:)
+      !> Values of the parameter from which trajectories are followed to a cycle
+      real(wp), allocatable :: starts(:)
       !> Time of these trajectories
       real(wp) :: t_transient = 3000.0_wp
       !> Degree and intervals of the first mesh
@@ -35,8 +45,9 @@ module block_cycles
       !> Longest period, most orbits of a branch
       real(wp) :: longest_period = 100.0_wp
       integer :: most_orbits = 200
-      !> Window on epsilon and on tau in which curves of special points are followed, shape (2, 2);
-      !> no curves where it is not allocated
+      !> Numbers of two parameters over which curves of special points are followed, and windows on
+      !> them, shape (2, 2); no curves where they are not allocated
+      integer, allocatable :: curve_along(:)
       real(wp), allocatable :: curve_window(:, :)
    end type cycle_settings_type
 
@@ -62,6 +73,8 @@ module block_cycles
 
    !> Amplitude of the first orbit at a Hopf point and at a period doubling
    real(wp), parameter :: first_amplitude = 0.01_wp
+   !> Places of a line at which unstable roots are counted
+   integer, parameter :: scan_places = 4000
    !> Tolerance of trajectories, and the time in which a period is looked for
    real(wp), parameter :: tolerance = 1.0e-9_wp, search_time = 300.0_wp
    !> A branch ends at a Hopf point if parameter and period differ by less than this share. A
@@ -76,7 +89,7 @@ contains
       !> What is computed
       type(cycle_settings_type), intent(in) :: settings
       !> Hopf points on the line
-      type(hopf_start_type), allocatable, intent(out) :: hopf(:)
+      type(hopf_on_line_type), allocatable, intent(out) :: hopf(:)
       !> The branches
       type(cycles_type), allocatable, intent(out) :: found(:)
       !> Starts without a branch of their own
@@ -91,14 +104,14 @@ contains
       type(orbit_change_type) :: tangent
       type(periodic_orbit_type) :: orbit
       type(special_point_type), allocatable :: here(:)
-      real(wp), allocatable :: at(:)
       integer :: branches, direction, i, j
 
       associate (line => settings%line)
-         call find_hopf_starts(line, hopf, error)
+         call find_hopf_on_line(line%model, line%numbers_at(line%window(1)), &
+                                line%numbers_at(line%window(2)), scan_places, hopf, error)
          if (allocated(error)) return
-         how%family = free_family_type(block_family_type(line%parameters), [line%along], &
-                                       [line%window(2) - line%window(1)])
+         how%family = family_type(line%model%mode(1), [line%along], &
+                                  [line%window(2) - line%window(1)])
          how%window(:, 1) = line%window
          how%longest_period = settings%longest_period
          how%most_points = settings%most_orbits
@@ -109,11 +122,10 @@ contains
       do i = 1, size(hopf)
          if (present(progress)) call progress%advance(i - 1, size(hopf) + size(settings%starts))
          if (is_end(settings, found, hopf(i))) cycle
-         at = vector_of(hopf(i)%parameters)
-         call orbit_at_hopf_point(how%family, at, [0.0_wp, 0.0_wp, 0.0_wp], hopf(i)%omega, &
-                                  first_amplitude, basis, settings%intervals, orbit, tangent, error)
+         call orbit_at_hopf_point(how%family, hopf(i)%numbers, hopf(i)%omega, first_amplitude, &
+                                  basis, settings%intervals, orbit, tangent, error)
          if (allocated(error)) return
-         call append(1, "hopf", at(settings%line%along), tangent)
+         call append(1, "hopf", hopf(i)%numbers(settings%line%along), tangent)
          if (allocated(error)) return
       end do
       do i = 1, size(settings%starts)
@@ -193,23 +205,20 @@ contains
       !> Error if the trajectory leads to no cycle
       type(error_type), allocatable, intent(out) :: error
       type(integration_options) :: options
-      real(wp), allocatable :: vector(:)
+      type(model_type) :: model
 
-      vector = vector_of(settings%line%parameters)
-      vector(settings%line%along) = settings%starts(i)
+      model = settings%line%model
+      call model%put(settings%line%numbers_at(settings%starts(i)))
       options%relative = tolerance
       options%absolute = tolerance
-      call find_reached_orbit(with_vector(settings%line%parameters, vector), &
-                              block_history_type(v=settings%start_v(i)), settings%t_transient, &
-                              options, basis, settings%intervals, orbit, error)
+      call find_reached_orbit(model, settings%t_transient, options, basis, settings%intervals, &
+                              orbit, error)
    end subroutine orbit_at
 
    !> The cycle that a trajectory reaches, before it is corrected.
-   subroutine find_reached_orbit(parameters, history, time, options, basis, intervals, orbit, error)
-      !> Parameters of the block, which were checked
-      type(block_parameters_type), intent(in) :: parameters
-      !> Values for t <= 0
-      type(block_history_type), intent(in) :: history
+   subroutine find_reached_orbit(model, time, options, basis, intervals, orbit, error)
+      !> The model and its past
+      class(model_type), intent(in) :: model
       !> Time of the trajectory before its cycle is taken
       real(wp), intent(in) :: time
       !> Method and tolerances
@@ -224,32 +233,39 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(continuation_type) :: arrived
       type(integration_result) :: outcome
-      type(spring_block_type) :: block
 
-      block = spring_block_type(parameters, history)
-      call integrate(block, 0.0_wp, time, options, outcome, error, continuation=arrived)
+      call integrate(model, 0.0_wp, time, options, outcome, error, continuation=arrived)
       if (allocated(error)) return
-      call orbit_of_trajectory(block, options, arrived, index_of_ln_v, search_time, basis, &
-                               intervals, orbit, error)
-      orbit%parameters = vector_of(parameters)
+      call orbit_of_trajectory(model, options, arrived, model%sizes%observed%component, search_time, &
+                               basis, intervals, orbit, error)
+      orbit%parameters = model%numbers
    end subroutine find_reached_orbit
+
+   !> All parameters at a value of the one along the line.
+   pure function numbers_at(self, value) result(numbers)
+      class(cycle_line_type), intent(in) :: self
+      !> Value of this parameter
+      real(wp), intent(in) :: value
+      real(wp), allocatable :: numbers(:)
+
+      numbers = self%model%numbers
+      numbers(self%along) = value
+   end function numbers_at
 
    !> Whether a branch already ends at a Hopf point.
    pure logical function is_end(settings, found, hopf) result(value)
       type(cycle_settings_type), intent(in) :: settings
       type(cycles_type), intent(in) :: found(:)
-      type(hopf_start_type), intent(in) :: hopf
-      real(wp), allocatable :: vector(:)
+      type(hopf_on_line_type), intent(in) :: hopf
       integer :: i
 
       value = .false.
-      vector = vector_of(hopf%parameters)
       do i = 1, size(found)
          if (found(i)%branch%ending /= "amplitude") cycle
          associate (last => found(i)%branch%orbits(size(found(i)%branch%orbits)), &
                     along => settings%line%along)
             value = value .or. (abs(last%period*hopf%omega/(2.0_wp*acos(-1.0_wp)) - 1.0_wp) < same &
-                                .and. abs(last%parameters(along) - vector(along)) &
+                                .and. abs(last%parameters(along) - hopf%numbers(along)) &
                                 < same*(settings%line%window(2) - settings%line%window(1)))
          end associate
       end do
@@ -284,4 +300,4 @@ contains
 
       value = x > (1.0_wp - alike)*min(a, b) .and. x < (1.0_wp + alike)*max(a, b)
    end function is_between
-end module block_cycles
+end module cycle_branches

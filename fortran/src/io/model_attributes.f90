@@ -1,0 +1,105 @@
+!> Models, their parameters and histories in files.
+module model_attributes
+   use dde_errors, only: error_type
+   use dde_kinds, only: int64, wp
+   use model_description, only: description_type
+   use model_history, only: history_type, signal_name
+   use model_problem, only: model_type
+   use netcdf_output, only: output_file_type
+   implicit none (type, external)
+   private
+   public :: put_history, put_model, put_places
+
+contains
+
+   !> Write name, source, equations and parameters of a model as attributes.
+   subroutine put_model(file, model, but)
+      !> The file
+      type(output_file_type), intent(inout) :: file
+      !> The model
+      class(model_type), intent(in) :: model
+      !> Names of parameters that are left out, if any
+      character(len=*), intent(in), optional :: but(:)
+      type(description_type) :: about
+      character(len=:), allocatable :: equations
+      integer :: i
+
+      about = model%describe()
+      call file%attribute("model", trim(about%name))
+      call file%attribute("model_source", trim(about%source))
+      equations = trim(about%equations(1))
+      do i = 2, size(about%equations)
+         equations = equations//"; "//trim(about%equations(i))
+      end do
+      call file%attribute("model_equations", equations)
+      call file%attribute("parameters", joined(model%names))
+      call file%attribute("signal", signal_name(model))
+      do i = 1, size(model%names)
+         if (present(but)) then
+            if (any(but == model%names(i))) cycle
+         end if
+         call file%attribute(trim(model%names(i)), model%numbers(i))
+      end do
+      if (model%shape%blocks == 1) return
+      call file%attribute("blocks", int(model%shape%blocks, int64))
+      call file%attribute("ends", trim(model%ends))
+   end subroutine put_model
+
+   !> Write a history as attributes, that of a chain as variables over its blocks.
+   subroutine put_history(file, model, history)
+      !> The file
+      type(output_file_type), intent(inout) :: file
+      !> The model
+      class(model_type), intent(in) :: model
+      !> The history, the first of these
+      type(history_type), intent(in) :: history
+      integer :: blocks, i
+
+      if (.not. allocated(history%values)) return
+      if (model%shape%blocks > 1) blocks = file%dimension("block", model%shape%blocks)
+      do i = 1, size(history%names)
+         associate (name => "history_"//trim(history%names(i)), values => history%values(i, :, 1))
+            if (model%shape%blocks > 1) then
+               call file%column(blocks, name, values, trim(history%names(i))//" for t <= 0")
+            else
+               call file%attribute(name, values(1))
+            end if
+         end associate
+      end do
+   end subroutine put_history
+
+   !> Write a column for each parameter.
+   subroutine put_places(file, rows, model, numbers, prefix)
+      !> The file
+      type(output_file_type), intent(inout) :: file
+      !> Dimension of the rows
+      integer, intent(in) :: rows
+      !> The model
+      class(model_type), intent(in) :: model
+      !> Parameters, shape (parameters, rows)
+      real(wp), intent(in) :: numbers(:, :)
+      !> What stands before their names
+      character(len=*), intent(in) :: prefix
+      type(description_type) :: about
+      integer :: i
+
+      about = model%describe()
+      do i = 1, size(model%names)
+         call file%column(rows, prefix//trim(model%names(i)), numbers(i, :), &
+                          trim(about%parameters(i)%meaning))
+      end do
+   end subroutine put_places
+
+   !> Names with blanks between them.
+   pure function joined(names) result(line)
+      character(len=*), intent(in) :: names(:)
+      character(len=:), allocatable :: line
+      integer :: i
+
+      line = ""
+      do i = 1, size(names)
+         line = line//" "//trim(names(i))
+      end do
+      line = line(2:)
+   end function joined
+end module model_attributes

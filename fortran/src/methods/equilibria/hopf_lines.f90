@@ -1,0 +1,175 @@
+!> Hopf points on a line of one parameter: where the number of unstable characteristic roots changes
+!> by a pair. This holds for every model and parameter.
+module hopf_lines
+   use characteristic_function, only: characteristic_of, characteristic_type
+   use dde_errors, only: error_type, raise, text
+   use dde_kinds, only: wp
+   use model_problem, only: model_type
+   use root_counts, only: crossing_frequency, roots_right_of
+   implicit none (type, external)
+   private
+   public :: find_hopf_on_line, hopf_on_line_type
+
+   !> An interval with one pair is halved to this length before Newton's method, one with several to
+   !> that, in units of the line
+   real(wp), parameter :: narrow = 1.0e-7_wp, narrowest = 1.0e-13_wp
+   !> Newton's method ends when steps are below this share, or after so many steps
+   real(wp), parameter :: accuracy = 1.0e-14_wp
+   integer, parameter :: most_steps = 20
+   real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
+
+   !> A Hopf point.
+   type :: hopf_on_line_type
+      !> Parameters in the order of the definition
+      real(wp), allocatable :: numbers(:)
+      !> Frequency of the pair
+      real(wp) :: omega = 0.0_wp
+      !> Longest delay there
+      real(wp) :: delay = 0.0_wp
+      !> Unstable pairs before and behind it along the line
+      integer :: pairs_before = 0, pairs_behind = 0
+   end type hopf_on_line_type
+
+contains
+
+   !> All Hopf points on a line, by the turns that the pair makes in the longest delay, and by
+   !> frequency. Pairs that cross in and out between two places of the scan are missed.
+   subroutine find_hopf_on_line(model, from, to, places, points, error)
+      !> The model
+      class(model_type), intent(in) :: model
+      !> Parameters at both ends, in the order of the definition
+      real(wp), intent(in) :: from(:), to(:)
+      !> Places of the line at which unstable roots are counted
+      integer, intent(in) :: places
+      !> The Hopf points
+      type(hopf_on_line_type), allocatable, intent(out) :: points(:)
+      !> A Hopf point was not found
+      type(error_type), allocatable, intent(out) :: error
+      type(model_type) :: block
+      real(wp) :: here, next
+      integer :: i, roots_here, roots_next
+
+      allocate (points(0))
+      block = model%mode(1)
+      here = 0.0_wp
+      roots_here = unstable_roots(here)
+      do i = 1, places
+         next = real(i, wp)/places
+         roots_next = unstable_roots(next)
+         call search(here, next, roots_here, roots_next)
+         if (allocated(error)) return
+         here = next
+         roots_here = roots_next
+      end do
+
+   contains
+
+      !> Parameters at a share of the line.
+      pure function numbers_at(x) result(numbers)
+         real(wp), intent(in) :: x
+         real(wp) :: numbers(size(from))
+
+         numbers = from
+         where (abs(to - from) > 0.0_wp) numbers = from + (to - from)*x
+      end function numbers_at
+
+      !> The characteristic function at a share of the line.
+      type(characteristic_type) function function_at(x) result(c)
+         real(wp), intent(in) :: x
+
+         call block%put(numbers_at(x))
+         c = characteristic_of(block)
+      end function function_at
+
+      !> Number of unstable roots at a share of the line.
+      integer function unstable_roots(x) result(number)
+         real(wp), intent(in) :: x
+
+         number = roots_right_of(function_at(x), 0.0_wp)
+      end function unstable_roots
+
+      !> Add the Hopf points of an interval. A change by one is a real root.
+      recursive subroutine search(start, end, roots_start, roots_end)
+         real(wp), intent(in) :: start, end
+         !> Numbers of unstable roots at its ends
+         integer, intent(in) :: roots_start, roots_end
+         real(wp) :: middle
+         integer :: roots_middle
+
+         if (abs(roots_end - roots_start) < 2 .or. allocated(error)) return
+         if (end - start > merge(narrow, narrowest, abs(roots_end - roots_start) == 2)) then
+            middle = 0.5_wp*(start + end)
+            roots_middle = unstable_roots(middle)
+            call search(start, middle, roots_start, roots_middle)
+            call search(middle, end, roots_middle, roots_end)
+         else
+            call add(start, end, roots_start, roots_end)
+         end if
+      end subroutine search
+
+      !> Add the Hopf point of a short interval by Newton's method for Delta(i omega) = 0.
+      subroutine add(start, end, roots_start, roots_end)
+         real(wp), intent(in) :: start, end
+         integer, intent(in) :: roots_start, roots_end
+         type(hopf_on_line_type) :: point
+         type(characteristic_type) :: c
+         complex(wp) :: by_omega, by_x, delta, s
+         real(wp) :: step(2), x
+         integer :: i
+         logical, allocatable :: earlier(:)
+
+         ! off the ends, at which the pair may be on the axis
+         point%omega = crossing_frequency(function_at(2.0_wp*start - end), &
+                                          function_at(2.0_wp*end - start))
+         x = 0.5_wp*(start + end)
+         do i = 1, most_steps
+            c = function_at(x)
+            s = cmplx(0.0_wp, point%omega, kind=wp)
+            delta = c%value(s)
+            by_omega = (0.0_wp, 1.0_wp)*c%by_s(s)
+            by_x = slope_along(c, s)
+            step = -[aimag(conjg(by_x)*delta), -aimag(conjg(by_omega)*delta)] &
+                   /aimag(conjg(by_x)*by_omega)
+            point%omega = point%omega + step(1)
+            x = x + step(2)
+            if (all(abs(step) <= accuracy*abs([point%omega, x]))) exit
+         end do
+         if (.not. abs(x - 0.5_wp*(start + end)) <= 2.0_wp*(end - start) + accuracy) then
+            call raise(error, "Hopf points: a pair of roots crosses the axis between the shares " &
+                       //text(start)//" and "//text(end)//" of the line, and Newton's method " &
+                       //"does not find where")
+            return
+         end if
+         point%numbers = numbers_at(x)
+         point%delay = maxval(c%delay)
+         point%pairs_before = roots_start/2
+         point%pairs_behind = roots_end/2
+         earlier = [(is_before(points(i), point), i=1, size(points))]
+         points = [pack(points, earlier), point, pack(points, .not. earlier)]
+      end subroutine add
+
+      !> Derivative of Delta along the line.
+      pure complex(wp) function slope_along(c, s) result(slope)
+         type(characteristic_type), intent(in) :: c
+         complex(wp), intent(in) :: s
+         integer :: i
+
+         slope = 0.0_wp
+         do i = 1, size(from)
+            if (abs(to(i) - from(i)) > 0.0_wp) then
+               slope = slope + (to(i) - from(i))*c%by_parameter(i, s)
+            end if
+         end do
+      end function slope_along
+   end subroutine find_hopf_on_line
+
+   !> Whether a Hopf point has fewer turns in a delay, or as many and a lower frequency.
+   pure logical function is_before(one, other) result(value)
+      type(hopf_on_line_type), intent(in) :: one, other
+
+      associate (k => nint(one%omega*one%delay/turn), &
+                 other_k => nint(other%omega*other%delay/turn))
+         value = k < other_k .or. (k == other_k .and. one%omega < other%omega)
+      end associate
+   end function is_before
+end module hopf_lines

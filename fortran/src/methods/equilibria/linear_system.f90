@@ -1,0 +1,74 @@
+!> A delayed model about its state at rest: the linear system
+!>
+!>     y'(t) = sum_j A_j y(t - lag_j).
+module linear_system
+   use dde, only: find_jacobian
+   use dde_kinds, only: wp
+   use model_problem, only: model_type
+   implicit none (type, external)
+   private
+   public :: linear_part, linear_system_type
+
+   !> A linear system with constant lags; an instantaneous term has lag 0.
+   type :: linear_system_type
+      !> Matrices A_j, shape (n, n, number of lags)
+      real(wp), allocatable :: a(:, :, :)
+      !> Lags, each >= 0
+      real(wp), allocatable :: lag(:)
+   contains
+      procedure :: characteristic_matrix, characteristic_slope
+   end type linear_system_type
+
+contains
+
+   !> The linear part of a model at rest. Lag 1 is 0, those of the delayed values follow, also where
+   !> a delay is 0; derivative forms of the model take histories at these lags.
+   pure function linear_part(model) result(linear)
+      !> The model, which keeps delays of 0
+      class(model_type), intent(in) :: model
+      type(linear_system_type) :: linear
+      real(wp) :: by_y(model%n, model%n), by_z(model%n, size(model%lag)), state(model%n)
+      integer :: k
+
+      state = model%steady_state()
+      call find_jacobian(model, 0.0_wp, state, state(model%component), by_y, by_z)
+      allocate (linear%a(model%n, model%n, size(model%lag) + 1), source=0.0_wp)
+      linear%a(:, :, 1) = by_y
+      do k = 1, size(model%lag)
+         linear%a(:, model%component(k), k + 1) = by_z(:, k)
+      end do
+      linear%lag = [0.0_wp, model%lag]
+   end function linear_part
+
+   !> Delta(s), singular at characteristic roots.
+   pure function characteristic_matrix(self, s) result(matrix)
+      class(linear_system_type), intent(in) :: self
+      complex(wp), intent(in) :: s
+      complex(wp) :: matrix(size(self%a, 1), size(self%a, 1))
+      integer :: i
+
+      matrix = 0.0_wp
+      do i = 1, size(matrix, 1)
+         matrix(i, i) = s
+      end do
+      do i = 1, size(self%lag)
+         matrix = matrix - self%a(:, :, i)*exp(-s*self%lag(i))
+      end do
+   end function characteristic_matrix
+
+   !> Derivative of Delta(s).
+   pure function characteristic_slope(self, s) result(matrix)
+      class(linear_system_type), intent(in) :: self
+      complex(wp), intent(in) :: s
+      complex(wp) :: matrix(size(self%a, 1), size(self%a, 1))
+      integer :: i
+
+      matrix = 0.0_wp
+      do i = 1, size(matrix, 1)
+         matrix(i, i) = 1.0_wp
+      end do
+      do i = 1, size(self%lag)
+         matrix = matrix + self%a(:, :, i)*(self%lag(i)*exp(-s*self%lag(i)))
+      end do
+   end function characteristic_slope
+end module linear_system

@@ -1,0 +1,144 @@
+!> A model by its name, with its parameters by their names, as namelists give it.
+module model_settings
+   use model_chain, only: chain_ends, find_neighbours
+   use dde_errors, only: error_type, raise, text
+   use dde_kinds, only: wp
+   use model_description, only: description_type, parameter_type, unbounded, word_length
+   use model_library, only: list_models, open_model
+   use model_problem, only: model_type
+   use value_checks, only: absent, check_choice, check_count, check_number
+   implicit none (type, external)
+   private
+   public :: model_settings_type
+
+   !> Most parameters of a model.
+   integer, parameter :: most_parameters = 64
+
+   !> A model with its parameters.
+   type :: model_settings_type
+      !> Name of the model
+      character(len=word_length) :: name = ""
+      !> Names of its parameters, in any order, and their values
+      character(len=word_length) :: parameters(most_parameters) = ""
+      real(wp) :: values(most_parameters) = absent
+      !> Number of blocks of a chain, and what is beyond its ends
+      integer :: blocks = 1
+      character(len=word_length) :: ends = "free"
+   contains
+      procedure :: put => put_parameter
+      procedure :: open => open_settings
+   end type model_settings_type
+
+contains
+
+   !> Give a parameter a value by its name; nothing if the name is blank.
+   pure subroutine put_parameter(self, name, value)
+      class(model_settings_type), intent(inout) :: self
+      !> Name of the parameter
+      character(len=*), intent(in) :: name
+      !> Its value
+      real(wp), intent(in) :: value
+      integer :: number
+
+      if (name == "") return
+      number = findloc(self%parameters, name, dim=1)
+      if (number == 0) number = findloc(self%parameters, "", dim=1)
+      if (number == 0) return
+      self%parameters(number) = name
+      self%values(number) = value
+   end subroutine put_parameter
+
+   !> Open the model and give it its parameters, at rest before the initial time. Refuse a model
+   !> that there is not, names that it has not, and values out of range; keep an earlier error.
+   subroutine open_settings(self, place, model, error, keep_delays)
+      class(model_settings_type), intent(in) :: self
+      !> File and what it describes, for messages
+      character(len=*), intent(in) :: place
+      !> The model
+      type(model_type), intent(out) :: model
+      !> First error met
+      type(error_type), allocatable, intent(inout) :: error
+      !> Whether delays of 0 are delayed values, too; .false. unless given
+      logical, intent(in), optional :: keep_delays
+      type(description_type) :: about
+      real(wp), allocatable :: numbers(:), state(:)
+      integer :: block, i, number
+
+      call check_choice(error, place, "model", self%name, list_models(""))
+      if (.not. allocated(error)) call open_model(trim(self%name), model, error)
+      if (allocated(error)) return
+      about = model%describe()
+      do i = 1, most_parameters
+         if (self%parameters(i) == "") cycle
+         call check_choice(error, place, "parameter of the model "//trim(self%name), &
+                           self%parameters(i), model%names)
+      end do
+      allocate (numbers(size(model%names)), source=absent)
+      do i = 1, size(numbers)
+         number = findloc(self%parameters, model%names(i), dim=1)
+         if (number > 0) numbers(i) = self%values(number)
+         call check_parameter(about%parameters(i), place, numbers(i), error)
+      end do
+      call check_delays(model, place, numbers, error)
+      call check_blocks(self, model, place, error)
+      if (allocated(error)) return
+      model%ends = self%ends
+      if (size(model%sizes%couplings) > 0) then
+         call find_neighbours(self%blocks, trim(self%ends), model%left, model%right)
+      end if
+      allocate (state(model%sizes%states), source=0.0_wp)
+      if (associated(model%code%steady_state)) call model%code%steady_state(numbers, state)
+      call model%set(numbers, [(state, block=1, self%blocks)], keep_delays)
+   end subroutine open_settings
+
+   !> Refuse a parameter out of its range; keep an earlier error.
+   subroutine check_parameter(about, place, value, error)
+      type(parameter_type), intent(in) :: about
+      character(len=*), intent(in) :: place
+      real(wp), intent(in) :: value
+      type(error_type), allocatable, intent(inout) :: error
+
+      if (about%at_least > unbounded) then
+         call check_number(error, place, trim(about%name), value, at_least=about%at_least)
+      else if (about%above > unbounded) then
+         call check_number(error, place, trim(about%name), value, above=about%above)
+      else
+         call check_number(error, place, trim(about%name), value)
+      end if
+   end subroutine check_parameter
+
+   !> Refuse a negative delay; keep an earlier error.
+   subroutine check_delays(model, place, numbers, error)
+      type(model_type), intent(in) :: model
+      character(len=*), intent(in) :: place
+      real(wp), intent(in) :: numbers(:)
+      type(error_type), allocatable, intent(inout) :: error
+      real(wp) :: lag(model%sizes%delayed)
+      integer :: i
+
+      if (allocated(error)) return
+      lag = model%delays(numbers)
+      do i = 1, size(lag)
+         call check_number(error, place, "delay "//text(i)//" of the model", lag(i), &
+                           at_least=0.0_wp)
+      end do
+   end subroutine check_delays
+
+   !> Refuse a chain that there is not; keep an earlier error.
+   subroutine check_blocks(self, model, place, error)
+      class(model_settings_type), intent(in) :: self
+      type(model_type), intent(in) :: model
+      character(len=*), intent(in) :: place
+      type(error_type), allocatable, intent(inout) :: error
+
+      call check_count(error, place, "blocks", self%blocks, at_least=1)
+      call check_choice(error, place, "ends", self%ends, chain_ends)
+      if (allocated(error)) return
+      if (self%blocks > 1 .and. size(model%sizes%couplings) == 0) then
+         call raise(error, place//": blocks = "//text(self%blocks)//" of the model " &
+                    //trim(self%name)//"; expected 1, since it has no second difference")
+      else if (self%blocks > 1 .and. self%ends == "ring") then
+         call check_count(error, place//": ends = ring: ", "blocks", self%blocks, at_least=3)
+      end if
+   end subroutine check_blocks
+end module model_settings
