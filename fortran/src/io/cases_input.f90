@@ -40,13 +40,14 @@ contains
       type(case_type), allocatable, intent(out) :: cases(:)
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
+      character(len=:), allocatable :: place
       integer :: i
 
       allocate (cases(size(given)))
       do i = 1, size(given)
          if (allocated(error)) return
-         associate (one => given(i), case => cases(i), &
-                    place => path//": case '"//trim(given(i)%name)//"'")
+         place = path//": case '"//trim(given(i)%name)//"'"
+         associate (one => given(i), case => cases(i))
             case%name = one%name
             case%t_end = one%t_end
             case%sample_interval = one%sample_interval

@@ -156,6 +156,7 @@ contains
       real(wp), allocatable :: columns(:, :), imaginary(:, :), real_part(:, :)
       integer, allocatable :: branch(:), intervals(:), unstable(:)
       character(len=letters) :: words(size(found), 2)
+      character(len=:), allocatable :: signal
       integer :: all, i, j, k, row, rows, several
 
       all = 0
@@ -186,10 +187,9 @@ contains
       rows = file%dimension("orbit", all, coordinates=name//" branch")
       call file%column(rows, name, columns(:, 1), meaning)
       call file%column(rows, "period", columns(:, 2), "period")
-      associate (signal => signal_name(model))
-         call file%column(rows, signal//"_least", columns(:, 3), "least "//signal)
-         call file%column(rows, signal//"_most", columns(:, 4), "greatest "//signal)
-      end associate
+      signal = signal_name(model)
+      call file%column(rows, signal//"_least", columns(:, 3), "least "//signal)
+      call file%column(rows, signal//"_most", columns(:, 4), "greatest "//signal)
       call file%column(rows, "multiplier_error", columns(:, 5), &
                        "distance of the trivial multiplier from 1")
       call file%column(rows, "branch", branch, "number of the branch, from 1")
@@ -284,6 +284,7 @@ contains
       type(cycle_settings_type), intent(in) :: settings
       type(cycle_curve_type), intent(in) :: curves(:)
       character(len=kind_length) :: words(size(curves), 3)
+      character(len=:), allocatable :: name
       real(wp), allocatable :: columns(:, :)
       integer, allocatable :: number(:)
       integer :: all, i, j, k, row, rows
@@ -313,9 +314,8 @@ contains
       rows = file%dimension("curve_point", all)
       if (allocated(settings%curve_along)) then
          do k = 1, 2
-            associate (name => trim(settings%line%model%names(settings%curve_along(k))))
-               call file%column(rows, "curve_"//name, columns(:, k), name//" of a point of a curve")
-            end associate
+            name = trim(settings%line%model%names(settings%curve_along(k)))
+            call file%column(rows, "curve_"//name, columns(:, k), name//" of a point of a curve")
          end do
       end if
       call file%column(rows, "curve_period", columns(:, 3), "its period")

@@ -53,12 +53,14 @@ contains
       class(model_type), intent(in) :: model
       !> The history, the first of these
       type(history_type), intent(in) :: history
+      character(len=:), allocatable :: name
       integer :: blocks, i
 
       if (.not. allocated(history%values)) return
       if (model%shape%blocks > 1) blocks = file%dimension("block", model%shape%blocks)
       do i = 1, size(history%names)
-         associate (name => "history_"//trim(history%names(i)), values => history%values(i, :, 1))
+         name = "history_"//trim(history%names(i))
+         associate (values => history%values(i, :, 1))
             if (model%shape%blocks > 1) then
                call file%column(blocks, name, values, trim(history%names(i))//" for t <= 0")
             else

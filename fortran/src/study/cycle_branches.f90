@@ -103,6 +103,7 @@ contains
       type(error_type), allocatable :: failure
       type(orbit_change_type) :: tangent
       type(periodic_orbit_type) :: orbit
+      type(model_type) :: block
       type(special_point_type), allocatable :: here(:)
       integer :: branches, direction, i, j
 
@@ -110,8 +111,8 @@ contains
          call find_hopf_on_line(line%model, line%numbers_at(line%window(1)), &
                                 line%numbers_at(line%window(2)), scan_places, hopf, error)
          if (allocated(error)) return
-         how%family = family_type(line%model%mode(1), [line%along], &
-                                  [line%window(2) - line%window(1)])
+         block = line%model%mode(1)
+         how%family = family_type(block, [line%along], [line%window(2) - line%window(1)])
          how%window(:, 1) = line%window
          how%longest_period = settings%longest_period
          how%most_points = settings%most_orbits

@@ -5,6 +5,7 @@ module cycle_curves
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use model_family, only: family_type
+   use model_problem, only: model_type
    use orbit_curves, only: curve_type, follow_curve
    use orbit_mesh, only: adapted_mesh
    use progress_receiver, only: progress_receiver_type
@@ -46,6 +47,7 @@ contains
       class(progress_receiver_type), intent(inout), optional :: progress
       type(follow_settings_type) :: how
       type(cycle_curve_type), allocatable :: all(:)
+      type(model_type) :: block
       type(special_point_type) :: start
       integer :: count, i, intervals, j, k
 
@@ -53,8 +55,8 @@ contains
       count = 0
       if (allocated(settings%curve_window)) then
          associate (window => settings%curve_window)
-            how%family = family_type(settings%line%model%mode(1), settings%curve_along, &
-                                     window(2, :) - window(1, :))
+            block = settings%line%model%mode(1)
+            how%family = family_type(block, settings%curve_along, window(2, :) - window(1, :))
          end associate
          how%window = settings%curve_window
          how%longest_period = settings%longest_period
