@@ -13,20 +13,9 @@ from pathlib import Path
 import sympy
 from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
-from sympy.codegen.cfunctions import expm1, log1p
 
-from generator.fortran import in_words
+from generator.fortran import FUNCTIONS, in_words
 
-FUNCTIONS = {
-    "exp": sympy.exp,
-    "expm1": expm1,
-    "log": sympy.log,
-    "log1p": log1p,
-    "sqrt": sympy.sqrt,
-    "sin": sympy.sin,
-    "cos": sympy.cos,
-}
-"""The functions that an expression may have: all are analytic, and have series by a recurrence."""
 TIME = sympy.Symbol("t", real=True)
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,47}\Z")
 RESERVED = {"t", "derivative", "second_difference", *FUNCTIONS}
@@ -318,6 +307,11 @@ class _Reader:
         value = _Expression(self, place, str(text).strip()).value(tree.body)
         if value.has(sympy.zoo, sympy.nan, sympy.oo):
             self.refuse(place, text, "an expression that is finite")
+        for part in value.atoms(sympy.Function, sympy.Pow, sympy.I):
+            # SymPy makes abs(a) of sqrt(a**2)
+            known = part.is_Pow or part.func in FUNCTIONS.values()
+            if not known or (part.is_number and not part.evalf().is_real):
+                self.refuse(place, text, "an expression that is real and analytic")
         return value
 
     def definition(self, name: str) -> sympy.Expr:

@@ -123,7 +123,7 @@ def description_lines(model: Model) -> list[str]:
 
 def interface_digest() -> str:
     """A digest of what models and programs share; a program refuses models of another one."""
-    return hashlib.sha256((SUPPORT / "model_border.f90").read_bytes()).hexdigest()[:32]
+    return hashlib.sha256((SUPPORT / "shared" / "model_border.f90").read_bytes()).hexdigest()[:32]
 
 
 def write_interface() -> str:

@@ -188,11 +188,13 @@ def characteristic_terms(model: Model) -> list[tuple[sympy.Expr, int, sympy.Expr
                     entry += model.at_steady_state(equation.diff(one.symbol)) * decay
             matrix[row, column] = (s if row == column else 0) - sympy.simplify(entry)
     polynomial = sympy.Poly(matrix.det(method="berkowitz"), s, *decays)
-    terms = []
+    terms: dict[tuple, sympy.Expr] = {}
     for (power, *times), coefficient in polynomial.terms():
+        # several delayed states may have one delay, and sums of delays may be alike
         delay = sympy.Add(*(n * one.lag for n, one in zip(times, model.delayed, strict=True)))
-        terms.append((shortest(coefficient), power, delay))
-    return terms
+        terms[power, delay] = terms.get((power, delay), 0) + coefficient
+    shortened = {place: shortest(coefficient) for place, coefficient in terms.items()}
+    return [(value, *place) for place, value in shortened.items() if value != 0]
 
 
 def characteristic_procedure(model: Model) -> Procedure:

@@ -64,10 +64,10 @@ def block(law: str = PAPER) -> dict:
         ({"equations": {}}, r"equations: {}; expected at least one entry"),
         ({"equations": {"a": "0"}}, r"equations: 'a'; expected one for each of a, w"),
         ({"states": {"a": "", "W": ""}, "auxiliary": None}, r"equations: 'a, w'; expected one for"),
-        ({"parameters": {"a": {}}}, r"name: 'a'; expected .*; not cos, .*, a\Z"),
+        ({"parameters": {"a": {}}}, r"name: 'a'; expected .*; not acos, .*, a\Z"),
         (
             {"parameters": {"t": {}}},
-            r"name: 't'; expected .*; not cos, derivative, exp, .*, t\Z",
+            r"name: 't'; expected .*; not acos, .*, cosh, derivative, exp, .*, tanh\Z",
         ),
         ({"parameters": {"1a": {}}}, r"name: '1a'; expected a letter, then letters, digits or _"),
         ({"parameters": {"p": {"most": 1}}}, r"parameter p: .*; expected keys of above, at_least"),
@@ -97,6 +97,9 @@ def block(law: str = PAPER) -> dict:
         ({"of_a": "a(t + rate_of)"}, r"'a\(t \+ rate_of\)'; expected a\(t - DELAY\)"),
         ({"of_a": "a(t - rate_of/2 + rate_of)"}, r"expected a\(t - DELAY\) with a delay >= 0"),
         ({"of_a": "a/0"}, r"equation of a: 'a/0'; expected an expression that is finite"),
+        ({"of_a": "sqrt(a**2)"}, r"'sqrt\(a\*\*2\)'; expected an expression that is real and ana"),
+        ({"of_a": "a + asin(2)"}, r"'a \+ asin\(2\)'; expected an expression that is real"),
+        ({"of_a": "a*acosh(0)"}, r"'a\*acosh\(0\)'; expected an expression that is real"),
         ({"of_a": "v"}, r"equation of a at the steady state: 'v = 1'; expected 0"),
         ({"steady_state": {"a": 0}}, r"steady_state: 'a'; expected a value for each state"),
         ({"history": {"a": 0}}, r"history: 'a'; expected an expression of t for each state"),
@@ -171,6 +174,7 @@ def test_expressions_keep_their_brackets():
     assert text_of((a + b) ** sympy.Rational(1, 2) - 1 / (a * b)) == "sqrt(a + b) - 1.0_wp/(a*b)"
     assert text_of((a * b) ** c) == "(a*b)**c"
     assert text_of(sympy.exp(1) - a) == "exp(1.0_wp) - a"
+    assert text_of(sympy.atan(1) * sympy.tanh(a)) == "acos(-1.0_wp)*tanh(a)/4.0_wp"
 
 
 def test_long_lines_are_broken_outside_of_constants():

@@ -1,6 +1,7 @@
 !> Models made from definitions, in quadruple precision: all forms against the right-hand side, and
 !> against the same models written by hand.
 module test_generated_models
+   use characteristic_function, only: characteristic_of, characteristic_type
    use dde, only: problem_with_tangents
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
@@ -22,10 +23,12 @@ contains
    subroutine collect_generated_models(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("all functions, two delays, time", test_zoo), &
+      testsuite = [new_unittest("two delays, powers, time", test_zoo), &
+                   new_unittest("functions", test_functions), &
                    new_unittest("a fast state", test_fast), &
                    new_unittest("histories", test_histories), &
                    new_unittest("Mackey-Glass", test_mackey_glass), &
+                   new_unittest("two neurons, three delays", test_neurons), &
                    new_unittest("infection", test_infection), &
                    new_unittest("enzyme kinetics", test_enzyme), &
                    new_unittest("laws of friction", test_laws), &
@@ -46,6 +49,22 @@ contains
                           uniform(i + 1, size(zoo%lag), 0.1_wp, 0.9_wp), "zoo")
       end do
    end subroutine test_zoo
+
+   !> All functions, and their derivatives at rest; with both delays and with one of 0.
+   subroutine test_functions(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(model_type) :: model
+      integer :: i
+
+      call open_there(error, "made_functions", model)
+      if (allocated(error)) return
+      do i = 0, 1
+         call model%set([1.3_wp, 0.9_wp*i], [0.0_wp, 0.0_wp])
+         call check_model(error, model, [0.4_wp, -0.7_wp], &
+                          uniform(i + 1, size(model%lag), 0.1_wp, 0.9_wp), "functions")
+      end do
+      call check_forms(error, model, "functions")
+   end subroutine test_functions
 
    !> A balance with a constant part, from soft to stiff.
    subroutine test_fast(error)
@@ -112,6 +131,59 @@ contains
       call made%set([0.0_wp], [1.2_wp])
       call check_model(error, made, [0.8_wp], [real(wp) ::], "Mackey-Glass without delay")
    end subroutine test_mackey_glass
+
+   !> All forms, and the published Hopf point with its first Lyapunov coefficient.
+   subroutine test_neurons(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(model_type) :: neurons
+      type(characteristic_type) :: c
+      real(wp), parameter :: omega = 0.7819651621_wp
+      complex(wp), parameter :: s = (0.0_wp, omega)
+      complex(wp) :: delta(2, 2), none(2), p(2), q(2)
+      integer :: j
+
+      call open_there(error, "made_neuron", neurons)
+      if (allocated(error)) return
+      call neurons%set([0.5_wp, -1.0_wp, 1.0_wp, 0.807123225_wp, 0.2_wp, 0.2_wp, 1.5_wp], &
+                       [0.0_wp, 0.0_wp])
+      call check_model(error, neurons, [0.4_wp, -0.7_wp], [0.1_wp, 0.5_wp, -0.3_wp, 0.8_wp], &
+                       "neurons")
+      call check_forms(error, neurons, "neurons")
+      c = characteristic_of(neurons)
+      call expect_close(error, abs(c%value(s)), 0.0_wp, 1.0e-9_wp, &
+                        "characteristic function at the Hopf point")
+      none = 0.0_wp
+      do j = 1, 2
+         q = merge(1.0_wp, 0.0_wp, [1, 2] == j)
+         delta(:, j) = s*q - neurons%derivative(reshape(history_of(q, q), [2, 5, 1]))
+      end do
+      q = [-delta(1, 2), delta(1, 1)]
+      q = q/sqrt(sum(abs(q)**2))
+      p = [-delta(2, 1), delta(1, 1)]
+      p = p/sum(p*(q - neurons%derivative(reshape(history_of(none, q, -neurons%lag), [2, 5, 1]))))
+      ! forms of order 2 are 0
+      associate (phi => history_of(q, q))
+         q = neurons%derivative(reshape([phi, phi, conjg(phi)], [2, 5, 3]))
+      end associate
+      call expect_close(error, 0.5_wp*real(sum(p*q))/omega, -0.39615712_wp, 1.0e-8_wp, &
+                        "first Lyapunov coefficient")
+
+   contains
+
+      !> A present state, and what is exp(s t) before, times factors.
+      pure function history_of(now, before, factor) result(history)
+         complex(wp), intent(in) :: now(2), before(2)
+         real(wp), intent(in), optional :: factor(4)
+         complex(wp) :: history(2, 5)
+         integer :: k
+
+         history(:, 1) = now
+         do k = 1, 4
+            history(:, 1 + k) = before*exp(-s*neurons%lag(k))
+            if (present(factor)) history(:, 1 + k) = history(:, 1 + k)*factor(k)
+         end do
+      end function history_of
+   end subroutine test_neurons
 
    !> Whole runs of the model written by hand.
    subroutine test_infection(error)
