@@ -10,7 +10,7 @@ from generator.module import SUPPORT
 KINDS = Path(__file__).parents[1] / "fortran" / "dde" / "src" / "api" / "dde_kinds.f90"
 SHARED = [
     SUPPORT / "shared" / f"{name}.f90"
-    for name in ("model_border", "nilpotent_numbers", "nilpotent_functions")
+    for name in ("model_border", "nilpotent_numbers", "nilpotent_functions", "steady_states")
 ]
 """What is compiled with every model, in this order."""
 COMPILER = "gfortran"
