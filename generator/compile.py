@@ -8,7 +8,11 @@ from pathlib import Path
 from generator.module import SUPPORT
 
 KINDS = Path(__file__).parents[1] / "fortran" / "dde" / "src" / "api" / "dde_kinds.f90"
-SHARED = [SUPPORT / "model_border.f90", SUPPORT / "nilpotent_numbers.f90"]
+SHARED = [
+    SUPPORT / "shared" / f"{name}.f90"
+    for name in ("model_border", "nilpotent_numbers", "nilpotent_functions", "steady_states")
+]
+"""What is compiled with every model, in this order."""
 COMPILER = "gfortran"
 FLAGS = (
     "-O2 -std=f2018 -ffp-contract=off -fno-tree-slp-vectorize -frecursive -fstack-arrays"

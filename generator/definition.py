@@ -5,6 +5,7 @@ Expressions are read by Python's own parser and never evaluated: a definition ca
 
 import ast
 import math
+import random
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -13,21 +14,12 @@ from pathlib import Path
 import sympy
 from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
-from sympy.codegen.cfunctions import expm1, log1p
 
-from generator.fortran import in_words
+from generator.fortran import FUNCTIONS, in_words
 
-FUNCTIONS = {
-    "exp": sympy.exp,
-    "expm1": expm1,
-    "log": sympy.log,
-    "log1p": log1p,
-    "sqrt": sympy.sqrt,
-    "sin": sympy.sin,
-    "cos": sympy.cos,
-}
-"""The functions that an expression may have: all are analytic, and have series by a recurrence."""
 TIME = sympy.Symbol("t", real=True)
+MODE = sympy.Symbol("self%mode", real=True)
+"""Of a chain whose blocks move alike: minus a second difference over the state."""
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,47}\Z")
 RESERVED = {"t", "derivative", "second_difference", *FUNCTIONS}
 """Names with a meaning of their own in expressions."""
@@ -49,6 +41,8 @@ LARGEST_POWER = 64
 """Largest exponent that is a number: 9**9**9 has more digits than there is memory for."""
 LARGEST_LOGARITHM = 700
 """Largest logarithm of a power of numbers: ((9**64)**64)**64 has a million digits."""
+TRIALS, DIGITS = 5, 40
+"""Values of the parameters at which a steady state is tested, and digits of these tests."""
 LONGEST_TEXT, LONGEST_UNIT = 500, 60
 """Letters of texts that stand in files of results."""
 
@@ -113,6 +107,9 @@ class Model:
     equations: dict[str, sympy.Expr]
     delayed: list[Delayed] = field(default_factory=list)
     steady_state: dict[str, sympy.Expr] | None = None
+    """Of each state an expression of parameters, or its own symbol where it is computed."""
+    near: dict[str, sympy.Expr] | None = None
+    """Where the computation of the steady state starts."""
     history: dict[str, sympy.Expr] | None = None
     """Each state up to the initial time as an expression of t; None: numbers, given later."""
     fast: str | None = None
@@ -193,6 +190,18 @@ def overlaid(whole: dict, part: dict) -> dict:
         else:
             result[key] = value
     return result
+
+
+def near_of(values: dict) -> dict | None:
+    """Where the steady state of a definition is looked for, if it is."""
+    section = values.get("steady_state")
+    near = section.get("near") if isinstance(section, dict) else None
+    return near if isinstance(near, dict) else None
+
+
+def entries_in_words(section: dict, of_keys: dict[str, str], of_values: dict[str, str]) -> dict:
+    """A section with other names."""
+    return {in_words(str(k), of_keys): in_words(v, of_values) for k, v in section.items()}
 
 
 def read_model(values: dict) -> Model:
@@ -292,19 +301,16 @@ class _Reader:
         for key, section in values.items():
             if isinstance(section, dict):
                 inside = {} if key in ("parameters", "states") else safe
-                said[key] = {
-                    in_words(str(k), safe): in_words(s, inside) for k, s in section.items()
-                }
+                said[key] = entries_in_words(section, safe, inside)
+        if near := near_of(values):
+            whole = {**values["steady_state"], "near": entries_in_words(near, safe, safe)}
+            said["steady_state"] = whole
         return said
 
     def read_rest(self, values: dict) -> None:
         """What a definition may leave out."""
         model = self.model
-        model.steady_state = self.of_each_state(values, "steady_state", "a value for each state")
-        for state, equation in model.equations.items() if model.steady_state else ():
-            if (left := sympy.simplify(model.at_steady_state(equation))) != 0:
-                text = f"{model.texts[state]} = {left}"
-                self.refuse(f"equation of {state} at the steady state", text, "0")
+        self.read_steady_state(values)
         expected = "an expression of t for each state"
         model.history = self.of_each_state(values, "history", expected)
         for state, value in model.history.items() if model.history else ():
@@ -351,6 +357,50 @@ class _Reader:
         found.coordinates = found.coordinates or tuple(others[:2])
         return found
 
+    def read_steady_state(self, values: dict) -> None:
+        """As expressions, which are tested, or where to look for it."""
+        model, expected = self.model, "a value for each state"
+        near = near_of(values)
+        if near:
+            if len(values["steady_state"]) > 1:
+                self.refuse("steady_state", ", ".join(values["steady_state"]), "near alone")
+            values = {"steady_state": near}
+        found = self.of_each_state(values, "steady_state", expected)
+        for state, value in found.items() if found else ():
+            if value.free_symbols & model.variables:
+                text = values["steady_state"][state]
+                self.refuse(f"steady state of {state}", text, "an expression of parameters")
+        if near:
+            for state, equation in model.equations.items():
+                if equation.has(TIME):
+                    text = model.texts[state]
+                    self.refuse(f"equation of {state} with a steady state", text, "no t")
+            model.near = found
+            model.steady_state = {state: model.symbol(state) for state in model.states}
+            return
+        model.steady_state = found
+        for state, equation in model.equations.items() if found else ():
+            left = model.at_steady_state(equation)
+            if left.has(sympy.zoo, sympy.nan, sympy.oo) or not self.vanishes(left):
+                text = f"{model.texts[state]} = {sympy.simplify(left)}"
+                self.refuse(f"equation of {state} at the steady state", text, "0")
+
+    def vanishes(self, value: sympy.Expr) -> bool:
+        """Whether an expression is 0 at values of the parameters, where it has a value."""
+        draw = random.Random(1)
+        terms = sympy.Add.make_args(self.model.plain(value))
+        for _ in range(TRIALS):
+            at = {TIME: sympy.Rational(draw.gauss(0, 1))}
+            for one in self.model.parameters:
+                least = one.at_least if one.above is None else one.above
+                number = draw.gauss(0, 1) if least is None else least + draw.expovariate(1)
+                at[self.model.symbol(one.name)] = sympy.Rational(number)
+            total = sympy.Abs(sympy.Add(*terms).evalf(DIGITS, subs=at))
+            size = 1 + sum(sympy.Abs(term.evalf(DIGITS, subs=at)) for term in terms)
+            if total.is_comparable and total > size * sympy.Rational(10) ** (-DIGITS // 2):
+                return False
+        return True
+
     def of_each_state(self, values: dict, key: str, expected: str) -> dict[str, sympy.Expr] | None:
         """An expression for each state, in their order; None where there are none."""
         texts = values.get(key)
@@ -373,6 +423,11 @@ class _Reader:
         value = _Expression(self, place, str(text).strip()).value(tree.body)
         if value.has(sympy.zoo, sympy.nan, sympy.oo):
             self.refuse(place, text, "an expression that is finite")
+        for part in value.atoms(sympy.Function, sympy.Pow, sympy.I):
+            # SymPy makes abs(a) of sqrt(a**2)
+            known = part.is_Pow or part.func in FUNCTIONS.values()
+            if not known or (part.is_number and not part.evalf().is_real):
+                self.refuse(place, text, "an expression that is real and analytic")
         return value
 
     def definition(self, name: str) -> sympy.Expr:

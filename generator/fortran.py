@@ -5,6 +5,27 @@ import re
 import sympy
 from sympy.codegen.cfunctions import expm1, log1p
 
+FUNCTIONS = {
+    "exp": sympy.exp,
+    "expm1": expm1,
+    "log": sympy.log,
+    "log1p": log1p,
+    "sqrt": sympy.sqrt,
+    "sin": sympy.sin,
+    "cos": sympy.cos,
+    "tan": sympy.tan,
+    "sinh": sympy.sinh,
+    "cosh": sympy.cosh,
+    "tanh": sympy.tanh,
+    "asin": sympy.asin,
+    "acos": sympy.acos,
+    "atan": sympy.atan,
+    "asinh": sympy.asinh,
+    "acosh": sympy.acosh,
+    "atanh": sympy.atanh,
+}
+"""The functions that an expression may have, by their names in definitions and in Fortran: all are
+analytic, and have series by a recurrence."""
 SUM, PRODUCT, POWER, ATOM = range(4)
 """How tightly the parts of an expression hold together."""
 WIDTH = 100
@@ -69,7 +90,9 @@ class _Printer:
             return self.power(one)
         if one is sympy.E:
             return "exp(1.0_wp)", ATOM
-        if one.func in (sympy.exp, sympy.log, sympy.sin, sympy.cos, expm1, log1p):
+        if one is sympy.pi:
+            return "acos(-1.0_wp)", ATOM
+        if one.func in FUNCTIONS.values():
             return f"{one.func.__name__}({self.text(one.args[0], SUM)})", ATOM
         raise TypeError(f"no Fortran for {one}")
 

@@ -7,14 +7,12 @@ from sympy.codegen.cfunctions import expm1, log1p
 
 from generator.definition import Model
 
-UNARY = {sympy.exp: "exp", sympy.log: "log", sympy.sin: "sin", sympy.cos: "cos"}
-
 
 @dataclass(eq=False)
 class Node:
     """A quantity: an input, a sum of multiples of others, or one operation on one or two of them.
 
-    Kinds: input, sum, product, quotient, exp, log, sin, cos, power.
+    Kinds: input, sum, product, quotient, power, and the names of functions.
     """
 
     kind: str
@@ -27,6 +25,9 @@ class Node:
     exact: str = ""
     """The function of `of` that coefficient 0 is, where its kind would lose digits."""
     of: tuple["Node", ...] = ()
+    slope: "Node | None" = None
+    """Of a function f(a) without a recurrence of its own: its derivative by a, times `sign`."""
+    sign: str = ""
 
     @property
     def is_convolution(self) -> bool:
@@ -50,9 +51,7 @@ class Graph:
 
     def add(self, kind: str, *args: Node, **rest) -> Node:
         """A new node with a name after its kind."""
-        word = {"exp": "exponential", "log": "logarithm", "sin": "sine", "cos": "cosine"}.get(
-            kind, kind
-        )
+        word = {"exp": "exponential", "log": "logarithm"}.get(kind, kind)
         self.counts[word] = self.counts.get(word, 0) + 1
         return Node(kind, f"{word}_{self.counts[word]}", args, **rest)
 
@@ -83,25 +82,19 @@ class Graph:
         if one.is_Mul:
             weight, node = self.scaled(one)
             return node if weight == 1 else self.add("sum", node, weights=(weight,))
-        if one.func in UNARY:
-            if one.func in (sympy.sin, sympy.cos):
-                return self.circle(one)
-            return self.add(UNARY[one.func], self.node(one.args[0]))
         if one.is_Pow:
             return self.power(one.base, one.exp)
         if one.func in (expm1, log1p):
             node = self.made(self.plain(one))
             node.exact, node.of = one.func.__name__, (self.node(one.args[0]),)
             return node
-        raise TypeError(f"no recurrence for {one}")
-
-    def circle(self, one: sympy.Expr) -> Node:
-        """Sine and cosine of one argument, which take each other."""
-        argument = self.node(one.args[0])
-        sine, cosine = self.add("sin", argument), self.add("cos", argument)
-        sine.args, cosine.args = (argument, cosine), (argument, sine)
-        self.known[sympy.sin(one.args[0])], self.known[sympy.cos(one.args[0])] = sine, cosine
-        return self.known[one]
+        node = self.add(one.func.__name__, self.node(one.args[0]))
+        if one.func not in (sympy.exp, sympy.log):
+            # the slope may take the function itself
+            self.known[one] = node
+            factor, node.slope = self.scaled(one.fdiff())
+            node.sign = "-" if factor == -1 else ""
+        return node
 
     def power(self, base: sympy.Expr, exponent: sympy.Expr) -> Node:
         if not exponent.is_Integer:
@@ -140,8 +133,13 @@ class Graph:
         return weight, self.known[key]
 
 
-def in_order(roots: list[Node], given: frozenset[Node] = frozenset()) -> list[Node]:
-    """All nodes that some nodes take, each after its arguments; not what given ones take."""
+def in_order(
+    roots: list[Node], given: frozenset[Node] = frozenset(), *, slopes: bool = True
+) -> list[Node]:
+    """All nodes that some nodes take, each after its arguments; not what given ones take.
+
+    Slopes are taken at lower orders alone: they come last, or not at all.
+    """
     found: dict[Node, None] = {}
     started: set[Node] = set()
 
@@ -153,8 +151,12 @@ def in_order(roots: list[Node], given: frozenset[Node] = frozenset()) -> list[No
             visit(one)
         found[node] = None
 
-    for root in roots:
+    wanted = list(roots)
+    for root in wanted:
+        before = len(found)
         visit(root)
+        new = list(found)[before:]
+        wanted += [node.slope for node in new if slopes and node.slope and node not in given]
     return list(found)
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import jinja2
 import sympy
 
-from generator import chain, chain_series, chain_tangents, pointwise, series, slow, tangents
+from generator import chain, chain_series, chain_tangents, pointwise, rest, series, slow, tangents
 from generator.definition import TIME, Model
 from generator.fortran import in_words, text_of, wrapped
 from generator.graph import Graph, in_order
@@ -38,10 +38,13 @@ def write_module(model: Model) -> str:
         "flow_texts": flow_texts(model, flow),
     }
     if model.steady_state:
-        parts["steady_state"] = steady_state_procedure(model)
-        parts["derivative"] = pointwise.derivative_procedure(model)
-        parts["characteristic"] = pointwise.characteristic_procedure(model)
-        parts["terms"] = pointwise.characteristic_terms(model)
+        parts["steady_state"] = rest.steady_state_procedure(model)
+        parts["characteristic"] = rest.characteristic_procedure(model)
+        parts["terms"] = rest.characteristic_terms(model)
+        if model.near:
+            parts["at_rest"] = rest.rest_procedure(model)
+        if not model.differences:
+            parts["derivative"] = rest.derivative_procedure(model)
     if model.history:
         parts["history"] = history_procedure(model)
         parts["history_series"] = {
@@ -102,7 +105,7 @@ def description_lines(model: Model) -> list[str]:
     equations = [f"{state}' = {text}" for state, text in model.texts.items()]
     equations += [f"{name} = {text}" for name, text in model.definitions.items()]
     equations += [f"{name} = exp({state})" for name, state in model.auxiliary.items()]
-    terms = pointwise.characteristic_terms(model) if model.steady_state else []
+    terms = rest.characteristic_terms(model) if model.steady_state else []
     states = list(model.states)
     counted = (model.parameters, equations, model.states, model.delayed, terms)
     lines = [
@@ -143,7 +146,7 @@ def observed_line(model: Model) -> tuple[str, ...]:
 
 def interface_digest() -> str:
     """A digest of what models and programs share; a program refuses models of another one."""
-    return hashlib.sha256((SUPPORT / "model_border.f90").read_bytes()).hexdigest()[:32]
+    return hashlib.sha256((SUPPORT / "shared" / "model_border.f90").read_bytes()).hexdigest()[:32]
 
 
 def write_interface() -> str:
@@ -167,15 +170,6 @@ def delayed_procedure(model: Model) -> Procedure:
         *(f"lag({i}) = {text_of(one.lag)}" for i, one in enumerate(model.delayed, 1)),
         *(f"component({i}) = {number}" for i, number in enumerate(components, 1)),
     ]
-    return Procedure(parameters, [], [], lines)
-
-
-def steady_state_procedure(model: Model) -> Procedure:
-    """The state at rest."""
-    values = list(model.steady_state.values())
-    parameters = series.uses_parameters(model, values)
-    lines = [*fetch_parameters(model, parameters)]
-    lines += [f"state({place}) = {text_of(value)}" for place, value in enumerate(values, 1)]
     return Procedure(parameters, [], [], lines)
 
 

@@ -1,4 +1,4 @@
-"""Procedures that need one state: the right-hand side, its derivatives, and the linear part."""
+"""Procedures that need one state: the right-hand side and its derivatives."""
 
 import sympy
 
@@ -141,79 +141,4 @@ def relaxation_procedure(model: Model, balance: Balance) -> Procedure:
         *fetch_parameters(model, parameters),
         f"rate = {text_of(balance.rate)}*exp(-max({least}, y({place})))",
     ]
-    return Procedure(parameters, [], [], lines)
-
-
-def derivative_procedure(model: Model) -> Procedure:
-    """The k-linear forms of the equations at the steady state, by nilpotent numbers."""
-    equations = list(map(model.plain, model.equations.values()))
-    symbols = set().union(*(one.free_symbols for one in equations))
-    parameters = uses_parameters(model, [*equations, *model.steady_state.values()])
-    lines = fetch_parameters(model, parameters)
-    names = []
-    for place, (state, value) in enumerate(model.steady_state.items(), 1):
-        lines.append(f"{state} = disturbed({text_of(value)}, arguments({place}, 1, :))")
-        names.append(state)
-    for number, one in enumerate(model.delayed, 1):
-        place = list(model.states).index(one.state) + 1
-        value = text_of(model.steady_state[one.state])
-        lines.append(f"{one.symbol.name} = disturbed({value}, arguments({place}, {number + 1}, :))")
-        names.append(one.symbol.name)
-    for name, state in model.auxiliary.items():
-        if model.symbol(name) in symbols:
-            lines.append(f"{name} = exp({state})")
-            names.append(name)
-    for place, equation in enumerate(equations, 1):
-        constant = not equation.free_symbols & model.variables
-        lines.append(f"form({place}) = " + ("0.0_wp" if constant else f"top({text_of(equation)})"))
-    return Procedure(parameters, [], [], lines, lanes=names)
-
-
-def shortest(expression: sympy.Expr) -> sympy.Expr:
-    """The sum or the product of an expression, whatever takes fewer operations."""
-    return min(sympy.expand(expression), sympy.factor(expression), key=sympy.count_ops)
-
-
-def characteristic_terms(model: Model) -> list[tuple[sympy.Expr, int, sympy.Expr]]:
-    """The terms c s^m exp(-s d) of det(s I - A_0 - sum of A_k exp(-s lag_k)): c, m and d."""
-    s = sympy.Symbol("s_")
-    decays = [sympy.Symbol(f"decay_{i}") for i in range(len(model.delayed))]
-    size = len(model.states)
-    matrix = sympy.zeros(size, size)
-    for row, equation in enumerate(model.equations.values()):
-        for column, state in enumerate(model.states):
-            entry = model.at_steady_state(model.by_state(equation, state))
-            for decay, one in zip(decays, model.delayed, strict=True):
-                if one.state == state:
-                    entry += model.at_steady_state(equation.diff(one.symbol)) * decay
-            matrix[row, column] = (s if row == column else 0) - sympy.simplify(entry)
-    polynomial = sympy.Poly(matrix.det(method="berkowitz"), s, *decays)
-    terms = []
-    for (power, *times), coefficient in polynomial.terms():
-        delay = sympy.Add(*(n * one.lag for n, one in zip(times, model.delayed, strict=True)))
-        terms.append((shortest(coefficient), power, delay))
-    return terms
-
-
-def characteristic_procedure(model: Model) -> Procedure:
-    """Coefficients, powers and delays of the terms, and their derivatives where these are not 0."""
-    terms = characteristic_terms(model)
-    values = [value for coefficient, _, delay in terms for value in (coefficient, delay)]
-    parameters = uses_parameters(model, values)
-    lines = fetch_parameters(model, parameters)
-    parts = [sympy.S.Zero]
-    for i, (coefficient, power, delay) in enumerate(terms, 1):
-        if delay not in parts:
-            parts.append(delay)
-        lines += [
-            f"coefficient({i}) = {text_of(coefficient)}",
-            f"power({i}) = {power}",
-            f"delay({i}) = {text_of(delay)}",
-            f"part({i}) = {parts.index(delay) + 1}",
-        ]
-        for j, one in enumerate(model.parameters, 1):
-            for array, value in (("coefficient_by", coefficient), ("delay_by", delay)):
-                slope = shortest(value.diff(model.symbol(one.name)))
-                if slope != 0:
-                    lines.append(f"{array}({i}, {j}) = {text_of(slope)}")
     return Procedure(parameters, [], [], lines)

@@ -8,6 +8,8 @@ ODEs by means of high-order Taylor methods", sec. 2):
     e = exp(a)    k e_k = sum_j e_(k-j) j a_j
     l = log(a)    a_0 k l_k = k a_k - sum_(0<j<k) a_(k-j) j l_j
     p = a**c      a_0 k p_k = c sum_j p_(k-j) j a_j - sum_(0<j<k) a_(k-j) j p_j
+    f = f(a)      k f_k = sum_j g_(k-j) j a_j, where the slope g = df/da is 1 - f**2 of tanh,
+                  1/(1 + a**2) of atan, and so on
 
 Order 0 is computed by itself. Of every higher order the terms with a newest coefficient are
 computed last, from scalars: the others, 0 < j < k, are known before, in one loop for all sums.
@@ -105,6 +107,8 @@ class Recurrences:
                 # what a convolution takes is stored, but for the dividend
                 stored = node.is_convolution and not (node.kind == "quotient" and place == 0)
                 uses[one] = uses.get(one, 0) + (2 if stored else 1)
+            if node.slope:
+                uses[node.slope] = uses.get(node.slope, 0) + 2
         self.inlined = {node for node in self.nodes if node.kind == "sum" and uses.get(node, 0) < 2}
         self.first: dict[Node, list[str]] = {}
         self.later: dict[Node, list[str]] = {}
@@ -166,10 +170,8 @@ class Recurrences:
             "exp": self.exponential,
             "log": self.logarithm,
             "power": self.power,
-            "sin": self.circle,
-            "cos": self.circle,
         }
-        return kinds[node.kind](node, name, zero)
+        return kinds.get(node.kind, self.function)(node, name, zero)
 
     def product(self, node, name, zero):
         left, right = node.args
@@ -233,17 +235,15 @@ class Recurrences:
             ],
         )
 
-    def circle(self, node, name, zero):
-        argument, partner = node.args
-        a, other = self.text(argument), partner.name
+    def function(self, node, name, zero):
+        a, slope = self.text(node.args[0]), node.slope.name
         multiple = self.multiple(a)
-        rest = self.convolved(other, multiple)
-        sign = "-" if node.kind == "cos" else ""
+        rest = self.convolved(slope, multiple)
         return (
             [f"{zero} = {node.kind}({a}_0)"],
             [
                 f"{multiple} = k*{a}",
-                f"{name} = {sign}reciprocal(k)*({rest} + {other}_0*{multiple})",
+                f"{name} = {node.sign}reciprocal(k)*({rest} + {slope}_0*{multiple})",
             ],
         )
 

@@ -14,6 +14,14 @@ from generator.fortran import indented, text_of
 from generator.graph import Graph, Node, convolutions, in_order
 from generator.recurrences import Constants, Recurrences, fetch_parameters
 
+REFUSED = {
+    sympy.log: ".not. {} > 0.0_wp",
+    **dict.fromkeys((sympy.sinh, sympy.cosh), f"abs({{}}) > {LARGEST_EXPONENT}.0_wp"),
+    **dict.fromkeys((sympy.asin, sympy.acos, sympy.atanh), ".not. abs({}) < 1.0_wp"),
+    sympy.acosh: ".not. {} > 1.0_wp",
+}
+"""Arguments for which functions have no value or no derivative, or overflow, as conditions."""
+
 
 @dataclass
 class Procedure:
@@ -88,14 +96,14 @@ def conditions_of(model: Model, expressions: list[sympy.Expr], names: dict) -> l
         depth = max([visit(argument) for argument in one.args], default=0)
         text = None
         if one.func is sympy.exp:
-            text = f"abs({text_of(one.args[0], names)}) > {LARGEST_EXPONENT}.0_wp"
+            text = REFUSED[sympy.sinh].format(text_of(one.args[0], names))
             for delayed in model.delayed:
                 if delayed.symbol == one.args[0] and delayed.state in model.domain:
                     text = window_condition(names[delayed.symbol], model.domain[delayed.state])
-        elif one.func is sympy.log or (
-            one.is_Pow and not one.exp.is_Integer and one.base is not sympy.E
-        ):
-            text = f".not. {text_of(one.args[0], names)} > 0.0_wp"
+        elif one.func in REFUSED:
+            text = REFUSED[one.func].format(text_of(one.args[0], names))
+        elif one.is_Pow and not one.exp.is_Integer and one.base is not sympy.E:
+            text = REFUSED[sympy.log].format(text_of(one.base, names))
         elif one.is_Pow and one.exp.is_Integer and one.exp < 0 and not one.base.is_Symbol:
             text = f".not. abs({text_of(one.base, names)}) > 0.0_wp"
         if text is None or not one.free_symbols & model.variables:
@@ -238,7 +246,7 @@ def series_procedure(model: Model) -> Procedure:
 
 def guarded(model: Model) -> list[sympy.Expr]:
     """Arguments of functions that have no value everywhere."""
-    kinds = (sympy.exp, sympy.log, sympy.Pow)
+    kinds = (sympy.exp, sympy.Pow, *REFUSED)
     return [
         part.args[0]
         for equation in map(model.plain, model.equations.values())

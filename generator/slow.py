@@ -175,7 +175,7 @@ def slow_tangent_parts(model: Model, balance: Balance) -> SlowParts:
     place = list(model.states).index(fast) + 1
     others = [state for state in model.states if state != fast]
     roots = [flow.rates[state] for state in others]
-    nodes = in_order(roots)
+    nodes = in_order(roots, slopes=False)
     constants = Constants(model)
     steps = Disturbances(flow, nodes, roots, constants)
     before, at_order, delayed = lane_inputs(model, steps)

@@ -2,7 +2,8 @@
 
     p = a b       dp = a db + b da            e = exp(a)    de = e da
     q = a/b       b dq = da - q db            l = log(a)    a dl = da
-    p = a**c      dp = (c p/a) da             v = exp(w), integrated    v dw = dv
+    p = a**c      dp = (c p/a) da             f = f(a)      df = g da with its slope g
+    v = exp(w), integrated    v dw = dv
 
 Disturbances are computed in lanes, several at a time: the recurrences of one wait for their own
 last terms, those of several overlap. One product of each sum is one statement: compilers then keep
@@ -139,11 +140,8 @@ class Disturbances:
                     else self.constants.text(node.exponent)
                 )
                 return f"{exponent}*({self.times(ratio, a)})"
-            case "sin":
-                return self.times(node.args[1], a)
-            case "cos":
-                return f"-({self.times(node.args[1], a)})"
-        raise TypeError(node.kind)
+        product = self.times(node.slope, a)
+        return f"-({product})" if node.sign else product
 
     def ratio(self, power: Node, base: Node) -> Node:
         """The node a**c/a."""
@@ -346,7 +344,7 @@ def tangent_parts(model: Model) -> Parts:
     driven = {state: auxiliary for auxiliary, state in flow.integrated.items()}
     rates = {name: node for name, node in flow.rates.items() if name not in driven}
     roots = list(rates.values())
-    nodes = in_order(roots)
+    nodes = in_order(roots, slopes=False)
     constants = Constants(model)
     steps = Disturbances(flow, nodes, roots, constants)
     # of v = exp(w), integrated: v_0 dw_(k+1) = dv_(k+1) - sum over j <= k of v_(k+1-j) dw_j

@@ -67,10 +67,7 @@ SOURCES = [
 OF_MODELS = [
     "fortran/dde/src/api/dde_kinds.f90",
     *files_in("../generator", endings={".py", ".jinja"}),
-    *(
-        f"generator/fortran/{name}.f90"
-        for name in ("model_border", "nilpotent_numbers")
-    ),
+    *files_in("../generator/fortran/shared", endings={".f90"}),
 ]
 """What all models are made with."""
 

@@ -283,7 +283,7 @@ def compile_model(name: str, *, quad: bool) -> None:
         return
     (path,) = objects_of({name}, {}, "", quad)
     parts = [ROOT / part for part in parts_of(name, {}, "")]
-    sources = [*parts, *ROOT.glob("generator/*.py"), *ROOT.glob("generator/fortran/*.*")]
+    sources = [*parts, *ROOT.glob("generator/*.py"), *ROOT.glob("generator/fortran/shared/*.f90")]
     with locked(ROOT / "build" / "lock"):
         made = (ROOT / path).stat().st_mtime if (ROOT / path).exists() else 0.0
         if made < max(source.stat().st_mtime for source in sources):

@@ -17,7 +17,7 @@ from generator.compile import compile_module
 from generator.definition import ModelError, overlaid, read_model
 from generator.fortran import in_words, literal, text_of, wrapped
 from generator.module import write_module
-from generator.pointwise import characteristic_terms
+from generator.rest import characteristic_terms
 from generator.series import flow_of
 from generator.slow import balance_of
 from scripts.files.read_config import read
@@ -64,10 +64,10 @@ def block(law: str = PAPER) -> dict:
         ({"equations": {}}, r"equations: {}; expected at least one entry"),
         ({"equations": {"a": "0"}}, r"equations: 'a'; expected one for each of a, w"),
         ({"states": {"a": "", "W": ""}, "auxiliary": None}, r"equations: 'a, w'; expected one for"),
-        ({"parameters": {"a": {}}}, r"name: 'a'; expected .*; not cos, .*, a\Z"),
+        ({"parameters": {"a": {}}}, r"name: 'a'; expected .*; not acos, .*, a\Z"),
         (
             {"parameters": {"t": {}}},
-            r"name: 't'; expected .*; not cos, derivative, exp, .*, t\Z",
+            r"name: 't'; expected .*; not acos, .*, cosh, derivative, exp, .*, tanh\Z",
         ),
         ({"parameters": {"1a": {}}}, r"name: '1a'; expected a letter, then letters, digits or _"),
         ({"parameters": {"p": {"most": 1}}}, r"parameter p: .*; expected keys of above, at_least"),
@@ -97,8 +97,22 @@ def block(law: str = PAPER) -> dict:
         ({"of_a": "a(t + rate_of)"}, r"'a\(t \+ rate_of\)'; expected a\(t - DELAY\)"),
         ({"of_a": "a(t - rate_of/2 + rate_of)"}, r"expected a\(t - DELAY\) with a delay >= 0"),
         ({"of_a": "a/0"}, r"equation of a: 'a/0'; expected an expression that is finite"),
+        ({"of_a": "sqrt(a**2)"}, r"'sqrt\(a\*\*2\)'; expected an expression that is real and ana"),
+        ({"of_a": "a + asin(2)"}, r"'a \+ asin\(2\)'; expected an expression that is real"),
+        ({"of_a": "a*acosh(0)"}, r"'a\*acosh\(0\)'; expected an expression that is real"),
         ({"of_a": "v"}, r"equation of a at the steady state: 'v = 1'; expected 0"),
         ({"steady_state": {"a": 0}}, r"steady_state: 'a'; expected a value for each state"),
+        ({"steady_state": {"near": {"a": 0}}}, r"steady_state: 'a'; expected a value for each st"),
+        (
+            {"steady_state": {"near": {"a": 0, "w": "a"}}},
+            r"steady state of w: 'a'; expected an exp",
+        ),
+        ({"steady_state": {"near": {"a": 0, "w": 0}, "a": 0}}, r"'near, a'; expected near alone"),
+        (
+            {"steady_state": {"near": {"a": 0, "w": 0}}, "of_a": "sin(t) - a"},
+            r"equation of a with a steady state: 'sin\(t\) - a'; expected no t",
+        ),
+        ({"of_a": "w/a"}, r"equation of a at the steady state: 'w/a = nan'; expected 0"),
         ({"history": {"a": 0}}, r"history: 'a'; expected an expression of t for each state"),
         ({"history": {"a": "w", "w": 0}}, r"history of a: 'w'; expected an expression of t alone"),
         ({"fast": "b"}, r"fast: 'b'; expected one of the states a, w"),
@@ -116,6 +130,23 @@ def test_definition_is_refused_in_words(changes, words):
         values["equations"] = {"a": of_a, "w": "-a"}
     with pytest.raises(ModelError, match=words):
         read_model(values)
+
+
+def test_steady_state_is_tested_by_numbers():
+    """Where symbols do not show that the equation holds."""
+    glass = {
+        "name": "glass",
+        "parameters": {"beta": {"above": 0}, "rate": {"above": 0}, "n": {"above": 0}},
+        "states": {"near": "concentration"},
+        "equations": {"near": "beta*near(t - 1)/(1 + near(t - 1)**n) - rate*near"},
+        "steady_state": {"near": "(beta/rate - 1)**(1/n)"},
+    }
+    model = read_model(glass)
+    assert model.near is None
+    with pytest.raises(ModelError, match="at the steady state"):
+        read_model({**glass, "steady_state": {"near": "(beta/rate - 1.0001)**(1/n)"}})
+    guess = read_model({**glass, "steady_state": {"near": {"near": "beta"}}}).near
+    assert [in_words(str(value), model.written) for value in guess.values()] == ["beta"]
 
 
 @pytest.mark.parametrize("end", ["\n", "\r", "\x0b", "\x0c", "\x1c", "\x85", "\u2028"])
@@ -171,6 +202,7 @@ def test_expressions_keep_their_brackets():
     assert text_of((a + b) ** sympy.Rational(1, 2) - 1 / (a * b)) == "sqrt(a + b) - 1.0_wp/(a*b)"
     assert text_of((a * b) ** c) == "(a*b)**c"
     assert text_of(sympy.exp(1) - a) == "exp(1.0_wp) - a"
+    assert text_of(sympy.atan(1) * sympy.tanh(a)) == "acos(-1.0_wp)*tanh(a)/4.0_wp"
 
 
 def test_long_lines_are_broken_outside_of_constants():

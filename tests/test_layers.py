@@ -65,7 +65,7 @@ SOURCES = {
             *FORTRAN.glob("src/**/*.f90*"),
             *FORTRAN.glob("dde/src/**/*.f90"),
             *FORTRAN.glob("app/*.f90"),
-            *GENERATOR.glob("fortran/*.f90"),
+            *GENERATOR.glob("fortran/**/*.f90"),
         ]
     )
 }

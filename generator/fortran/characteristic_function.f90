@@ -12,7 +12,8 @@ module characteristic_function
 
    !> Delta(s) of a model, and its derivatives by the model's parameters.
    type :: characteristic_type
-      !> Number of equations: the degree of P_0, whose first coefficient is 1
+      !> Number of equations, of a chain those of one block: the degree of P_0, whose first
+      !> coefficient is 1
       integer :: n = 0
       !> Delays d, ascending; the first is 0
       real(wp), allocatable :: delay(:)
@@ -33,8 +34,8 @@ module characteristic_function
 
 contains
 
-   !> The characteristic function of a model. Terms of one delay in the definition are one part,
-   !> also where that delay is 0.
+   !> The characteristic function of a model, of a chain that of the mode with the eigenvalue
+   !> `shape%mode`. Terms of one delay in the definition are one part, also where that delay is 0.
    pure function characteristic_of(model) result(function_of_model)
       !> The model
       class(model_type), intent(in) :: model
@@ -46,7 +47,7 @@ contains
       call model%characteristic_terms(coefficient, power, delay, part, coefficient_by, delay_by)
       parts = maxval(part)
       associate (c => function_of_model)
-         c%n = model%n
+         c%n = model%sizes%states
          allocate (c%delay(parts), c%coefficient(0:c%n, parts), &
                    c%delay_by(parts, size(delay_by, 2)), &
                    c%coefficient_by(0:c%n, parts, size(delay_by, 2)), source=0.0_wp)

@@ -220,7 +220,9 @@ contains
       end if
       if (has(library, "steady_state")) then
          call c_f_procpointer(procedure_of(library, "steady_state"), code%steady_state)
-         call c_f_procpointer(procedure_of(library, "derivative"), code%derivative)
+         if (has(library, "derivative")) then
+            call c_f_procpointer(procedure_of(library, "derivative"), code%derivative)
+         end if
          call c_f_procpointer(procedure_of(library, "characteristic_terms"), &
                               code%characteristic_terms)
       end if

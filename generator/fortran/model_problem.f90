@@ -403,16 +403,24 @@ contains
    pure function steady_state(self) result(state)
       class(model_type), intent(in) :: self
       real(wp) :: state(self%n)
-      real(wp) :: of_block(self%n/self%shape%blocks)
       integer :: block
 
-      of_block = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (associated(self%code%steady_state)) call self%code%steady_state(self%numbers, of_block)
-      state = [(of_block, block=1, self%shape%blocks)]
+      associate (of_block => rest_of_block(self))
+         state = [(of_block, block=1, self%shape%blocks)]
+      end associate
    end function steady_state
 
+   !> That of one block of a chain, whose blocks are alike.
+   pure function rest_of_block(self) result(state)
+      class(model_type), intent(in) :: self
+      real(wp) :: state(self%sizes%states)
+
+      state = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (associated(self%code%steady_state)) call self%code%steady_state(self%numbers, state)
+   end function rest_of_block
+
    !> The derivative of the order of the number of arguments, linear in each of them; not a number
-   !> without a state at rest.
+   !> of a chain, or without a state at rest.
    pure function derivative(self, arguments) result(form)
       class(model_type), intent(in) :: self
       !> Disturbances of the state and of the delayed states of the definition, shape
@@ -422,13 +430,14 @@ contains
 
       form = ieee_value(1.0_wp, ieee_quiet_nan)
       if (associated(self%code%derivative)) then
-         call self%code%derivative(self%shape, self%numbers, size(arguments, 2) - 1, &
-                                   size(arguments, 3), arguments, form)
+         call self%code%derivative(self%shape, self%numbers, rest_of_block(self), &
+                                   size(arguments, 2) - 1, size(arguments, 3), arguments, form)
       end if
    end function derivative
 
    !> The terms coefficient s**power exp(-s delay) of
-   !> det(s I - A_0 - sum over k of A_k exp(-s lag_k)), the highest power first.
+   !> det(s I - A_0 - sum over k of A_k exp(-s lag_k)), the highest power first; of a chain those
+   !> of the mode with the eigenvalue `shape%mode`.
    pure subroutine characteristic_terms(self, coefficient, power, delay, part, coefficient_by, &
                                         delay_by)
       class(model_type), intent(in) :: self
@@ -443,8 +452,9 @@ contains
          allocate (coefficient(terms), delay(terms), power(terms), part(terms))
          allocate (coefficient_by(terms, parameters), delay_by(terms, parameters), source=0.0_wp)
          if (terms == 0) return
-         call self%code%characteristic_terms(self%numbers, terms, coefficient, power, delay, &
-                                             part, coefficient_by, delay_by)
+         call self%code%characteristic_terms(self%shape, self%numbers, rest_of_block(self), terms, &
+                                             coefficient, power, delay, part, coefficient_by, &
+                                             delay_by)
       end associate
    end subroutine characteristic_terms
 end module model_problem

@@ -1,12 +1,14 @@
 !> Models made from definitions, in quadruple precision: all forms against the right-hand side, and
 !> against the same models written by hand.
 module test_generated_models
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use characteristic_function, only: characteristic_of, characteristic_type
    use dde, only: problem_with_tangents
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
-   use expectations, only: expect_close, expect_success
+   use expectations, only: expect, expect_close, expect_success
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use model_consistency, only: check_forms, check_model
+   use model_consistency, only: check_forms, check_model, check_rest
    use model_description, only: word_length
    use model_library, only: list_models, open_model
    use model_problem, only: model_type
@@ -22,14 +24,18 @@ contains
    subroutine collect_generated_models(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("all functions, two delays, time", test_zoo), &
+      testsuite = [new_unittest("two delays, powers, time", test_zoo), &
+                   new_unittest("functions", test_functions), &
                    new_unittest("a fast state", test_fast), &
                    new_unittest("histories", test_histories), &
                    new_unittest("Mackey-Glass", test_mackey_glass), &
+                   new_unittest("a steady state that is computed", test_rest), &
+                   new_unittest("two neurons, three delays", test_neurons), &
                    new_unittest("infection", test_infection), &
                    new_unittest("enzyme kinetics", test_enzyme), &
                    new_unittest("laws of friction", test_laws), &
-                   new_unittest("chains", test_chains)]
+                   new_unittest("chains", test_chains), &
+                   new_unittest("modes of chains", test_modes)]
    end subroutine collect_generated_models
 
    !> One of everything, with both delays and with one of 0.
@@ -46,6 +52,23 @@ contains
                           uniform(i + 1, size(zoo%lag), 0.1_wp, 0.9_wp), "zoo")
       end do
    end subroutine test_zoo
+
+   !> All functions, and their derivatives at rest; with both delays and with one of 0.
+   subroutine test_functions(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(model_type) :: model
+      integer :: i
+
+      call open_there(error, "made_functions", model)
+      if (allocated(error)) return
+      do i = 0, 1
+         call model%set([1.3_wp, 0.9_wp*i], [0.0_wp, 0.0_wp])
+         call check_model(error, model, [0.4_wp, -0.7_wp], &
+                          uniform(i + 1, size(model%lag), 0.1_wp, 0.9_wp), "functions")
+      end do
+      call check_forms(error, model, "functions")
+      call check_rest(error, model, "functions")
+   end subroutine test_functions
 
    !> A balance with a constant part, from soft to stiff.
    subroutine test_fast(error)
@@ -113,6 +136,85 @@ contains
       call check_model(error, made, [0.8_wp], [real(wp) ::], "Mackey-Glass without delay")
    end subroutine test_mackey_glass
 
+   !> The model of Mackey and Glass, whose steady state and Hopf points are known.
+   subroutine test_rest(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(model_type) :: model
+      type(characteristic_type) :: c
+      real(wp), parameter :: beta = 2.0_wp, n = 9.65_wp, rate = 0.9_wp
+      real(wp), parameter :: y = (beta/rate - 1.0_wp)**(1.0_wp/n)
+      real(wp), parameter :: slope = rate*(1.0_wp - n*(1.0_wp - rate/beta))
+      real(wp), parameter :: omega = sqrt(slope**2 - rate**2)
+
+      call open_there(error, "made_mackey_glass_near", model)
+      if (allocated(error)) return
+      call model%set([beta, n, rate, acos(rate/slope)/omega], [1.2_wp])
+      call check_model(error, model, [0.8_wp], [0.9_wp], "Mackey-Glass")
+      call expect_close(error, model%steady_state(), [y], 1.0e-32_wp, "steady state")
+      call check_forms(error, model, "Mackey-Glass")
+      call check_rest(error, model, "Mackey-Glass")
+      c = characteristic_of(model)
+      call expect_close(error, abs(c%value(cmplx(0.0_wp, omega, wp))), 0.0_wp, 1.0e-32_wp, &
+                        "characteristic function at the Hopf point")
+      ! without the other steady state 0, where the power has no derivatives
+      call model%set([0.5_wp, n, rate, 1.0_wp], [1.2_wp])
+      call expect(error, all(ieee_is_nan(model%steady_state())), "no steady state")
+   end subroutine test_rest
+
+   !> All forms, and the published Hopf point with its first Lyapunov coefficient.
+   subroutine test_neurons(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(model_type) :: neurons
+      type(characteristic_type) :: c
+      real(wp), parameter :: omega = 0.7819651621_wp
+      complex(wp), parameter :: s = (0.0_wp, omega)
+      complex(wp) :: delta(2, 2), none(2), p(2), q(2)
+      integer :: j
+
+      call open_there(error, "made_neuron", neurons)
+      if (allocated(error)) return
+      call neurons%set([0.5_wp, -1.0_wp, 1.0_wp, 0.807123225_wp, 0.2_wp, 0.2_wp, 1.5_wp], &
+                       [0.0_wp, 0.0_wp])
+      call check_model(error, neurons, [0.4_wp, -0.7_wp], [0.1_wp, 0.5_wp, -0.3_wp, 0.8_wp], &
+                       "neurons")
+      call check_forms(error, neurons, "neurons")
+      call check_rest(error, neurons, "neurons")
+      c = characteristic_of(neurons)
+      call expect_close(error, abs(c%value(s)), 0.0_wp, 1.0e-9_wp, &
+                        "characteristic function at the Hopf point")
+      none = 0.0_wp
+      do j = 1, 2
+         q = merge(1.0_wp, 0.0_wp, [1, 2] == j)
+         delta(:, j) = s*q - neurons%derivative(reshape(history_of(q, q), [2, 5, 1]))
+      end do
+      q = [-delta(1, 2), delta(1, 1)]
+      q = q/sqrt(sum(abs(q)**2))
+      p = [-delta(2, 1), delta(1, 1)]
+      p = p/sum(p*(q - neurons%derivative(reshape(history_of(none, q, -neurons%lag), [2, 5, 1]))))
+      ! forms of order 2 are 0
+      associate (phi => history_of(q, q))
+         q = neurons%derivative(reshape([phi, phi, conjg(phi)], [2, 5, 3]))
+      end associate
+      call expect_close(error, 0.5_wp*real(sum(p*q))/omega, -0.39615712_wp, 1.0e-8_wp, &
+                        "first Lyapunov coefficient")
+
+   contains
+
+      !> A present state, and what is exp(s t) before, times factors.
+      pure function history_of(now, before, factor) result(history)
+         complex(wp), intent(in) :: now(2), before(2)
+         real(wp), intent(in), optional :: factor(4)
+         complex(wp) :: history(2, 5)
+         integer :: k
+
+         history(:, 1) = now
+         do k = 1, 4
+            history(:, 1 + k) = before*exp(-s*neurons%lag(k))
+            if (present(factor)) history(:, 1 + k) = history(:, 1 + k)*factor(k)
+         end do
+      end function history_of
+   end subroutine test_neurons
+
    !> Whole runs of the model written by hand.
    subroutine test_infection(error)
       type(error_type), allocatable, intent(out) :: error
@@ -173,7 +275,9 @@ contains
             call check_model(error, model, uniform(30 + i, 3, -1.0_wp, 1.0_wp), &
                              uniform(40 + i, size(model%lag), -1.0_wp, 1.0_wp), &
                              trim(names(law)))
-            if (modulo(i, 2) == 1) call check_forms(error, model, trim(names(law)))
+            if (modulo(i, 2) == 0) cycle
+            call check_forms(error, model, trim(names(law)))
+            call check_rest(error, model, trim(names(law)))
          end do
       end do
    end subroutine test_laws
@@ -223,6 +327,42 @@ contains
          end do
       end do
    end subroutine test_chains
+
+   !> The characteristic function of each mode of a chain, and that of the block that it is.
+   subroutine test_modes(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(model_type) :: model, one
+      type(characteristic_type) :: c, expected
+      real(wp), parameter :: kappa = 1.7_wp
+      character(len=word_length), allocatable :: names(:)
+      real(wp), allocatable :: own(:)
+      real(wp) :: factor
+      integer :: i, law
+
+      names = list_models("chain_")
+      do law = 1, size(names)
+         do i = 0, 2
+            call open_there(error, "chain_"//trim(names(law)), model)
+            call open_there(error, trim(names(law)), one)
+            if (allocated(error)) return
+            own = uniform(10 + i, model%sizes%parameters - 5, 0.1_wp, 1.0_wp)
+            call put_neighbours(model, 1, 0)
+            call model%set([1.5_wp, 0.4_wp, 0.7_wp, 0.9_wp, own, kappa], [0.0_wp, 0.0_wp, 0.0_wp])
+            model%shape%mode = 1.3_wp*i
+            factor = 1.0_wp + kappa*model%shape%mode
+            call one%set([1.5_wp, 0.4_wp, 0.7_wp*factor, 0.9_wp*sqrt(factor), own], &
+                         [0.0_wp, 0.0_wp, 0.0_wp])
+            call check_rest(error, model, "mode of "//trim(names(law)))
+            c = characteristic_of(model)
+            expected = characteristic_of(one)
+            call expect_close(error, [c%coefficient], [expected%coefficient], 1.0e-32_wp, "modes")
+         end do
+      end do
+      ! blocks are alike
+      call put_neighbours(model, 4, 0)
+      call model%set(model%numbers, [(0.0_wp, i=1, 12)])
+      call expect_close(error, model%steady_state(), [(0.0_wp, i=1, 12)], 0.0_wp, "chain at rest")
+   end subroutine test_modes
 
    !> A model that the build has made.
    subroutine open_there(error, name, model)

@@ -2,6 +2,7 @@
 !> by inserting the Taylor series. In quadruple precision differences of step 1e-8 are good to 15
 !> digits.
 module model_consistency
+   use characteristic_function, only: characteristic_of, characteristic_type
    use dde_errors, only: text
    use dde_kinds, only: wp
    use expectations, only: expect_close
@@ -10,7 +11,7 @@ module model_consistency
    use pseudo_random, only: uniform
    implicit none (type, external)
    private
-   public :: check_forms, check_model
+   public :: check_forms, check_model, check_rest
 
    !> Step of differences, and what they are good for.
    real(wp), parameter :: h = 1.0e-8_wp, good = 1.0e-13_wp
@@ -245,6 +246,81 @@ contains
          end do
       end function slope_at
    end subroutine check_forms
+
+   !> The equations vanish at the steady state, and the characteristic function is the determinant
+   !> of the characteristic matrix there; its derivatives by the parameters. A chain has one block.
+   subroutine check_rest(error, model, name)
+      type(error_type), allocatable, intent(inout) :: error
+      class(model_type), intent(in) :: model
+      character(len=*), intent(in) :: name
+      complex(wp), parameter :: s = (0.3_wp, 0.7_wp)
+      real(wp) :: by_y(model%n, model%n), by_z(model%n, size(model%lag)), dydt(model%n)
+      complex(wp) :: matrix(model%n, model%n)
+      type(characteristic_type) :: c
+      integer :: i, k
+
+      if (allocated(error)) return
+      associate (state => model%steady_state())
+         call model%rhs(now, state, state(model%component), dydt)
+         call compare(error, dydt, 0.0_wp*dydt, 1.0e-30_wp, name//", rates at rest")
+         call find_slopes(model, state, state(model%component), by_y, by_z)
+      end associate
+      matrix = -by_y
+      do i = 1, model%n
+         matrix(i, i) = matrix(i, i) + s
+      end do
+      do k = 1, size(model%lag)
+         associate (column => matrix(:, model%component(k)))
+            column = column - by_z(:, k)*exp(-s*model%lag(k))
+         end associate
+      end do
+      c = characteristic_of(model)
+      call compare_values(c%value(s), determinant(matrix), 1.0e-28_wp, "characteristic function")
+      do i = 1, size(model%numbers)
+         call compare_values(c%by_parameter(i, s), (value_at(i, h) - value_at(i, -h))/(2.0_wp*h), &
+                             good, "slope by parameter "//text(i))
+      end do
+
+   contains
+
+      !> The characteristic function at another value of a parameter.
+      complex(wp) function value_at(parameter, shift) result(value)
+         integer, intent(in) :: parameter
+         real(wp), intent(in) :: shift
+         type(model_type) :: moved
+         type(characteristic_type) :: of_moved
+
+         moved = model
+         moved%numbers(parameter) = moved%numbers(parameter) + shift
+         of_moved = characteristic_of(moved)
+         value = of_moved%value(s)
+      end function value_at
+
+      subroutine compare_values(met, expected, tolerance, what)
+         complex(wp), intent(in) :: met, expected
+         real(wp), intent(in) :: tolerance
+         character(len=*), intent(in) :: what
+
+         call compare(error, [real(met), aimag(met)], [real(expected), aimag(expected)], &
+                      tolerance, name//", "//what)
+      end subroutine compare_values
+   end subroutine check_rest
+
+   !> The determinant of a matrix, by its first column.
+   recursive function determinant(matrix) result(value)
+      complex(wp), intent(in) :: matrix(:, :)
+      complex(wp) :: value
+      integer :: i, k
+
+      value = 1.0_wp
+      if (size(matrix, 1) == 0) return
+      value = 0.0_wp
+      do i = 1, size(matrix, 1)
+         associate (others => pack([(k, k=1, size(matrix, 1))], [(k /= i, k=1, size(matrix, 1))]))
+            value = value - (-1)**i*matrix(i, 1)*determinant(matrix(others, 2:))
+         end associate
+      end do
+   end function determinant
 
    !> A unit of time in which the solution changes little.
    function unit_for(model, y, z) result(unit)

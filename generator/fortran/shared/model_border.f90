@@ -53,7 +53,7 @@ module model_border
          integer(c_int), intent(out) :: component(*)
       end subroutine find_delayed
 
-      !> The state at rest.
+      !> The state at rest, of one block of a chain; not a number if there is none.
       pure subroutine find_state(parameters, state) bind(c)
          import :: wp
          implicit none (type, external)
@@ -63,23 +63,24 @@ module model_border
 
       !> The derivative form of an order at the steady state, of disturbances of the states and of
       !> the delayed states of the definition, shape (n, 1 + delayed states, order).
-      pure subroutine find_forms(self, parameters, delayed, order, arguments, form) bind(c)
+      pure subroutine find_forms(self, parameters, state, delayed, order, arguments, form) bind(c)
          import :: c_int, shape_type, wp
          implicit none (type, external)
          type(shape_type), intent(in) :: self
-         real(wp), intent(in) :: parameters(*)
+         real(wp), intent(in) :: parameters(*), state(*)
          integer(c_int), intent(in) :: delayed, order
          complex(wp), intent(in) :: arguments(self%n, 1 + delayed, order)
          complex(wp), intent(out) :: form(self%n)
       end subroutine find_forms
 
-      !> The terms of the characteristic function, and their derivatives by the parameters where
-      !> these are not 0.
-      pure subroutine list_terms(parameters, terms, coefficient, power, delay, part, &
+      !> The terms of the characteristic function at the steady state, of a chain that of a mode,
+      !> and their derivatives by the parameters where these are not 0.
+      pure subroutine list_terms(self, parameters, state, terms, coefficient, power, delay, part, &
                                  coefficient_by, delay_by) bind(c)
-         import :: c_int, wp
+         import :: c_int, shape_type, wp
          implicit none (type, external)
-         real(wp), intent(in) :: parameters(*)
+         type(shape_type), intent(in) :: self
+         real(wp), intent(in) :: parameters(*), state(*)
          integer(c_int), intent(in) :: terms
          real(wp), intent(out) :: coefficient(terms), delay(terms)
          integer(c_int), intent(out) :: power(terms), part(terms)

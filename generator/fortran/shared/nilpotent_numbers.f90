@@ -5,8 +5,8 @@ module nilpotent_numbers
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: cos, disturbed, exp, log, nilpotent_type, operator(*), operator(**), &
-             operator(+), operator(-), operator(/), sin, sqrt, top
+   public :: composed, disturbed, most_units, nilpotent_type, operator(*), operator(**), &
+             operator(+), operator(-), operator(/), top
 
    !> Most units: the order of the highest derivative.
    integer, parameter :: most_units = 7
@@ -36,21 +36,6 @@ module nilpotent_numbers
    interface operator(**)
       module procedure :: whole_power, real_power
    end interface operator(**)
-   interface exp
-      module procedure :: exponential
-   end interface exp
-   interface log
-      module procedure :: logarithm
-   end interface log
-   interface sqrt
-      module procedure :: square_root
-   end interface sqrt
-   interface sin
-      module procedure :: sine
-   end interface sin
-   interface cos
-      module procedure :: cosine
-   end interface cos
 
 contains
 
@@ -201,58 +186,6 @@ contains
       end do
       c = composed(a, slopes)
    end function real_power
-
-   pure type(nilpotent_type) function square_root(a) result(c)
-      type(nilpotent_type), intent(in) :: a
-
-      c = real_power(a, 0.5_wp)
-   end function square_root
-
-   pure type(nilpotent_type) function exponential(a) result(c)
-      type(nilpotent_type), intent(in) :: a
-      complex(wp) :: slopes(0:most_units)
-
-      slopes = exp(a%a(0))
-      c = composed(a, slopes)
-   end function exponential
-
-   pure type(nilpotent_type) function logarithm(a) result(c)
-      type(nilpotent_type), intent(in) :: a
-      complex(wp) :: slopes(0:most_units)
-      integer :: m
-
-      slopes(0) = log(a%a(0))
-      slopes(1) = 1.0_wp/a%a(0)
-      do m = 2, most_units
-         slopes(m) = -(m - 1)*slopes(m - 1)/a%a(0)
-      end do
-      c = composed(a, slopes)
-   end function logarithm
-
-   pure type(nilpotent_type) function sine(a) result(c)
-      type(nilpotent_type), intent(in) :: a
-
-      c = composed(a, circle(sin(a%a(0)), cos(a%a(0))))
-   end function sine
-
-   pure type(nilpotent_type) function cosine(a) result(c)
-      type(nilpotent_type), intent(in) :: a
-
-      c = composed(a, circle(cos(a%a(0)), -sin(a%a(0))))
-   end function cosine
-
-   !> Derivatives of a function with f'' = -f.
-   pure function circle(value, slope) result(slopes)
-      complex(wp), intent(in) :: value, slope
-      complex(wp) :: slopes(0:most_units)
-      integer :: m
-
-      slopes(0) = value
-      slopes(1) = slope
-      do m = 2, most_units
-         slopes(m) = -slopes(m - 2)
-      end do
-   end function circle
 
    !> A function of a number, from its derivatives at a_0. Let F_m be derivative m of it, as a
    !> number. With the lowest unit i of S, F_m has the coefficient S that is the sum over all parts
