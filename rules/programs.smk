@@ -1,4 +1,4 @@
-# Programs, each built when a result needs it, and their runs: scripts/results/programs.py lists them.
+# Programs, each built when a result needs it, and their runs: the plans in scripts/studies/ declare them.
 
 
 rule law:
@@ -87,7 +87,3 @@ for run in RUNS:
             folders=":".join(models.folders_of(config["laws"], BUILT, run.quad)),
         script:
             "../scripts/workflow/run_program.sh"
-
-
-ruleorder: scene_attractors > attractors_runs
-ruleorder: work_precision_runs > measurement

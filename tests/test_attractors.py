@@ -10,7 +10,7 @@ import xarray as xr
 
 from scripts.namelists import attractor_surveys
 from scripts.namelists.laws import PAPER
-from scripts.namelists.study_cases import HISTORY, PARAMETERS
+from scripts.namelists.parameters import HISTORY, PARAMETERS
 from scripts.results import paths
 from scripts.tables import attractor_tables, basins_table
 from scripts.tables.motion_rows import count_in_words, kind_of, parameter_of

@@ -14,9 +14,9 @@ from matplotlib import pyplot as plt
 from scripts.claims.claims_results import VERDICTS
 from scripts.claims.ledger import paper_claims
 from scripts.figures import figure_4, plane, stability, work_precision
-from scripts.figures.wording import as_formulas, count, joined, short, shortened
-from scripts.figures.write_captions import ENVIRONMENT, render
-from scripts.figures.write_captions import caption_of as caption_from
+from scripts.drawing.wording import as_formulas, count, joined, short, shortened
+from scripts.drawing.write_captions import ENVIRONMENT, render
+from scripts.drawing.write_captions import caption_of as caption_from
 from scripts.files.tsv import write_table
 from scripts.page import captions
 from scripts.plans.registry import FIGURES, OF_USERS, caption_of, template_of

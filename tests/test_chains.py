@@ -10,7 +10,7 @@ from conftest import ROOT
 from independent_chain import second_difference, solve_chain
 from scipy.integrate import solve_ivp
 
-from scripts.claims.claims_of_chains import blocks_differ
+from scripts.studies.event_sizes.claims import blocks_differ
 from scripts.claims.claims_results import NOT_REPRODUCED, REPRODUCED, Results
 from scripts.config.check_config import checked
 from scripts.figures import chain_modes, synchrony
@@ -23,9 +23,9 @@ from scripts.namelists.chains import (
     stiffness_of_modes,
     synchrony_groups,
 )
-from scripts.tables.chain_modes_table import mode_rows
+from scripts.studies.chain_modes.table import mode_rows
 from scripts.tables.chain_motions import moves_alike, powers_of, rests, strongest_mode
-from scripts.tables.synchrony_ranges import (
+from scripts.studies.synchrony.ranges import (
     growing_ranges,
     largest_alike,
     undecided_blocks,

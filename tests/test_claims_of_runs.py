@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 from made_up_results import NO, PARTLY, YES, Results, run_row, spectrum
 
-from scripts.claims.claims_of_friction import (
+from scripts.studies.velocity_step.claims import (
     friction_falls_with_epsilon,
     mu0_is_steady_friction,
     same_state_law,
     velocity_step,
 )
-from scripts.claims.claims_of_runs import out_of_reach, stationary_state, stiffness_forbids
-from scripts.claims.claims_of_spectra import single_peak, spectrum_class
+from scripts.studies.stability.claims import out_of_reach, stationary_state, stiffness_forbids
+from scripts.studies.power_spectra.claims import single_peak, spectrum_class
 
 STOPPED = {"status": "too_many_steps", "error": np.nan, "error_expected": np.nan}
 OTHERS = [run_row(gamma=1.0), run_row(method="explicit")]

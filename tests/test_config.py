@@ -7,10 +7,10 @@ from collections.abc import Iterator
 import pytest
 from conftest import ROOT
 
-from scripts.config.check_attractors import FEWEST_SAMPLES
+from scripts.config.checks import FEWEST_SAMPLES
 from scripts.config.check_config import checked
 from scripts.files.read_config import ConfigError, read
-from scripts.namelists.study_cases import case_of, measured_study
+from scripts.namelists.parameters import case_of, measured_study
 
 NO_NUMBERS = ["0.5", True, None, [0.5], {"a": 0.5}, math.nan, math.inf, -math.inf]
 Place = tuple[str | int, ...]

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 from scripts.drawing.style import STYLE, break_titles
-from scripts.figures.make_figure import call, drawing_of
+from scripts.drawing.make_figure import call, drawing_of
 from scripts.plans import registry
 
 PLANES = {"figure_2": "tau_of_epsilon", "figure_3": "xi_of_epsilon"}

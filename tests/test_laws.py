@@ -22,7 +22,7 @@ from scripts.namelists.program_groups import (
     hopf_groups,
     scene_groups,
 )
-from scripts.results.models import models_in
+from scripts.namelists.models import models_in
 
 MINE = {
     "evolution": "-speed*v*(theta + (1 + epsilon)*log(v(t - tau)))",

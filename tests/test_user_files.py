@@ -13,7 +13,7 @@ from conftest import ROOT, Project, rules_in, write_script
 from dry_runs import jobs_in
 
 from scripts.files.read_config import ConfigError, merge, parse, read
-from scripts.namelists.study_cases import measured_study
+from scripts.namelists.parameters import measured_study
 from scripts.workflow import plan as plans
 from scripts.workflow.plan import CONFIG, added, name_of, read_plan
 
