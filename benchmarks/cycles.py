@@ -16,7 +16,7 @@ from measuring import (
 )
 
 from scripts.namelists.program_groups import cycles_groups
-from scripts.namelists.study_cases import PARAMETERS
+from scripts.namelists.parameters import PARAMETERS
 from scripts.namelists.write_namelist import write_namelist
 
 LINES = ("torus_in_epsilon", "chaos_in_epsilon", "chaos_in_tau", "torus_in_tau")

@@ -1,7 +1,7 @@
 # Tables of results, and the verdicts on claims. The plans in scripts/studies/ declare the tables.
 from scripts.claims.ledger import inputs_for
 
-for script, table in studies.tables():
+for path, table in studies.tables():
     outputs = {"table": table.output, **table.more_outputs}
 
     rule:
@@ -10,15 +10,15 @@ for script, table in studies.tables():
         input:
             unpack(by_wildcards(table.inputs)),
         output:
-            **{name: f"<results>/{path}" for name, path in outputs.items()},
+            **{name: f"<results>/{file}" for name, file in outputs.items()},
         log:
             f"<results>/logs/{table.stem}.log",
         priority: table.priority
         localrule: True
         params:
             **{name: by_wildcards(value) for name, value in table.params.items()},
-            script=script,
-            code=code_of(script),
+            script=path,
+            code=code_of(path),
         script:
             "../scripts/{params.script}"
 

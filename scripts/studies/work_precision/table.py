@@ -62,5 +62,5 @@ if __name__ == "__main__":
     with logged(snakemake.log[0]):
         runs = read_runs_with_references(snakemake.input.measurements, snakemake.input.references)
         table = [row_of(*run) for run in runs]
-        write_table(snakemake.output.errors, table)
+        write_table(snakemake.output.table, table)
         write_table(snakemake.output.proportionality, proportionality(table))
