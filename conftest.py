@@ -30,15 +30,18 @@ from namelist_groups import (
 from generator.compile import compile_module
 from generator.definition import read_files
 from generator.module import write_module
-from scripts.files.read_config import read
 from scripts.namelists.laws import PAPER, built_in
-from scripts.namelists.write_namelist import write_namelist
-from scripts.results import manifest
 from scripts.namelists.models import law_of, models_in, objects_of, parts_of
+from scripts.namelists.write_namelist import write_namelist
+from scripts.plans import studies
+from scripts.workflow import manifest
 from scripts.workflow.plan import Plan, read_plan
 
-ROOT = Path(__file__).parent.parent
-SMOKE = ("--configfile", "config/smoke.yaml")
+ROOT = Path(__file__).parent
+SMOKE = (
+    *("--configfile", "config/smoke.yaml"),
+    *(path.relative_to(ROOT).as_posix() for path in studies.files_of("smoke.yaml")),
+)
 """Arguments for a run in smoke size; further config files may follow, targets must stand before."""
 COMMANDS = [
     *("trajectory", "spectrum", "hopf", "linear_stability", "exponents", "cycles"),
@@ -105,7 +108,7 @@ class Project:
     def outputs(self) -> dict[str, bytes]:
         """Contents of results by path, without logs and what was measured."""
         results = self.folder / "results"
-        names = [name for name in manifest.results_in(results) if not manifest.is_measured(name)]
+        names = [name for name in manifest.results_in(results) if not studies.is_measured(name)]
         return {name: (results / name).read_bytes() for name in names}
 
 
@@ -230,8 +233,8 @@ def copy_of_project(folder: Path) -> Project:
 
 @pytest.fixture(scope="session")
 def default_config() -> dict:
-    """The config as it stands in the file; not to be changed."""
-    return read(ROOT / "config" / "config.yaml")
+    """The config as it stands in the files; not to be changed."""
+    return studies.merged("config.yaml")
 
 
 @pytest.fixture(scope="session")
@@ -254,7 +257,7 @@ def paper_plan() -> Plan:
 @pytest.fixture(scope="session")
 def smoke_config() -> dict:
     """The config of the smoke run, with its defaults; not to be changed."""
-    return read_plan(read(ROOT / "config" / "smoke.yaml")).config
+    return read_plan(studies.merged("smoke.yaml")).config
 
 
 @pytest.fixture

@@ -77,7 +77,10 @@ for run in RUNS:
         benchmark:
             f"<results>/benchmarks/{run.stem}.tsv"
         priority: run.priority
-        localrule: not run.takes_minutes
+        localrule: not run.minutes
+        resources:
+            mem_mb=1000,
+            runtime=run.minutes,
         params:
             namelist=namelist_of(run),
             before=namelists_before(run),

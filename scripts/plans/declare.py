@@ -13,7 +13,7 @@ from pathlib import PurePath
 # of jobs that fit at the same time: a build, which takes two cores, must have more than two jobs of
 # the paper.
 BUILD, PAPER, LONGEST, LONG = 10, 3, 2, 1
-LONG_RUN = {"priority": LONG, "takes_minutes": True}
+LONG_RUN = {"priority": LONG, "minutes": 20}
 MAIN = "Figures"
 """The category of the paper's own figures."""
 
@@ -35,8 +35,9 @@ class Run:
     horizons: bool = False
     """Whether the table `horizons` of what it needs ends its cases early."""
     priority: int = 0
-    takes_minutes: bool = False
-    """Whether the run is a job of its own on a cluster."""
+    minutes: int = 0
+    """The longest time of a run on a cluster, ten times as long as measured; without it the run is
+    made by the workflow itself."""
     quad: bool = False
     """Whether it is computed in quadruple precision."""
 

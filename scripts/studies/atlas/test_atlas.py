@@ -10,13 +10,13 @@ import pytest
 import xarray as xr
 from figure_contents import title_of
 from matplotlib import pyplot as plt
-from scripts.figures import atlas
 
 from conftest import Programs
 from scripts.files.tsv import read_table, write_table
-from scripts.namelists.attractor_surveys import atlas_groups
 from scripts.namelists.write_namelist import write_namelist
-from scripts.page import play_data
+from scripts.studies.atlas import figure as drawing
+from scripts.studies.atlas import play_data
+from scripts.studies.atlas.plan import groups
 from scripts.tables import attractor_tables
 
 
@@ -41,7 +41,7 @@ def made_parts(
     config["atlas"] |= {"parts": parts, "refinements": refinements, **counts}
     paths = []
     for part in range(1, parts + 1):
-        write_namelist(programs.folder / "input.nml", atlas_groups(config, "xi_05", part))
+        write_namelist(programs.folder / "input.nml", groups(config, "xi_05", str(part)))
         paths.append(programs.folder / f"{parts}_{part}_{refinements}.nc")
         run = programs.run("attractors", "input.nml", paths[-1].name)
         assert run.returncode == 0, run.stderr
@@ -74,7 +74,7 @@ def test_points_not_computed_reach_table_figure_and_page(programs, tiny):
     assert 0 < len(taken) < len(rows) == 169
     assert all(row["class"] in ("fixed point", "cycle", "torus", "chaos") for row in taken)
     assert all(np.isnan(row[key]) for row in taken for key in ("exponent_1", "time", "reason"))
-    figure = atlas.draw(rows, [], [], {})
+    figure = drawing.draw(rows, [], [], {})
     assert f"169 points, {169 - len(taken)} computed, " in title_of(figure.axes[0])
     known = np.array([row["class"] != "undecided" for row in rows])
     exponents = figure.axes[1].collections[0].get_array().filled(np.nan).ravel()

@@ -10,7 +10,7 @@ import xarray as xr
 from made_up_page import atlas_run, attractor, turn
 
 from scripts.files.tsv import read_table
-from scripts.page import play_data
+from scripts.studies.atlas import play_data
 from scripts.tables.motion_rows import COLOURS, kind_of
 
 KINDS = list(COLOURS)

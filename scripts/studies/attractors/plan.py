@@ -31,7 +31,7 @@ STUDY = Study(
         Run(
             *("scene_attractors", "attractors", "attractors/scenes/{scene}.nc", groups),
             priority=PAPER,
-            takes_minutes=True,
+            minutes=10,
         ),
     ),
     tables=(

@@ -68,7 +68,7 @@ STUDY = Study(
         Run(
             *("motion_exponents", "exponents", "chain_exponents/{motion}.nc", exponents_groups),
             priority=LONGEST,
-            takes_minutes=True,
+            minutes=120,
         ),
     ),
     tables=(Table("chain_motions_table", "tables/chain-motions.tsv", inputs),),

@@ -4,11 +4,12 @@ import copy
 
 import numpy as np
 import pytest
-from scripts.figures import chain_exponents
 
 from scripts.config.check_config import checked
 from scripts.files.read_config import ConfigError
-from scripts.namelists.chains import motion_chains, motion_exponents_groups, motion_groups
+from scripts.studies.chain_motions import figure as chain_exponents
+from scripts.studies.chain_motions.finding import describe
+from scripts.studies.chain_motions.plan import exponents_groups, groups, motion_chains
 from scripts.studies.chain_motions.table import exponents_of, motion_of, motion_row
 
 
@@ -22,8 +23,8 @@ def study(filled_config) -> dict:
 
 def row_of(programs, config: dict, motion: str) -> dict:
     """The row of a chain that the programs compute."""
-    trajectory = programs.made_of("trajectory", motion_groups(config, motion))
-    exponents = programs.made_of("exponents", motion_exponents_groups(config, motion))
+    trajectory = programs.made_of("trajectory", groups(config, motion))
+    exponents = programs.made_of("exponents", exponents_groups(config, motion))
     return motion_row(trajectory, exponents)
 
 
@@ -136,3 +137,17 @@ def test_contradictions_are_refused(study, change, said):
     study["chain_motions"] |= change
     with pytest.raises(ConfigError, match=said):
         checked(study)
+
+
+@pytest.mark.parametrize("holds", [True, False])
+def test_finding_follows_the_table(holds):
+    """The title says the opposite if the results do."""
+    rows = [
+        {"xi": 0.5, "gamma": 0.8, "epsilon": 0.5, "blocks": blocks, "tau": tau}
+        | {"positive_exponents": count}
+        for blocks, tau, count in ((2, 7.0, 1), (9, 7.0, 5), (11, 0.0, 2))
+    ]
+    found = describe({"chain_motions": rows if holds else rows[:1]})
+    assert found["title"].startswith("In chains" if holds else "Chains of blocks are not")
+    assert ("9 blocks with $tau = 7$ have at least 5 positive Lyapunov" in found["words"]) is holds
+    assert ("Without delay 11 blocks have at least 2 positive" in found["words"]) is holds

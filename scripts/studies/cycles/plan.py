@@ -82,7 +82,7 @@ STUDY = Study(
             *("cycles_runs", "cycles", "cycles/{cycle_line}.nc", groups),
             data="cycles",
             priority=LONGEST,
-            takes_minutes=True,
+            minutes=10,
         ),
     ),
     tables=(

@@ -1,7 +1,7 @@
 """Slip events of chains: their sizes by several definitions, cut-offs, and aftershocks."""
 
 from scripts.namelists.chains import groups_of_chain
-from scripts.plans.declare import LONG_RUN, Figure, Run, Study, Table
+from scripts.plans.declare import LONG, Figure, Run, Study, Table
 
 
 def groups(config: dict, event_chain: str) -> dict[str, dict]:
@@ -49,7 +49,11 @@ FIGURE = {
 STUDY = Study(
     entries={"event_chain": ("event_sizes", "chains")},
     runs=(
-        Run(*("chain_slips", "slip_events", "chain_slips/{event_chain}.nc", groups), **LONG_RUN),
+        Run(
+            *("chain_slips", "slip_events", "chain_slips/{event_chain}.nc", groups),
+            priority=LONG,
+            minutes=120,
+        ),
     ),
     tables=(
         Table(

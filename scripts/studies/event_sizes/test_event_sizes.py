@@ -8,9 +8,8 @@ import pytest
 import xarray as xr
 from made_up_results import NO, PARTLY, YES, Results
 from scipy.ndimage import label
-from scripts.figures import event_sizes
 
-from scripts.namelists.chains import event_chain_groups
+from scripts.studies.event_sizes import figure as event_sizes
 from scripts.studies.event_sizes.claims import decaying_aftershocks, power_law_of_sizes
 from scripts.studies.event_sizes.events_table import event_rows
 from scripts.studies.event_sizes.laws import (
@@ -22,6 +21,7 @@ from scripts.studies.event_sizes.laws import (
     goodness_of_cut_off,
     shuffle_slips,
 )
+from scripts.studies.event_sizes.plan import groups
 from scripts.studies.event_sizes.table import rows_of_chain
 
 FINE = 0.01
@@ -40,8 +40,7 @@ def test_events_are_connected_places_of_the_trajectory(programs, config, ends, t
     chain = config["event_sizes"]["chains"]["chaos_100"]
     chain |= {**RUN, "ends": ends, "blocks": 7, "variables": ["v"]}
     config["event_sizes"]["thresholds"] = [threshold, 3.0]
-    groups = event_chain_groups(config, "chaos_100")
-    found = programs.made_of("slip_events", groups)
+    found = programs.made_of("slip_events", groups(config, "chaos_100"))
     slips = found.isel(event=found.threshold.values == threshold)
     run = programs.made_of("trajectory", groups)
     v = run.v.values
@@ -68,7 +67,7 @@ def test_events_are_connected_places_of_the_trajectory(programs, config, ends, t
 def test_unfinished_events_are_left_out(programs, config):
     """In a chain that the run ends early no event reaches its end."""
     config["event_sizes"]["chains"]["chaos_100"] |= {**RUN, "t_end": 40.0, "blocks": 3}
-    slips = programs.made_of("slip_events", event_chain_groups(config, "chaos_100"))
+    slips = programs.made_of("slip_events", groups(config, "chaos_100"))
     slips = slips.isel(event=slips.threshold.values == 1)
     rows = event_rows(slips, 0.0)
     assert rows
@@ -247,7 +246,7 @@ def test_figure_draws_the_distribution(programs, config):
     """The line falls from 1 to one event's share; a chain with few events has no fitted line."""
     config["event_sizes"]["chains"]["chaos_100"] |= {**RUN, "blocks": 3}
     config["event_sizes"]["thresholds"] = [1.0]
-    slips = programs.made_of("slip_events", event_chain_groups(config, "chaos_100"))
+    slips = programs.made_of("slip_events", groups(config, "chaos_100"))
     rows = [{"threshold": 1.0, **row} for row in event_rows(slips, 20.0)]
     given = [rows], [slips], rows_of_chain("mine", slips, rows, 20.0, [1.0, 5.0]), ["mine"]
     figure = event_sizes.draw(*given)

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from made_up_results import slip_events
 from scipy.integrate import solve_ivp
-from scripts.figures import events
+
+from scripts.studies.events import figure as events
 
 ENDS = {"t_end": 300.0, "t_transient": 100.0}
 FINE = 0.005

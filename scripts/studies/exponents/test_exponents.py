@@ -8,7 +8,7 @@ import pytest
 
 from conftest import trajectory_settings
 from scripts.namelists.parameters import zero_of
-from scripts.tables import exponents_table
+from scripts.studies.exponents import table as exponents_table
 
 
 @pytest.fixture

@@ -5,7 +5,7 @@ from decimal import Decimal, localcontext
 import pytest
 import xarray as xr
 
-from scripts.tables import fault_limit_table
+from scripts.studies.fault_limit import table as fault_limit_table
 from scripts.workflow.plan import read_plan
 
 CONFIG = read_plan({}).config

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from made_up_results import NO, PARTLY, YES, changed, hopf_curve, on_plane
 
-from scripts.claims import claims_of_formulas
+from scripts.studies.hopf import formula_claims
 from scripts.studies.hopf.printed_formulas import epsilon_of_8, points_of, residual_of_5, xi_of_9
 
 LIMIT = 1e-10
@@ -22,7 +22,7 @@ HOPF = 0.64 * 0.5 / 1.14
 def finding(test: str, curves, limit: float = LIMIT):
     name = "planes" if test in ("equation_6", "hopf_curves") else "plane"
     given = ["plane"] if name == "planes" else "plane"
-    return getattr(claims_of_formulas, test)(on_plane(curves), **{name: given, "limit": limit})
+    return getattr(formula_claims, test)(on_plane(curves), **{name: given, "limit": limit})
 
 
 @pytest.mark.parametrize("gamma", [0.8, 3.0])

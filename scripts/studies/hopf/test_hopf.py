@@ -7,7 +7,9 @@ suite hopf_unfoldings shows where curves of folds and of tori start.
 import numpy as np
 import pytest
 import xarray as xr
+from characteristic_equation import closed_form, count_by_crossings, residual
 
+from scripts.files.tsv import read_table
 from scripts.namelists.laws import PAPER
 from scripts.studies.hopf.table import rows_of
 
@@ -23,31 +25,6 @@ def plane(request, filled_config) -> dict:
 @pytest.fixture
 def curves(programs, plane) -> xr.Dataset:
     return programs.made_by("hopf", plane)
-
-
-def terms(s, epsilon, tau, xi, gamma):
-    """The terms of the characteristic function (5)."""
-    stiffness = gamma**2 / xi
-    return [
-        s**3,
-        s**2 * (1 + stiffness),
-        s * gamma**2 * (1 + 1 / xi),
-        gamma**2 + 0 * s,
-        -s * (1 + epsilon) * stiffness * np.exp(-s * tau),
-    ]
-
-
-def residual(s, *parameters):
-    """|(5)| over its largest term."""
-    parts = terms(s, *parameters)
-    return np.abs(np.sum(parts, axis=0)) / np.max(np.abs(parts), axis=0)
-
-
-def closed_form(omega, xi, gamma):
-    """epsilon, and omega tau but for whole turns, of a pair i omega."""
-    b = xi * (gamma**2 - omega**2) / (gamma**2 * omega)
-    epsilon = np.sqrt((1 + omega**2) * (1 + b**2)) - 1
-    return epsilon, np.arctan(b) - np.arctan(omega)
 
 
 def parameters(curves: xr.Dataset) -> list[np.ndarray]:
@@ -91,22 +68,6 @@ def test_window_without_a_curve_makes_an_empty_file(programs, filled_config):
     curves = programs.made_by("hopf", plane)
     assert curves.sizes["point"] == curves.sizes["special"] == 0
     assert rows_of("empty", curves) == []
-
-
-def count_by_crossings(epsilon, tau, xi, gamma):
-    """Unstable pairs, independently: those of the cubic at tau = 0, and what crosses up to tau."""
-    lost = gamma**2 * xi / (xi + gamma**2)
-    pairs = 1 if epsilon > lost else 0
-    c = xi**2 / gamma**4
-    cubic = [c, c + 1 - 2 * c * gamma**2, 1 - 2 * c * gamma**2 + xi**2 - (1 + epsilon) ** 2, xi**2]
-    squares = np.roots(cubic)
-    squares = np.sort(squares[(abs(squares.imag) < 1e-9) & (squares.real > 0)].real)
-    for way, omega in zip((-1, 1), np.sqrt(squares), strict=False):
-        _, angle = closed_form(omega, xi, gamma)
-        turns = np.arange(100)
-        delays = (angle + 2 * np.pi * turns) / omega
-        pairs += way * np.count_nonzero((delays > 0) & (delays < tau))
-    return pairs
 
 
 def test_map_counts_the_crossings(curves, plane):
@@ -165,3 +126,21 @@ def test_any_parameter_is_an_ordinate(programs, along):
             pieces = [curves.isel(point=curves.piece.values == k) for k in set(curves.piece.values)]
             here = [one for one in pieces if one[key].min() <= y <= one[key].max()]
             assert counted == sum(np.interp(y, one[key], one.epsilon) < epsilon for one in here)
+
+
+def test_table_of_the_workflow(smoke):
+    rows = read_table(smoke.folder / "results" / "tables" / "hopf-points.tsv")
+    kinds = {row["kind"] for row in rows}
+    assert kinds == {
+        "amplitude_death_begin",
+        "amplitude_death_end",
+        "double_hopf",
+        "generalised_hopf",
+        "hopf_without_delay",
+    }
+    (begin, end) = [
+        row["tau"]
+        for row in rows
+        if row["kind"].startswith("amplitude_death") and row["of"] == "torus"
+    ]
+    assert begin < end

@@ -2,11 +2,10 @@
 
 import numpy as np
 import pytest
-from test_hopf import count_by_crossings, residual
+from characteristic_equation import count_by_crossings, residual
 
 from scripts.files.tsv import read_table
 from scripts.namelists.parameters import PARAMETERS
-from scripts.studies.hopf.table import death_rows_of
 from scripts.studies.linear_stability.table import amplitude_death, row_of
 
 SCENES = {"fixed_point": 0, "oscillation": 1, "torus": 1, "chaos": 1}
@@ -65,28 +64,16 @@ def test_amplitude_death(stability):
     assert count_by_crossings(*parameters(stability, tau=0.9 * begin)) == 1
     assert count_by_crossings(*parameters(stability, tau=(begin + end) / 2)) == 0
     assert count_by_crossings(*parameters(stability, tau=1.1 * end)) == 1
-    kinds = [row["kind"] for row in death_rows_of("mine", stability)]
-    assert kinds == ["amplitude_death_begin", "amplitude_death_end"]
 
 
 @pytest.mark.parametrize("stability", ["fixed_point", "oscillation"], indirect=True)
 def test_state_stable_without_delay_does_not_die(stability):
     assert amplitude_death(stability) == []
-    assert death_rows_of("mine", stability) == []
 
 
-def test_tables_of_the_workflow(smoke):
-    tables = smoke.folder / "results" / "tables"
-    rows = read_table(tables / "linear-stability.tsv")
+def test_table_of_the_workflow(smoke):
+    rows = read_table(smoke.folder / "results" / "tables" / "linear-stability.tsv")
     assert {row["scene"]: row["unstable_pairs"] for row in rows} == SCENES
-    kinds = {row["kind"] for row in read_table(tables / "hopf-points.tsv")}
-    assert kinds == {
-        "amplitude_death_begin",
-        "amplitude_death_end",
-        "double_hopf",
-        "generalised_hopf",
-        "hopf_without_delay",
-    }
 
 
 def test_bound_too_far_is_refused(programs, good_inputs):

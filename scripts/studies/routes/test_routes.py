@@ -1,5 +1,8 @@
 """Verdicts on what changes along a parameter, on made-up tables of routes."""
 
+import math
+
+import numpy as np
 import pytest
 from made_up_results import (
     NO,
@@ -14,9 +17,15 @@ from made_up_results import (
     torus_point,
 )
 
+from scripts.claims.claims_results import VERDICTS
+from scripts.claims.ledger import paper_claims
+from scripts.drawing.write_captions import caption_of
+from scripts.files.tsv import write_table
+from scripts.plans import studies
 from scripts.studies.routes.claims import (
     chaos_by_a_and_b,
     delays_in_turn,
+    independent_of_spring,
     leads_to,
     quasiperiodic_route,
     route,
@@ -183,3 +192,44 @@ def test_chaos_by_a_and_b(in_epsilon, in_xi, verdict):
     """B alone raises epsilon, A and B in proportion lower xi."""
     rows = twice(*in_epsilon, name="one", along="epsilon") + twice(*in_xi, name="two", along="xi")
     assert chaos_by_a_and_b(Results(routes=rows), routes=["one", "two"]).verdict == verdict
+
+
+@pytest.mark.parametrize(
+    ("given", "classes", "verdict"),
+    [
+        ({"epsilon": 0.3}, ["chaos"] * 4, YES),
+        ({}, ["chaos"] * 4, NO),
+        ({"epsilon": 0.3}, ["cycle"] * 2 + ["chaos"] * 2, NO),
+        ({"unstable_pairs": 1}, ["chaos"] * 4, NO),
+    ],
+)
+def test_independent_of_spring(given, classes, verdict):
+    """The same epsilon and class at every xi, or one that changes; or no such point at all."""
+    curves = changed(hopf_curve(), xi=np.linspace(0.1, 1, 12), tau=12.0)
+    made = Results(
+        curves={"plane": changed(curves, **given)}, routes=route_rows(*classes, along="xi")
+    )
+    found = independent_of_spring(made, plane="plane", route="mine", limit=1e-3)
+    assert found.verdict == verdict
+
+
+def test_caption_of_a_route(tmp_path):
+    """Where classes first appear, runs that agree, and where motions coexist."""
+    kept = {"smallest_maximum": 2.0, "largest_maximum": 3.0, "problem": math.nan}
+    kept |= {"exponent_1": 0.02, "error_1": 0.001}
+    rows = [
+        row | kept
+        for run, last in (("near", "chaos"), ("slip", "torus"), ("up", "chaos"))
+        for row in route_rows("cycle/1", "torus", "cycle/2", "undecided", last, run=run)
+    ]
+    # a cycle of another size
+    rows[7] |= {"smallest_maximum": 4.0, "largest_maximum": 5.0}
+    write_table(tmp_path / "route.tsv", rows)
+    claims = [{"id": name, "verdict": VERDICTS[0]} for name in paper_claims()]
+    figure = {
+        **{"template": studies.FOLDER / "routes" / "caption.rst", "drawing": "routes.figure"},
+        **{"inputs": {"tables": [tmp_path / "route.tsv"]}, "params": {}, "paper": False},
+    }
+    words = " ".join(caption_of(figure, claims).split())
+    assert "15 points. In runs near and up each class first appears at this value" in words
+    assert "motions at 2 of 5 values of :math:`\\tau`: 0.3 and 0.5." in words

@@ -7,9 +7,9 @@ import pytest
 import xarray as xr
 from made_up_results import attractor_row, spectrum
 from matplotlib import pyplot as plt
-from scripts.figures import scene
 
 from scripts.drawing.trajectories import draw_velocity
+from scripts.studies.scenes import figure as scene
 from scripts.tables.attractor_tables import SAME_MAXIMUM
 
 PEAK = 2e9

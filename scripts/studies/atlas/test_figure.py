@@ -1,4 +1,4 @@
-"""Figures of the atlas and of cycles, from small made-up results."""
+"""The figure of the atlas, from small made-up results."""
 
 import copy
 import math
@@ -6,22 +6,18 @@ import math
 import numpy as np
 import pytest
 from figure_contents import title_of, words_in
-from made_up_results import attractor_row, followed_cycles
+from made_up_results import attractor_row
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.collections import PatchCollection, QuadMesh
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from scripts.drawing import class_map
-from scripts.drawing.special_points import STYLES
 from scripts.drawing.style import STYLE
-from scripts.figures import atlas, cycles
-from scripts.results import paths
+from scripts.studies.atlas import figure as atlas
+from scripts.studies.atlas.plan import inputs
 from scripts.tables.motion_rows import COLOURS
-
-STABLE, ONE, TWO, MANY = (style["color"] for style in cycles.LINES)
 
 
 @pytest.fixture(autouse=True)
@@ -95,58 +91,8 @@ def test_points_not_computed_have_the_exponent_of_the_nearest_of_their_kind():
     assert (values[6], values[7]) == (-0.5, -0.01)
 
 
-@pytest.fixture
-def cycles_drawn() -> Figure:
-    return cycles.draw([followed_cycles("tau"), followed_cycles("epsilon")], [], [[], []], {})
-
-
-def labelled(axes: Axes, label: str) -> list[Line2D]:
-    return [line for line in axes.lines if line.get_label() == label]
-
-
-def test_branches_change_their_line_at_special_points(cycles_drawn):
-    """Each part ends at the point where its number of unstable multipliers changes."""
-    parts = [
-        (line.get_color(), [tuple(point) for point in line.get_xydata()])
-        for line in cycles_drawn.axes[0].lines
-        if line.get_label() in {style["label"] for style in cycles.LINES}
-    ]
-    assert parts == [
-        (TWO, [(0.1, 1.1), (0.3, 1.5), (0.4, 2.0), (0.45, 2.2)]),
-        (MANY, [(0.45, 2.2), (0.4, 2.5), (0.35, 2.8), (0.3, 3.0)]),
-        (ONE, [(0.3, 3.0), (0.2, 3.5)]),
-        (STABLE, [(0.6, 2.0), (0.7, 2.1)]),
-        (ONE, [(0.7, 2.1), (0.8, 2.0), (0.8, 2.5), (0.7, 2.6)]),
-        (STABLE, [(0.7, 2.6), (0.6, 2.5), (0.6, 2.0)]),
-    ]
-
-
-def test_a_change_without_a_point_is_drawn_between_orbits():
-    """A point that the search did not find moves no other point."""
-    found = followed_cycles().isel(special=[0])
-    x, y, unstable = cycles.branch_of(found, 1, "tau")
-    assert x.tolist() == [0.1, 0.3, 0.4, 0.45, 0.4, 0.35, 0.2]
-    assert y.tolist() == [1.1, 1.5, 2.0, 2.2, 2.5, 2.8, 3.5]
-    assert unstable.tolist() == [2, 2, 2, 3, 3, 3]
-
-
-def test_special_points_have_markers_by_kind(cycles_drawn):
-    expected = {
-        "fold": ("fold", [[0.45, 2.2]]),
-        "torus bifurcation": ("torus", [[0.3, 3.0]]),
-        "period doubling": ("period_doubling", [[0.7, 2.1], [0.7, 2.6]]),
-    }
-    for axes in cycles_drawn.axes:
-        for label, (kind, places) in expected.items():
-            (points,) = labelled(axes, label)
-            assert points.get_marker() == STYLES[kind][0]
-            assert points.get_xydata().tolist() == places
-        (hopf,) = labelled(axes, "Hopf point")
-        assert hopf.get_xydata().tolist() == [[0.1, 1.0]]
-
-
-def test_sweeps_and_planes_of_lines_are_found_by_their_parameters(filled_config):
-    """Sweeps of routes with the same law, parameter and fixed values; planes of the same ones."""
+def test_curves_and_cycles_in_planes_are_found_by_their_parameters(filled_config):
+    """Those with the same law and fixed values as a plane."""
     config = copy.deepcopy(filled_config)
     law = {"law": "slip_delayed_logarithm"}
     at = {"along": "tau", "epsilon": 0.7, "xi": 0.5, "gamma": 0.8, **law}
@@ -158,15 +104,5 @@ def test_sweeps_and_planes_of_lines_are_found_by_their_parameters(filled_config)
         "across": {"along": "epsilon", "tau": 7.0, "xi": 0.5, "gamma": 0.8, **law},
         "in_xi": {"along": "xi", "tau": 7.0, "epsilon": 0.9, "gamma": 0.8, **law},
     }
-    config["routes"]["lines"]["part"] = {**at, "window": [5.8, 6.1]}
-    folder = "<results>/attractors/routes"
-    assert paths.sweeps_on_lines(config) == {
-        "mine": [f"{folder}/chaos_in_tau/up.nc", f"{folder}/chaos_in_tau/down.nc"],
-        "beside": [],
-        "faster": [],
-        "ageing": [],
-        "across": [f"{folder}/chaos_in_epsilon/up.nc", f"{folder}/chaos_in_epsilon/down.nc"],
-        "in_xi": [],
-    }
     expected = [f"<results>/cycles/{line}.nc" for line in ("mine", "across")]
-    assert paths.cycles_in_atlas(config) == expected
+    assert inputs(config)["cycles"] == expected
