@@ -17,7 +17,7 @@ from measuring import BUILD, HERE, configuration, describe_machine, options_of, 
 from solvers import SolverError, TimeLimitError, Worker, peak_memory_of
 
 from scripts.config.check_config import checked
-from scripts.namelists.chains import chain_groups, histories_of
+from scripts.namelists.chains import groups_of_chain, histories_of
 from scripts.namelists.write_namelist import write_namelist
 
 SOLVERS = ("ours", "jitcdde")
@@ -65,8 +65,8 @@ class Chain:
 
     def groups(self, tolerance: float, **times: float) -> dict[str, dict]:
         """The namelist groups of the program."""
-        chains = {"chain": {**self.settings, "tolerance": tolerance, **times}}
-        return chain_groups({**configuration(), "chains": chains}, "chain")
+        settings = {**self.settings, "tolerance": tolerance, **times}
+        return groups_of_chain(configuration(), "chain", settings)
 
 
 def chain_of(blocks: int, gamma: float, their_t_end: float = T_SAMPLED, **given) -> Chain:

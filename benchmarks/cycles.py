@@ -15,9 +15,9 @@ from measuring import (
     write_table,
 )
 
-from scripts.namelists.program_groups import cycles_groups
-from scripts.namelists.study_cases import PARAMETERS
+from scripts.namelists.parameters import PARAMETERS
 from scripts.namelists.write_namelist import write_namelist
+from scripts.studies.cycles.plan import groups
 
 LINES = ("torus_in_epsilon", "chaos_in_epsilon", "chaos_in_tau", "torus_in_tau")
 """Lines of the configuration."""
@@ -37,7 +37,7 @@ def follow_here(config: dict, line: str) -> tuple[dict, list[tuple[str, float]]]
     along = config["cycles"]["lines"][line]["along"]
     with tempfile.TemporaryDirectory() as folder:
         namelist, output = Path(folder) / "line.nml", Path(folder) / "line.nc"
-        write_namelist(namelist, cycles_groups(config, line))
+        write_namelist(namelist, groups(config, line))
         seconds, _ = measure_command([BUILD / "bin" / "cycles", namelist, output])
         found = xr.load_dataset(output)
     columns = (found[name].values.tolist() for name in ("special_kind", f"special_{along}"))

@@ -10,7 +10,7 @@ import subprocess
 from pathlib import Path
 
 from scripts.config.check_config import checked
-from scripts.files.read_config import read
+from scripts.plans.studies import merged
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
@@ -19,7 +19,7 @@ BUILD = HERE / "build"
 
 def configuration() -> dict:
     """The project's configuration, checked and with its defaults."""
-    return checked(read(ROOT / "config" / "config.yaml"))
+    return checked(merged("config.yaml"))
 
 
 def options_of(name: str) -> argparse.ArgumentParser:

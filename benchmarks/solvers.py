@@ -13,7 +13,7 @@ import numpy as np
 from measuring import BUILD, HERE, ROOT, configuration
 
 from scripts.files.tsv import read_table
-from scripts.namelists.study_cases import case_of, measured_study
+from scripts.studies.work_precision.plan import case_of, measured_study
 from scripts.tables.accuracy import Reference, distances, read_references
 
 HORIZONS = ROOT / "results" / "tables" / "trusted-horizons.tsv"

@@ -5,38 +5,22 @@ from pathlib import Path
 
 from scripts.files.digests import digest_of_files
 from scripts.files.tsv import read_table
-from scripts.namelists import laws
-from scripts.namelists.chains import motion_chains, stiffness_of_modes
-from scripts.plans import registry
-from scripts.namelists.study_cases import measured_study
+from scripts.namelists import laws, models
 from scripts.namelists.write_namelist import end_at_horizons, text_of
-from scripts.results import models, paths
-from scripts.results.programs import BUILD, PAPER, RUNS
+from scripts.plans import studies
+from scripts.plans.declare import BUILD, MAIN, PAPER
 from scripts.workflow.script_imports import modules_of
 
 
 wildcard_constraints:
+    **studies.wildcards(config),
     law="|".join(config["laws"]),
     built=r"build/(release|users/[\w-]+)",
     quad="|_quad",
     model=r"\w+",
-    scene="|".join(config["scenes"]),
-    si_scene="|".join(paths.scenes_with(config, "si")),
-    chain="|".join(config["chains"]),
-    motion="|".join(motion_chains(config)),
-    event_chain="|".join(config["event_sizes"]["chains"]),
-    plane="|".join(config["hopf_curves"]),
-    mode_plane="|".join(config["chain_modes"]["planes"]),
-    mode=r"\d+",
-    cycle_line="|".join(config["cycles"]["lines"]),
-    line="|".join(config["routes"]["lines"]),
-    atlas_plane="|".join(config["atlas"]["planes"]),
-    survey=r"basins|routes/\w+|atlas/\w+|laws/\w+",
-    part=r"\w+",
-    study="stability|trust",
-    case=r"\w+",
 
 
+RUNS = studies.runs()
 BUILT = f"build/users/{Path(plan.results).name}"
 """The folder of models with a user's laws."""
 
@@ -160,19 +144,25 @@ def digests_of_models(run):
     return find_digests
 
 
-def drawings_of(figures):
-    """The modules that draw figures, and those that they import."""
-    return [
-        path
-        for figure in figures
-        for path in modules_of(f"figures/{registry.module_name(figure)}.py")
-    ]
+def by_wildcards(function):
+    """A function of the configuration and of names, as one of the wildcards."""
+
+    def ask(wildcards):
+        return fill_in(function(config, **wildcards))
+
+    return ask
+
+
+def drawing_of(figure):
+    """The module that draws a figure, by its path in scripts/."""
+    return f"studies/{figure.drawing.replace('.', '/')}.py"
 
 
 def tables_read(figure):
     """Tables of the project that a figure reads beside results."""
-    files = registry.files_of(figure, config)
-    return [path for path in files if not path.startswith("<results>/")]
+    return [
+        path for path in figure.files_of(config) if not path.startswith("<results>/")
+    ]
 
 
 def figures_on_page():
@@ -180,30 +170,16 @@ def figures_on_page():
     return [
         {
             "name": name,
-            "category": registry.find(name).category,
-            "caption": f"{plan.results}/figures/{name}.rst",
+            "category": figure.category,
+            "caption": fill_in(figure.filled_caption),
             "drawing": f"{plan.results}/figures/{name}.svg",
             "data": fill_in(
                 [
                     path
-                    for path in registry.files_of(name, config)
+                    for path in figure.files_of(config)
                     if path.startswith("<results>/")
                 ]
             ),
         }
-        for name in plan.figures
+        for name, figure in plan.figures.items()
     ]
-
-
-def table(path, script, params=(), **inputs):
-    """A table: its path, its script in scripts/tables/, and what this gets."""
-    return path, f"tables/{script}.py", dict(params), inputs
-
-
-def measured_runs(study):
-    """Inputs of a table of measured runs: those of a study, and references of the same cases."""
-    cases = measured_study(config)["cases"]
-    return {
-        "measurements": [f"<results>/measurements/{study}/{case}.nc" for case in cases],
-        "references": [f"<results>/references/trust/{case}.tsv" for case in cases],
-    }

@@ -1,33 +1,35 @@
 # The figures, a rule of its name for each, and their captions.
 
-for figure in plan.figures:
+for figure in plan.figures.values():
 
     rule:
         name:
-            figure
+            figure.name
         input:
-            **registry.inputs_of(figure, config),
+            **figure.inputs_of(config),
         output:
-            pdf=f"<results>/figures/{figure}.pdf",
+            pdf=f"<results>/figures/{figure.name}.pdf",
             png=report(
-                f"<results>/figures/{figure}.png",
-                caption=Path.cwd() / fill_in(registry.caption_of(figure)),
-                category=registry.find(figure).category,
-                labels={"figure": registry.title_of(figure).rstrip(".")},
+                f"<results>/figures/{figure.name}.png",
+                caption=Path.cwd() / fill_in(figure.filled_caption),
+                category=figure.category,
+                labels={"figure": figure.title.rstrip(".")},
             ),
-            svg=f"<results>/figures/{figure}.svg",
+            svg=f"<results>/figures/{figure.name}.svg",
         log:
-            f"<results>/logs/figures/{figure}.log",
-        priority: PAPER if registry.find(figure).category == "Figures" else 0
+            f"<results>/logs/figures/{figure.name}.log",
+        priority: PAPER if figure.category == MAIN else 0
         localrule: True
         params:
-            **fill_in(registry.params_of(figure, config)),
-            module=registry.module_name(figure),
+            **fill_in(figure.params_of(config)),
+            module=figure.drawing,
             code=code_of(
-                "figures/make_figure.py", *drawings_of([figure]), *tables_read(figure)
+                "drawing/make_figure.py",
+                *modules_of(drawing_of(figure)),
+                *tables_read(figure),
             ),
         script:
-            "../scripts/figures/make_figure.py"
+            "../scripts/drawing/make_figure.py"
 
 
 rule captions:
@@ -35,12 +37,12 @@ rule captions:
     input:
         data=[
             path
-            for figure in plan.figures
-            for path in registry.files_of(figure, config)
+            for figure in plan.figures.values()
+            for path in figure.files_of(config)
         ],
         claims="<results>/tables/claims.json" if plan.claims else [],
     output:
-        [registry.caption_of(figure) for figure in plan.figures],
+        [figure.filled_caption for figure in plan.figures.values()],
     log:
         "<results>/logs/figures/captions.log",
     localrule: True
@@ -48,18 +50,26 @@ rule captions:
         figures=fill_in(
             [
                 {
-                    "name": name,
-                    "inputs": registry.inputs_of(name, config),
-                    "params": registry.params_of(name, config),
+                    "template": figure.template,
+                    "drawing": figure.drawing,
+                    "paper": not plan.is_users,
+                    "inputs": figure.inputs_of(config),
+                    "params": figure.params_of(config),
                 }
-                for name in plan.figures
+                for figure in plan.figures.values()
             ]
         ),
         code=code_of(
-            "figures/write_captions.py",
-            *drawings_of(plan.figures),
-            *map(registry.template_of, plan.figures),
-            *(path for figure in plan.figures for path in tables_read(figure)),
+            "drawing/write_captions.py",
+            *(
+                path
+                for figure in plan.figures.values()
+                for path in [
+                    *modules_of(drawing_of(figure)),
+                    figure.template,
+                    *tables_read(figure),
+                ]
+            ),
         ),
     script:
-        "../scripts/figures/write_captions.py"
+        "../scripts/drawing/write_captions.py"

@@ -1,35 +1,19 @@
-# The page, and the data of the view in which a reader moves the parameters.
+# The page.
 from scripts.page import findings, page_assets
 from scripts.workflow.git_commit import commit_of
 
-
-rule play_data:
-    """Classes and motions of the atlas, for the view in which a reader moves the parameters."""
-    input:
-        runs=paths.parts_of_atlas(config),
-        tables=(
-            expand(
-                "<results>/tables/atlas/{plane}.tsv", plane=config["atlas"]["planes"]
-            )
-            if plan.is_users
-            else ["<results>/tables/atlas.tsv"]
-        ),
-    output:
-        "<results>/page/play-data.js",
-    log:
-        "<results>/logs/page/play-data.log",
-    localrule: True
-    params:
-        scenes=paths.places_in_atlas(config),
-        code=code_of("page/play_data.py"),
-    script:
-        "../scripts/page/play_data.py"
+PAPERS = [
+    figure for figure in studies.paper_figures().values() if figure.category == MAIN
+]
+"""Figures 1 to 8."""
+PLAY = "<results>/page/play-data.js"
+"""Data of the view in which a reader moves the parameters, which the atlas has."""
 
 
 rule first_page:
     """A page with the paper's figures alone, made while the rest is computed."""
     input:
-        expand("<results>/figures/{figure}.svg", figure=registry.PAPERS),
+        [f"<results>/figures/{figure.name}.svg" for figure in PAPERS],
     output:
         "<results>/figures.html",
     log:
@@ -37,10 +21,7 @@ rule first_page:
     priority: PAPER
     localrule: True
     params:
-        figures=[
-            {"name": name, "title": registry.title_of(name)}
-            for name in registry.PAPERS
-        ],
+        figures=[{"name": figure.name, "title": figure.title} for figure in PAPERS],
         code=code_of("page/write_first_page.py", "page/figures.html.jinja"),
     script:
         "../scripts/page/write_first_page.py"
@@ -50,9 +31,9 @@ rule page:
     """The page with figures, claims and verdicts: index.html in the folder of results."""
     input:
         **{
-            name: made(f"<results>/tables/{name.replace('_', '-')}.tsv")
-            for name in findings.TABLES
-            if not plan.is_users
+            name: made(path)
+            for name, path in findings.tables_read().items()
+            if name != "attractors" and not plan.is_users
         },
         figures=expand("<results>/figures/{figure}.svg", figure=plan.figures),
         captions=expand("<results>/figures/{figure}.rst", figure=plan.figures),
@@ -60,7 +41,7 @@ rule page:
         attractors=made("<results>/tables/attractors.tsv") if config["scenes"] else [],
         tables=[path for path in plan.tables() if plan.is_users and made(path)],
         trajectories=plan.trajectories(),
-        play=made("<results>/page/play-data.js") if config["atlas"]["planes"] else [],
+        play=made(PLAY) if studies.inside(config, ("atlas", "planes")) else [],
         library=[path for path in page_assets.ASSETS.values() if path.startswith("/")],
     output:
         page="<results>/index.html",
@@ -74,7 +55,7 @@ rule page:
         is_users=plan.is_users,
         failed=failed,
         unmade=unmade,
-        history=config["atlas"]["history"],
+        history=studies.inside(config, ("atlas", "history")),
         commit=commit_of(Path.cwd()),
         code=code_of("page/write_page.py", *page_assets.list_files()),
     script:

@@ -1,4 +1,4 @@
-# Programs, each built when a result needs it, and their runs: scripts/results/programs.py lists them.
+# Programs, each built when a result needs it, and their runs: the plans in scripts/studies/ declare them.
 
 
 rule law:
@@ -77,7 +77,10 @@ for run in RUNS:
         benchmark:
             f"<results>/benchmarks/{run.stem}.tsv"
         priority: run.priority
-        localrule: not run.takes_minutes
+        localrule: not run.minutes
+        resources:
+            mem_mb=1000,
+            runtime=run.minutes,
         params:
             namelist=namelist_of(run),
             before=namelists_before(run),
@@ -87,7 +90,3 @@ for run in RUNS:
             folders=":".join(models.folders_of(config["laws"], BUILT, run.quad)),
         script:
             "../scripts/workflow/run_program.sh"
-
-
-ruleorder: scene_attractors > attractors_runs
-ruleorder: work_precision_runs > measurement

@@ -1,6 +1,9 @@
 """Chains of blocks by the classical Runge-Kutta method: a code that shares nothing with ours."""
 
 import numpy as np
+import xarray as xr
+
+from scripts.namelists.laws import PAPER
 
 
 def second_difference(u: np.ndarray, ends: str) -> np.ndarray:
@@ -50,3 +53,24 @@ def solve_chain(chain: dict, t_end: float, h: float) -> np.ndarray:
         states[i + 1] = y
         slopes[i + 1] = rates(y, before(i + 1))[2]
     return states
+
+
+def made_up_chain(values: np.ndarray, ends: str = "free") -> xr.Dataset:
+    """A chain with these ln v, shape (t, block)."""
+    return xr.Dataset(
+        {"v": (("t", "block"), np.exp(values))},
+        coords={"t": np.arange(len(values), dtype=float)},
+        attrs={"t_transient": 0.0, "ends": ends, "blocks": values.shape[1]},
+    )
+
+
+def whole_chain(**given) -> dict:
+    """A chain with the defaults of the schema."""
+    history = {"theta": 0.0, "u": 0.0, "v": 1.1} | given.pop("history", {})
+    disturbance = {"theta": 0.0, "u": 0.0, "ln_v": 0.0, "seed": 1, "block": 0}
+    return {
+        **{"law": PAPER, "ends": "free", "t_transient": 0.0, "method": "auto"},
+        **{"variables": ["theta", "u", "v"], "history": history},
+        "disturbance": disturbance | given.pop("disturbance", {}),
+        **given,
+    }

@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED, Results
+from scripts.namelists.parameters import HISTORY, PARAMETERS
 
 YES, PARTLY, NO = REPRODUCED, CORRECTED, NOT_REPRODUCED
 """Verdicts, short for tables of expected ones."""
@@ -227,3 +228,30 @@ def run_row(**given) -> dict:
         "amplification": 10.0,
         **given,
     }
+
+
+def survey_run(classes: list[str], **given) -> xr.Dataset:
+    """A file with one point for each class, other values of points as given."""
+    size = len(classes)
+    numbers = [CLASSES.index(name) for name in classes]
+    meanings = " ".join(name.replace(" ", "_") for name in CLASSES)
+    points = {
+        **dict.fromkeys([*PARAMETERS, *(f"history_{key}" for key in HISTORY)], 1.0),
+        **{"period": 1, "base_1": 0.1, "base_2": 0.0, "base_3": 0.0},
+        **{"roughness": 0.5, "time": 900.0, "smallest_maximum": 1.0, "largest_maximum": 2.0},
+        **{"recurrence_time": 8.0, "recurrence_variation": 0.1},
+        **given,
+    }
+    exponents = {key: points.pop(key, 0.0) for key in ("lyapunov_exponent", "lyapunov_error")}
+    words = np.broadcast_to(points.pop("problem", ""), size)
+    data = {key: ("point", np.broadcast_to(value, size)) for key, value in points.items()}
+    for key in ("class", "by_exponents", "by_section", "by_spectrum"):
+        data[key] = ("point", numbers, {"flag_meanings": meanings})
+    reasons = [int(name == "undecided") for name in classes]
+    data["reason"] = ("point", reasons, {"flag_meanings": "none not_confirmed"})
+    for key, value in exponents.items():
+        first = np.broadcast_to(value, size)
+        data[key] = (("point", "exponent"), np.stack([first, first - 1], axis=1))
+    data["sign"] = (("point", "exponent"), np.sign(data["lyapunov_exponent"][1]))
+    data["problem"] = ("point", words.astype(object))
+    return xr.Dataset(data)

@@ -4,8 +4,8 @@ Tests name the keys of a group without the groups within it.
 """
 
 from scripts.namelists.laws import PAPER
+from scripts.namelists.parameters import HISTORY, PARAMETERS
 from scripts.namelists.program_groups import case_groups, nested
-from scripts.namelists.study_cases import HISTORY, PARAMETERS
 
 PARTS = {
     "scene": {"parameters": [*PARAMETERS, "law", "own"]},

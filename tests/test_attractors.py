@@ -1,97 +1,24 @@
 """Attractors: what the namelists of surveys ask for, and what their tables say."""
 
-import copy
 import math
 from pathlib import Path
 
 import numpy as np
 import pytest
-import xarray as xr
+from made_up_results import survey_run as a_run
 
-from scripts.namelists import attractor_surveys
-from scripts.namelists.laws import PAPER
-from scripts.namelists.study_cases import HISTORY, PARAMETERS
-from scripts.results import paths
-from scripts.tables import attractor_tables, basins_table
+from scripts.namelists.attractor_surveys import drawn_histories
+from scripts.namelists.parameters import HISTORY, PARAMETERS
+from scripts.tables import attractor_tables
 from scripts.tables.motion_rows import count_in_words, kind_of, parameter_of
-
-CLASSES = ["undecided", "fixed point", "cycle", "torus", "3-torus", "chaos"]
-
-
-@pytest.fixture
-def full(filled_config) -> dict:
-    """The whole config with its defaults, to change."""
-    return copy.deepcopy(filled_config)
-
-
-@pytest.mark.parametrize(
-    ("count", "parts", "distance"),
-    [*((1, 1, 1), (16, 4, 1), (7, 7, 1), (61, 8, 1), (51, 7, 2), (9, 9, 16), (1000, 31, 16))],
-)
-def test_parts_hold_every_row_once(count, parts, distance):
-    """All parts but the last end with a line that is computed first; sizes are nearly the same."""
-    ends = [attractor_surveys.part_of(count, parts, part, distance) for part in range(1, parts + 1)]
-    rows = [row for first, last in ends for row in range(first, last + 1)]
-    assert rows == list(range(1, count + 1))
-    assert all((last - first) % distance == 0 for first, last in ends[:-1])
-    sizes = [last - first + 1 for first, last in ends]
-    assert max(sizes) - min(sizes) <= (1 if distance == 1 else 2 * distance - 1)
-
-
-def test_parts_of_the_atlas_divide_its_delays(full):
-    """All of epsilon in each part, both windows as a whole, at xi and gamma of the plane."""
-    settings = full["atlas"]
-    delays = []
-    for part in range(1, settings["parts"] + 1):
-        points = attractor_surveys.atlas_groups(full, "fault", part)["points"]
-        columns, lines = points["axes"]
-        assert (columns["along"], lines["along"]) == ("epsilon", "tau")
-        assert columns["part"] == [1, settings["epsilon_count"]]
-        assert columns["window"] == settings["epsilon_window"]
-        assert lines["window"] == settings["planes"]["fault"]["ordinate_window"]
-        assert points["refinements"] == settings["refinements"]
-        assert points["parameters"] == {"xi": 0.5, "gamma": 1e8, "law": PAPER}
-        delays += range(lines["part"][0], lines["part"][1] + 1)
-    assert delays == list(range(1, settings["ordinate_count"] + 1))
-
-
-@pytest.mark.parametrize(("run", "sweep"), [("near", "none"), ("slip", "none"), ("up", "up")])
-def test_runs_of_a_route_go_along_its_parameter(full, run, sweep):
-    """Three values are fixed; sweeps start from the first history."""
-    routes = full["routes"]
-    groups = attractor_surveys.route_groups(full, "chaos_in_epsilon", run)
-    points, line = groups["points"], routes["lines"]["chaos_in_epsilon"]
-    assert points["sweep"] == sweep
-    count = line["count"]
-    axis = {"along": "epsilon", "window": line["window"], "count": count, "part": [1, count]}
-    assert points["axes"] == [axis]
-    assert points["parameters"]["tau"] == 7.0
-    history = routes["histories"].get(run, routes["histories"]["near"])
-    assert groups["histories"] == {key: [history[key]] for key in HISTORY}
-    assert groups["observation"].items() >= full["spectra"].items()
-    assert (points["refinements"], points["kept"]) == (0, routes["observation"]["kept"])
-
-
-def test_route_along_a_value_of_the_history(full):
-    """One set of parameters and a history for each value; there are no sweeps."""
-    line = {"along": "v", "window": [0.5, 1.5], "count": 3, "tau": 7.0, "epsilon": 0.5}
-    full["routes"]["lines"]["mine"] = line | {"xi": 0.5, "gamma": 0.8, "law": PAPER}
-    groups = attractor_surveys.route_groups(full, "mine", "slip")
-    points, histories = groups["points"], groups["histories"]
-    assert histories["v"] == [0.5, 1.0, 1.5]
-    assert histories["u"] == [full["routes"]["histories"]["slip"]["u"]] * 3
-    assert "axes" not in points
-    assert points["sweep"] == "none"
-    names = [path.split("/")[-1] for path in paths.runs_of_route(full, "mine")]
-    assert names == ["near.nc", "slip.nc"]
 
 
 def test_histories_fill_their_ranges():
     """Evenly in theta, u and ln v; another seed gives others, more begin with the same."""
     ranges = {"seed": 3, "theta": [-1.0, 0.0], "u": [5.0, 7.0], "ln_v": [-4.0, -2.0]}
-    drawn = attractor_surveys.drawn_histories(2000, ranges)
-    assert drawn[:5] == attractor_surveys.drawn_histories(5, ranges)
-    assert drawn[:5] != attractor_surveys.drawn_histories(5, {**ranges, "seed": 4})
+    drawn = drawn_histories(2000, ranges)
+    assert drawn[:5] == drawn_histories(5, ranges)
+    assert drawn[:5] != drawn_histories(5, {**ranges, "seed": 4})
     for key, values in (
         ("theta", [history["theta"] for history in drawn]),
         ("u", [history["u"] for history in drawn]),
@@ -101,44 +28,6 @@ def test_histories_fill_their_ranges():
         counts, _ = np.histogram(values, bins=4, range=(low, high))
         assert counts.sum() == 2000
         assert (abs(counts - 500) < 100).all()
-
-
-def a_run(classes: list[str], **given) -> xr.Dataset:
-    """A file with one point for each class, other values of points as given."""
-    size = len(classes)
-    numbers = [CLASSES.index(name) for name in classes]
-    meanings = " ".join(name.replace(" ", "_") for name in CLASSES)
-    points = {
-        **dict.fromkeys([*PARAMETERS, *(f"history_{key}" for key in HISTORY)], 1.0),
-        **{"period": 1, "base_1": 0.1, "base_2": 0.0, "base_3": 0.0},
-        **{"roughness": 0.5, "time": 900.0, "smallest_maximum": 1.0, "largest_maximum": 2.0},
-        **{"recurrence_time": 8.0, "recurrence_variation": 0.1},
-        **given,
-    }
-    exponents = {key: points.pop(key, 0.0) for key in ("lyapunov_exponent", "lyapunov_error")}
-    words = np.broadcast_to(points.pop("problem", ""), size)
-    data = {key: ("point", np.broadcast_to(value, size)) for key, value in points.items()}
-    for key in ("class", "by_exponents", "by_section", "by_spectrum"):
-        data[key] = ("point", numbers, {"flag_meanings": meanings})
-    reasons = [int(name == "undecided") for name in classes]
-    data["reason"] = ("point", reasons, {"flag_meanings": "none not_confirmed"})
-    for key, value in exponents.items():
-        first = np.broadcast_to(value, size)
-        data[key] = (("point", "exponent"), np.stack([first, first - 1], axis=1))
-    data["sign"] = (("point", "exponent"), np.sign(data["lyapunov_exponent"][1]))
-    data["problem"] = ("point", words.astype(object))
-    return xr.Dataset(data)
-
-
-@pytest.mark.parametrize(
-    ("columns", "lines", "refinements"),
-    [(9, 7, 0), (1, 40, 0), (12, 40, 0), (13, 40, 1), (37, 25, 2), (200, 200, 2)],
-)
-def test_first_lines_of_a_small_atlas_are_not_too_far_apart(full, columns, lines, refinements):
-    """At least six distances in each direction, and never more refinements than asked for."""
-    full["atlas"] |= {"epsilon_count": columns, "tau_count": lines, "parts": 1, "refinements": 2}
-    points = attractor_surveys.atlas_groups(full, "fault", 1)["points"]
-    assert points["refinements"] == refinements
 
 
 def test_points_that_were_not_computed_have_class_and_period_only():
@@ -232,35 +121,6 @@ def test_parameter_of_a_route(along):
         varied = {f"history_{along}" if along == "v" else along: [1.0, 2.0], "history_u": u}
         rows += attractor_tables.route_rows(Path(path), a_run(["cycle", "cycle"], **varied))
     assert parameter_of(rows) == along
-
-
-def test_shares_of_basins_have_standard_errors():
-    """The most frequent motion first; a failed run belongs to none and counts as a history."""
-    classes = ["cycle", "chaos", "cycle", "undecided", "cycle"]
-    run = a_run(classes, problem=["", "", "", "it stopped", ""])
-    first, second = basins_table.basin_rows("mine", run, [])
-    assert (first["motion"], first["class"], first["histories"]) == (1, "cycle", 5)
-    assert (first["share"], second["share"]) == (0.6, 0.2)
-    assert first["share_error"] == pytest.approx(math.sqrt(0.6 * 0.4 / 5))
-    assert (second["class"], second["tau"]) == ("chaos", 1.0)
-
-
-def test_motions_that_only_a_route_shows_have_no_share():
-    """At the same parameters, each once; undecided points and known motions are none."""
-    run = a_run(["cycle", "cycle"])
-    other = a_run(
-        ["cycle", "cycle", "chaos", "chaos", "undecided", "fixed point"],
-        tau=[1.0] * 5 + [2.0],
-        period=[1, 3, 0, 0, 0, 0],
-    )
-    rows = attractor_tables.route_rows(Path("results/mine/up.nc"), other)
-    found = basins_table.basin_rows("place", run, [{**row, "problem": math.nan} for row in rows])
-    assert [(row["class"], row["period"], row["share"], row["shown_by"]) for row in found[:2]] == [
-        ("cycle", 1.0, 1.0, "histories"),
-        ("cycle", 3.0, 0.0, "mine up"),
-    ]
-    assert [row["class"] for row in found[2:]] == ["chaos"]
-    assert found[2]["share_error"] == 0.0
 
 
 def test_points_are_counted_and_cycles_parted():

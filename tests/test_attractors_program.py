@@ -12,7 +12,7 @@ from namelist_groups import OBSERVATION
 from scipy.integrate import solve_ivp
 
 from scripts.files.tsv import read_table, write_table
-from scripts.namelists.study_cases import HISTORY
+from scripts.namelists.parameters import HISTORY
 from scripts.tables.attractor_tables import scene_rows
 
 ONE_HISTORY = {"theta": [0.0], "u": [0.0], "v": [1.1]}

@@ -9,11 +9,11 @@ import pytest
 from made_up_results import NO, PARTLY, YES, Results, attractor_row, hopf_curve, stability_row
 
 from scripts.claims import declare, ledger
-from scripts.claims.claims_of_routes import route
 from scripts.claims.claims_results import ANSWERS, NOT_TESTABLE, VERDICTS, Finding, read_results
 from scripts.config.check_config import checked
 from scripts.files.marked_words import to_plain
 from scripts.files.read_config import ConfigError
+from scripts.studies.routes.claims import route
 
 CLAIMS = {
     "moves": {

@@ -5,6 +5,7 @@ import shutil
 import subprocess
 
 import pytest
+
 from conftest import ROOT, write_script
 
 CMAKE = """[[ $1 == --build ]] || exit 0

@@ -5,12 +5,11 @@ import math
 from collections.abc import Iterator
 
 import pytest
-from conftest import ROOT
 
-from scripts.config.check_attractors import FEWEST_SAMPLES
+from conftest import ROOT
 from scripts.config.check_config import checked
+from scripts.config.checks import FEWEST_SAMPLES
 from scripts.files.read_config import ConfigError, read
-from scripts.namelists.study_cases import case_of, measured_study
 
 NO_NUMBERS = ["0.5", True, None, [0.5], {"a": 0.5}, math.nan, math.inf, -math.inf]
 Place = tuple[str | int, ...]
@@ -329,13 +328,3 @@ def test_samples_of_an_observation_suffice_for_a_spectrum(config, section):
         (line,) = refuse(copy.deepcopy(config))
         assert line.startswith(f"config {section} observation: sample_interval = {interval}; ")
         assert words in line
-
-
-def test_scenes_of_the_paper_are_measured_as_they_are(config):
-    """With the parameters and the history of the scene, whatever these are."""
-    config["scenes"]["torus"] |= {"epsilon": 0.4, "history": {"v": 1.3}}
-    cases = measured_study(checked(config))["cases"]
-    assert list(cases) == ["fixed_point", "oscillation", "torus", "chaos", "stick", "stiff"]
-    measured = case_of("torus", cases["torus"])
-    assert (measured["tau"], measured["epsilon"], measured["v"]) == (10.0, 0.4, 1.3)
-    assert measured["t_end"] == 1000.0

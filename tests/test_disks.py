@@ -6,8 +6,9 @@ import time
 from pathlib import Path
 
 import pytest
-from conftest import SMOKE, rules_in
 from disks import FULL, READ_ONLY, on_disk
+
+from conftest import SMOKE, rules_in
 
 REMEDY = "; check that its folder exists, is writable and has free space, then run again\n"
 SNAKEMAKE = Path(sys.executable).parent / "snakemake"

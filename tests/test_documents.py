@@ -10,16 +10,15 @@ from functools import cache
 from pathlib import PurePath
 
 import pytest
-from conftest import ROOT, project_files
 from snakemake.utils import update_config
 
+from conftest import ROOT, project_files
 from scripts.claims.ledger import check_user_claims
 from scripts.config.check_config import checked
 from scripts.files.read_config import parse, read
 from scripts.namelists.laws import built_in
-from scripts.plans.registry import FIGURES
-from scripts.results import document_numbers
-from scripts.results.programs import RUNS
+from scripts.plans import studies
+from scripts.workflow import document_numbers
 
 RESULTS = "results/README.md"
 """Stands beside what it names, and no other document links to it."""
@@ -84,15 +83,16 @@ def rules() -> set[str]:
     workflow = "".join(path.read_text() for path in [ROOT / "Snakefile", *ROOT.glob("rules/*.smk")])
     return {
         *re.findall(r"^rule (\w+)", workflow, re.MULTILINE),
-        *FIGURES,
-        *(run.rule for run in RUNS),
+        *studies.paper_figures(),
+        *(run.rule for run in studies.runs()),
+        *(table.rule for _, table in studies.tables()),
     }
 
 
 def is_made(path: str) -> bool:
     """Whether something makes a file: the workflow, the benchmarks, CMake or the set-up.
 
-    A file of results stands in a folder of results/README.md; the code names each table.
+    A file of results stands in a folder of results; the code names each table.
     """
     wanted = re.sub(r"^results/mine(/|$)", r"results/", path).rstrip("/")
     if program := re.fullmatch(r"build/release/bin/(\w+)", wanted):
@@ -102,7 +102,8 @@ def is_made(path: str) -> bool:
     if wanted.endswith("/.venv"):
         return (ROOT / wanted).with_name("requirements.lock").is_file()
     folder = "/".join(wanted.split("/")[:2])
-    if wanted.startswith("results/") and f"`{folder}/`" in text_of(RESULTS):
+    kinds = {f"results/{kind}" for kind in studies.kinds_of_results()}
+    if folder in kinds or (wanted.startswith("results/") and f"`{folder}/`" in text_of(RESULTS)):
         return not wanted.endswith(".tsv") or PurePath(wanted).name in code()
     return PurePath(wanted).name in code()
 
@@ -202,7 +203,7 @@ def test_keys_of_a_scene_are_those_of_the_schema():
     table = text_of("config/README.md").partition("## Keys of a scene")[2].partition("\n## ")[0]
     rows = re.findall(r"^\| (`.*?) \|", table, re.MULTILINE)
     named = {key for row in rows for key in re.findall(r"`(\w+)`", row)}
-    schema = read(ROOT / "config" / "schema.yaml")
+    schema = studies.schema()
     scene = schema["properties"]["scenes"]["additionalProperties"]
     if "$ref" in scene:
         for step in scene["$ref"].removeprefix("#/").split("/"):

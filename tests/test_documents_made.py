@@ -11,10 +11,10 @@ from pathlib import Path
 
 import offline_pages
 import pytest
-from conftest import ROOT, write_script
 from PIL import Image
 from test_documents import blocks_of, prose_of
 
+from conftest import ROOT, write_script
 from scripts.files.tsv import read_table
 
 SOURCES = sorted(

@@ -11,8 +11,8 @@ import sys
 import numpy as np
 import pytest
 import sympy
-from conftest import ROOT
 
+from conftest import ROOT
 from generator.compile import compile_module
 from generator.definition import ModelError, overlaid, read_model
 from generator.fortran import in_words, literal, text_of, wrapped

@@ -11,9 +11,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from conftest import SMOKE, Programs, Project, unfinished, wait_for
 from namelist_groups import in_groups
 
+from conftest import SMOKE, Programs, Project, unfinished, wait_for
 from scripts.namelists.write_namelist import write_namelist
 
 SNAKEMAKE = Path(sys.executable).parent / "snakemake"

@@ -4,11 +4,11 @@ import copy
 
 import numpy as np
 import pytest
-from conftest import torus
 from scipy.integrate import quad
 from scipy.linalg import expm
 from scipy.optimize import brentq
 
+from conftest import torus
 from generator.compile import compile_module
 from generator.definition import read_files
 from generator.module import write_module
@@ -16,13 +16,12 @@ from scripts.config.check_config import checked
 from scripts.files.inputs import read
 from scripts.files.read_config import ConfigError
 from scripts.namelists import laws
-from scripts.namelists.program_groups import (
-    attractors_groups,
-    cycles_groups,
-    hopf_groups,
-    scene_groups,
-)
-from scripts.results.models import models_in
+from scripts.namelists.models import models_in
+from scripts.namelists.program_groups import scene_groups
+from scripts.studies.atlas import plan as atlas
+from scripts.studies.cycles import plan as cycles
+from scripts.studies.hopf import plan as hopf
+from scripts.studies.routes import plan as routes
 
 MINE = {
     "evolution": "-speed*v*(theta + (1 + epsilon)*log(v(t - tau)))",
@@ -47,7 +46,7 @@ def test_default_of_a_parameter_reaches_the_program(with_law):
 
 def test_law_without_inertia_has_one_parameter_more(with_law):
     with_law["hopf_curves"]["tau_of_epsilon"] |= {"law": "quasistatic_mine", "zeta": 0.1}
-    groups = hopf_groups(checked(with_law), "tau_of_epsilon")
+    groups = hopf.groups(checked(with_law), "tau_of_epsilon")
     assert groups["hopf_curves"]["parameters"]["own"] == [1.0, 0.1]
     assert models_in(groups) == {"quasistatic_mine"}
     words = laws.law_in_words(with_law, with_law["hopf_curves"]["tau_of_epsilon"])
@@ -87,15 +86,14 @@ def test_own_parameter_is_an_axis(with_law, axis):
     config = checked(with_law)
     assert "speed" not in axis
     if axis is config["hopf_curves"].get("mine"):
-        group = hopf_groups(config, "mine")["hopf_curves"]
+        group = hopf.groups(config, "mine")["hopf_curves"]
         named = group["ordinate"]
     elif axis is config["cycles"]["lines"].get("mine"):
-        group = cycles_groups(config, "mine")["cycles"]
+        group = cycles.groups(config, "mine")["cycles"]
         named = group["along"]
     else:
-        survey = "atlas" if "ordinate" in axis else "routes"
-        part = "1" if survey == "atlas" else "near"
-        group = attractors_groups(config, f"{survey}/mine", part)["points"]
+        survey, part = (atlas, "1") if "ordinate" in axis else (routes, "near")
+        group = survey.groups(config, "mine", part)["points"]
         named = group["axes"][-1]["along"]
     assert named == "speed"
     assert "own" not in group["parameters"]

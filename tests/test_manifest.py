@@ -7,9 +7,9 @@ import time
 from pathlib import Path
 
 import pytest
-from conftest import ROOT, Project
 
-from scripts.results import manifest
+from conftest import ROOT, Project
+from scripts.workflow import manifest
 
 LISTS = ("results/manifest.sha256", "results/measured.sha256")
 

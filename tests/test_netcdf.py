@@ -4,17 +4,13 @@ import subprocess
 
 import pytest
 import xarray as xr
+
 from conftest import ROOT
+from scripts.plans import studies
 
 CHECKER = ROOT / "tests" / "formats" / ".venv" / "bin" / "compliance-checker"
-KINDS = {
-    *("trajectories", "spectra", "exponents", "slip_events", "linear_stability", "hopf", "cycles"),
-    *("measurements/stability", "measurements/trust", "measurements/work_precision"),
-    *("attractors/scenes", "attractors/basins", "attractors/routes", "attractors/atlas"),
-    *("attractors/laws", "chains", "modes", "synchrony"),
-    *("chain_exponents", "chain_motions", "chain_slips"),
-}
-"""Folders with NetCDF files, each with those of one program."""
+KINDS = {run.output.partition("/{")[0] for run in studies.runs() if run.output.endswith(".nc")}
+"""Folders with NetCDF files, each with those of one run."""
 
 
 @pytest.fixture(scope="module")
@@ -24,8 +20,8 @@ def files(smoke) -> dict[str, str]:
     found: dict[str, str] = {}
     for path in sorted(results.rglob("*.nc"), key=lambda path: path.stat().st_size):
         name = path.relative_to(results).as_posix()
-        parts = 2 if name.startswith(("attractors/", "measurements/")) else 1
-        found["/".join(name.split("/")[:parts])] = name
+        (kind,) = (kind for kind in KINDS if name.startswith(f"{kind}/"))
+        found[kind] = name
     return found
 
 

@@ -10,17 +10,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import ROOT
 from docutils.utils import SystemMessage
 from jinja2 import UndefinedError
 from made_up_page import attractor, claim, run
 
+from conftest import ROOT
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, NOT_TESTABLE, VERDICTS
 from scripts.claims.ledger import paper_claims
 from scripts.files.marked_words import to_html
 from scripts.page import captions, findings, page_content, page_provenance, page_views, write_page
 from scripts.page.write_single_page import in_one_file
-from scripts.plans.registry import FIGURES
+from scripts.plans.studies import paper_figures
 
 
 class Elements(HTMLParser):
@@ -118,70 +118,6 @@ def test_equations_mark_what_differs_from_the_print():
     assert beside == {f"equation_{number}" for number in (3, 4, 6, 8, 9, 10)}
 
 
-def motion(scene: str, kind: str, exponents: list[float], f2: float) -> dict:
-    """A row of attractors.tsv with errors of 0.001."""
-    row = {"scene": scene, "history": 1.0, "tau": 10.0, "class": kind, "f1": 0.1, "f2": f2}
-    row |= {f"exponent_{i}": value for i, value in enumerate(exponents, 1)}
-    return row | {"zero_exponents": float(exponents.count(0.0))}
-
-
-def tables_of_findings() -> dict[str, list[dict]]:
-    torus = motion("torus", "cycle", [0.0, -0.01, -0.02], np.nan)
-    true_torus = motion("true_torus", "torus", [0.0, 0.0, -0.02], 0.3) | {"tau": 12.5}
-    kinds = ("a", "hopf_without_delay"), ("b", "generalised_hopf"), ("c", "amplitude_death_begin")
-    runs = ((1e4, "auto", "ok"), (1e12, "explicit", "stopped"), (0.8, "auto", "stopped"))
-    limit = {"xi": 0.5, "without_delay": 0.25}
-    plane = {"gamma": 0.8, "xi": 0.5, "of": "plane", "place": "a"}
-    laws = ("slip_delayed_logarithm", "chaos"), ("ageing_delayed_velocity", "cycle")
-    return {
-        "attractors": [torus, true_torus],
-        "hopf_points": [{"of": of, "kind": kind} for of, kind in kinds],
-        "stability": [
-            {"gamma": gamma, "method": method, "status": status, "steps": 7.0, "error": 15.0}
-            for gamma, method, status in runs
-        ],
-        "fault_limit": [
-            limit | {"gamma": gamma, "depth": depth}
-            for gamma, depth in ((0.8, 0.0481), (1e4, 9.3e-18))
-        ],
-        "friction_laws": [
-            {**plane, "law": law, "class": kind, "period": 1.0} for law, kind in laws
-        ],
-        "chain_motions": [
-            {**limit, "gamma": 0.8, "epsilon": 0.5, "blocks": blocks, "tau": tau}
-            | {"positive_exponents": count}
-            for blocks, tau, count in ((2, 7.0, 1), (9, 7.0, 5), (11, 0.0, 2))
-        ],
-    }  # fmt: skip
-
-
-@pytest.mark.parametrize("holds", [True, False])
-def test_findings_follow_the_tables(holds):
-    """Titles say the opposite if the results do; words have their numbers."""
-    tables = tables_of_findings()
-    if not holds:
-        _, true_torus = tables["attractors"]
-        tables["attractors"] = [true_torus | {"scene": "torus"}, true_torus]
-        tables["stability"] = tables["stability"][1:]
-        tables["friction_laws"][-1]["class"] = "chaos"
-        tables["chain_motions"] = tables["chain_motions"][:1]
-    limit, torus, faults, laws, chains = findings.list_findings([claim("figure_5a")], tables)
-    assert ("not on the law of friction" in laws["title"]) is holds
-    assert f"points if the delay stands in the logarithm, and {1 - holds} if" in laws["words"]
-    assert torus["title"] == f"The paper's torus is a {'limit cycle' if holds else 'torus'}."
-    assert ("not" in faults["title"]) is not holds
-    assert ("In 1 of them the problem magnifies errors beyond 0.001" in faults["words"]) is holds
-    assert chains["title"].startswith("In chains" if holds else "Chains of blocks are not")
-    assert ("9 blocks with $tau = 7$ have at least 5 positive Lyapunov" in chains["words"]) is holds
-    assert ("Without delay 11 blocks have at least 2 positive" in chains["words"]) is holds
-    assert [given["id"] for given in torus["claims"]] == ["figure_5a"]
-    # 10^3 (1 + 10)/(2 10^16) = 5.5e-13
-    assert limit["title"].endswith("narrower than 1e-12.")
-    for words in ("$epsilon = 0.25$ for $xi = 0.5$", "by 0.048.", "9.3e-18 for", "5.5e-13 for"):
-        assert words in limit["words"]
-    assert "Along the Hopf curves of 2 planes" in limit["words"]
-
-
 MOTION = {**attractor(0.5, 10.0), "scene": "my_scene", "history": 1.0}
 
 
@@ -264,9 +200,9 @@ def test_every_claim_stands_in_the_page_once(smoke, page):
 def test_every_figure_stands_in_the_page(smoke, page):
     shown = Elements(page)
     images = {given["src"]: given["alt"] for tag, given in shown.found if tag == "img"}
-    sentences = {name: captions.first_sentence(caption_of(smoke, name)) for name in FIGURES}
-    assert images == {f"figures/{name}.svg": sentences[name] for name in FIGURES}
-    assert all(f"Rule {name}." in shown.text for name in FIGURES)
+    sentences = {name: captions.first_sentence(caption_of(smoke, name)) for name in paper_figures()}
+    assert images == {f"figures/{name}.svg": sentences[name] for name in paper_figures()}
+    assert all(f"Rule {name}." in shown.text for name in paper_figures())
     # a phone would cut the labels at the right of the Hopf curves
     assert page.count('class="scroll drawn fits"') >= 4
 

@@ -6,8 +6,8 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from conftest import ROOT
 
+from conftest import ROOT
 from scripts.claims.claims_results import VERDICTS
 from scripts.page.write_single_page import in_one_file
 

@@ -12,8 +12,8 @@ from pathlib import Path
 import netCDF4
 import pytest
 import xarray as xr
-from conftest import COMMANDS, ROOT, Programs
 
+from conftest import COMMANDS, ROOT, Programs
 from generator.compile import compile_module
 from generator.definition import overlaid, read_model
 from generator.module import interface_digest, write_module

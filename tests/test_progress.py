@@ -7,6 +7,7 @@ import time
 from typing import IO
 
 import pytest
+
 from conftest import Programs
 
 TOLD = re.compile(

@@ -5,28 +5,27 @@ import re
 import zipfile
 
 from conftest import SMOKE
-
-from scripts.plans.registry import FIGURES, title_of
+from scripts.plans.studies import paper_figures
 
 
 def test_report_holds_figures_captions_and_verdicts(smoke, tmp_path):
     """In one file; the longest plain part of each caption stands for the whole."""
-    report = tmp_path / "report.zip"
+    report, figures = tmp_path / "report.zip", paper_figures()
     run = smoke.snakemake(*SMOKE, "--report", str(report))
     assert run.returncode == 0, run.stdout
     with zipfile.ZipFile(report) as parts:
         files = {name.split("/")[-1] for name in parts.namelist()}
-        assert {"claims.tsv", *(f"{figure}.png" for figure in FIGURES)} <= files
+        assert {"claims.tsv", *(f"{figure}.png" for figure in figures)} <= files
         text = parts.read("report/report.html").decode()
     text = " ".join(text.replace("\\n", " ").split())
-    for figure in FIGURES:
-        caption = (smoke.folder / f"results/figures/{figure}.rst").read_text()
+    for figure in figures.values():
+        caption = (smoke.folder / f"results/figures/{figure.name}.rst").read_text()
         plain_parts = [
             part
             for paragraph in re.split(r"\n\s*\n", caption.replace(":math:", ""))
             for part in re.findall(r"[\w ,;:.()-]+", " ".join(paragraph.split()))
         ]
         assert max(plain_parts, key=len).strip() in text
-        assert f"{figure}.png" in text
-        assert json.dumps({"figure": title_of(figure).rstrip(".")})[1:-1] in text
+        assert f"{figure.name}.png" in text
+        assert json.dumps({"figure": figure.title.rstrip(".")})[1:-1] in text
     assert '"content": "Verdicts"' in text

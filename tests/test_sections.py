@@ -4,8 +4,8 @@ import itertools
 import json
 
 import pytest
-from conftest import Project
 
+from conftest import Project
 from scripts.files.read_config import merge
 from scripts.workflow.plan import read_plan
 

@@ -4,10 +4,9 @@ import re
 import subprocess
 
 import pytest
-from conftest import ROOT, project_files
 
+from conftest import ROOT, project_files
 from scripts.files.read_config import read
-from scripts.results.programs import RUNS
 
 SCRIPTS = [
     *("reproduce", "test", "setup/setup.sh", ".ci/run", "benchmarks/run", "compilers/run"),
@@ -140,10 +139,3 @@ def test_every_command_is_found():
 def test_command_quotes_paths_and_texts(file, command):
     """A folder may hold spaces, a file what a shell would run."""
     assert unquoted(command) == set()
-
-
-def test_jobs_of_the_cluster_ask_for_memory_and_time():
-    """Every rule that takes minutes, and no other rule."""
-    resources = read(ROOT / "profiles" / "slurm" / "config.yaml")["set-resources"]
-    assert set(resources) == {run.rule for run in RUNS if run.takes_minutes}
-    assert all(set(values) == {"mem_mb", "runtime"} for values in resources.values())

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+
 from conftest import ROOT, write_script
 
 NOBODY = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"]

@@ -5,8 +5,9 @@ import re
 import numpy as np
 import pytest
 import xarray as xr
-from conftest import ROOT, trajectory_settings
 from scipy.integrate import solve_ivp
+
+from conftest import ROOT, trajectory_settings
 
 VARIABLES = ["theta", "u", "v"]
 

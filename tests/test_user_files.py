@@ -9,13 +9,13 @@ from pathlib import Path
 import pandas as pd
 import pytest
 import xarray as xr
-from conftest import ROOT, Project, rules_in, write_script
 from dry_runs import jobs_in
 
+from conftest import ROOT, Project, rules_in, write_script
 from scripts.files.read_config import ConfigError, merge, parse, read
-from scripts.namelists.study_cases import measured_study
+from scripts.plans.studies import kinds_of_results
 from scripts.workflow import plan as plans
-from scripts.workflow.plan import CONFIG, added, name_of, read_plan
+from scripts.workflow.plan import added, name_of, read_plan
 
 SMALL = """
 scenes:
@@ -217,7 +217,8 @@ def test_paper_can_be_run_with_other_settings_in_another_folder(smoke, tmp_path)
 def test_scene_of_the_paper_can_be_measured_alone(tmp_path):
     (tmp_path / "mine.yaml").write_text("work_precision: { scenes: { torus: { t_end: 20.0 } } }")
     config = read_plan({"user_file": str(tmp_path / "mine.yaml")}).config
-    assert list(measured_study(config)["cases"]) == ["torus"]
+    assert list(config["work_precision"]["scenes"]) == ["torus"]
+    assert list(config["scenes"]) == ["torus"]
 
 
 @pytest.mark.parametrize("folder", ["scripts", "docs/mine", "README.md"])
@@ -228,7 +229,7 @@ def test_results_lie_in_no_folder_of_sources(folder):
 
 def test_results_lie_beside_others(tmp_path, monkeypatch):
     """In one folder, but neither in other results nor where anything else lies."""
-    monkeypatch.setattr(plans, "CONFIG", tmp_path / "config" / "config.yaml")
+    monkeypatch.setattr(plans, "PROJECT", tmp_path)
     (tmp_path / "other" / "one" / "logs").mkdir(parents=True)
     (tmp_path / "other" / "one" / "index.html").touch()
     (tmp_path / "mixed" / "one" / "logs").mkdir(parents=True)
@@ -250,7 +251,7 @@ def test_new_file_overwrites_none(tmp_path):
     assert "mine" not in path.read_text()
     plan = read_plan({"user_file": str(path)})
     assert plan.results == "results/faults"
-    assert plan.figures == ["scenes/my_scene", "planes/my_plane", "routes/my_route"]
+    assert list(plan.figures) == ["scenes/my_scene", "planes/my_plane", "routes/my_route"]
     assert set(plan.config["scenes"]) == {"my_scene"}
     path.write_text("mine")
     again = write_new_file(path)
@@ -268,21 +269,23 @@ def test_new_file_promises_only_the_folder_that_it_gets(tmp_path, name):
 
 
 def test_folder_is_named_after_the_file():
-    """None of those in the list of results/README.md, and none that Snakemake cannot take."""
+    """No folder of results has this name, and it is none that Snakemake cannot take."""
     assert name_of("/some/where/my-file_2.yaml") == "my-file_2"
-    kinds = set(re.findall(r"`results/(\w+)/", (ROOT / "results" / "README.md").read_text()))
-    for name in (kinds - {"mine"}) | {"page", "a" * 20, "mine" + "-1" * 20, "ab" * 51, "a b"}:
+    others = {"logs", "benchmarks", "docs"}
+    for name in (
+        kinds_of_results() | others | {"page", "a" * 20, "mine" + "-1" * 20, "ab" * 51, "a b"}
+    ):
         with pytest.raises(ConfigError, match="expected a name of letters"):
             name_of(f"{name}.yaml")
 
 
-def test_list_of_what_a_file_adds():
-    whole = read(CONFIG)
+def test_list_of_what_a_file_adds(default_config):
+    whole = default_config
     overlay = read(ROOT / "config" / "new.yaml") | {"atlas": {"ordinate_count": 9}, "cycles": 3}
-    names = {section: found for section, found in added(overlay, whole).items() if found}
+    names = {kind: found for kind, found in added(overlay, whole).items() if found}
     assert names == {
-        **{"scenes": ["my_scene"], "planes": ["my_plane"], "routes": ["my_route"]},
-        "atlas": list(whole["atlas"]["planes"]),
+        **{"scene": ["my_scene"], "plane": ["my_plane"], "route": ["my_route"]},
+        "atlas_plane": list(whole["atlas"]["planes"]),
     }
 
 
@@ -294,7 +297,7 @@ def test_claims_of_a_user_may_name_scenes_of_the_paper(tmp_path):
     )
     plan = read_plan({"user_file": str(tmp_path / "mine.yaml")})
     assert list(plan.config["scenes"]) == ["chaos"]
-    assert plan.figures == []
+    assert plan.figures == {}
     assert "<results>/tables/claims.tsv" in plan.targets()
 
 

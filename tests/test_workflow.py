@@ -8,9 +8,11 @@ from types import SimpleNamespace
 
 import f90nml
 import pytest
-from conftest import ROOT, SMOKE, rules_in
 from dry_runs import Job, data_of_jobs, jobs_in, needed_for
 
+from conftest import ROOT, SMOKE, rules_in
+from scripts.plans.declare import PAPER as PRIORITY
+from scripts.plans.studies import kinds_of_results, runs
 from scripts.workflow.check_run import problem_of
 
 PAPER = [f"figure_{number}" for number in range(1, 9)]
@@ -41,7 +43,7 @@ def test_figures_of_the_paper_come_first(smoke_run):
     """A reader can look at them while the long runs go on."""
     started = re.findall(r"^(?:local)?rule (\w+):", smoke_run[1], flags=re.MULTILINE)
     last = max(started.index(figure) for figure in PAPER)
-    long = {"attractors_runs", "cycles_runs", "exponents_runs", "work_precision_runs"}
+    long = {run.rule for run in runs() if run.minutes and run.priority < PRIORITY}
     before = [rule for rule in started[:last] if rule in long]
     assert len(before) < sum(rule in long for rule in started) / 5
 
@@ -96,7 +98,7 @@ def test_folders_of_results_stand_in_their_readme(smoke):
     assert readme == (ROOT / "results" / "README.md").read_text()
     named = set(re.findall(r"`results/([\w.-]+)", readme))
     made = {path.name for path in (smoke.folder / "results").iterdir()}
-    assert named == (made | {"docs", "mine"}) - {"page", "README.md"}
+    assert made <= named | kinds_of_results() | {"README.md"}
 
 
 def test_second_run_does_nothing(smoke):
@@ -114,8 +116,8 @@ def planned(fresh) -> list[Job]:
 
 TRAJECTORY = {"program", "model", "trajectory"}
 SCENES = {"scene_attractors", "attractors_table"}
-REFERENCE = {"program", "model", "reference"}
-WORK_PRECISION = {"measurement", "trusted_horizons", "work_precision_runs", "work_precision_table"}
+REFERENCE = {"program", "model", "trust_reference"}
+WORK_PRECISION = {"trust_runs", "trusted_horizons", "work_precision_runs", "work_precision_table"}
 CHAOS = {"trajectories/chaos.nc", "spectra/chaos.nc"}
 
 
@@ -133,7 +135,7 @@ CHAOS = {"trajectories/chaos.nc", "spectra/chaos.nc"}
         ("work_precision", REFERENCE | WORK_PRECISION, None),
         (
             "results/references/stability/strong.tsv",
-            REFERENCE,
+            {"program", "model", "stability_reference"},
             {"bin/spring_block_quad", "models_quad/slip_delayed_logarithm.so"},
         ),
     ],

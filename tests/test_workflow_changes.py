@@ -4,10 +4,10 @@ import os
 import shutil
 
 import pytest
-from conftest import ROOT, SMOKE, Project, rules_in
 from dry_runs import data_of_jobs, jobs_in
 
-from scripts.results.programs import RUNS
+from conftest import ROOT, SMOKE, Project, rules_in
+from scripts.plans.studies import runs
 from scripts.workflow.script_imports import modules_of
 
 STYLE = "scripts/drawing/paper.mplstyle"
@@ -22,7 +22,7 @@ def change(project: Project, *names: str) -> None:
 
 
 def scripts() -> list[str]:
-    files = (ROOT / "scripts").glob("*/*.py")
+    files = (ROOT / "scripts").glob("**/*.py")
     marks = ("logged(snakemake.log[0])", "\ndef draw(")
     of_rules = [path for path in files if any(mark in path.read_text() for mark in marks)]
     return sorted(path.relative_to(ROOT).as_posix() for path in of_rules)
@@ -30,8 +30,13 @@ def scripts() -> list[str]:
 
 def test_results_of_a_script_depend_on_what_it_imports():
     """Also on what that imports; what draws depends on the style, too."""
-    files = modules_of("figures/figure_6.py")
-    expected = ["figures/figure_6.py", "drawing/spectra.py", "drawing/style.py", "files/outputs.py"]
+    files = modules_of("studies/power_spectra/figure.py")
+    expected = [
+        "studies/power_spectra/figure.py",
+        "drawing/spectra.py",
+        "drawing/style.py",
+        "files/outputs.py",
+    ]
     found = {path.relative_to(ROOT).as_posix() for path in files}
     assert {STYLE, *(f"scripts/{name}" for name in expected)} <= found
     assert STYLE not in {
@@ -44,7 +49,7 @@ def test_results_of_changed_scripts_are_stale(scratch):
     change(scratch, *scripts())
     said = scratch.snakemake("--summary", *SMOKE).stdout
     rows = [line.split("\t") for line in said.splitlines() if line.count("\t") == 5]
-    programs = {run.rule for run in RUNS} | {"program", "model", "rule"}
+    programs = {run.rule for run in runs()} | {"program", "model", "rule"}
     statuses = {row[2]: row[4] for row in rows if row[2] not in programs}
     assert len(statuses) > 30
     assert {rule: status for rule, status in statuses.items() if status != "params changed"} == {}
@@ -52,7 +57,12 @@ def test_results_of_changed_scripts_are_stale(scratch):
 
 def test_changed_files_of_the_project_make_their_results_anew(scratch):
     """Templates, tables and what the page is made of; a changed style would redraw all figures."""
-    change(scratch, "scripts/figures/figure_6.rst", "benchmarks/measured.tsv", "page/style.css")
+    change(
+        scratch,
+        "scripts/studies/power_spectra/figure_6.rst",
+        "benchmarks/measured.tsv",
+        "page/style.css",
+    )
     run = scratch.snakemake("--dry-run", *SMOKE)
     assert rules_in(run.stdout) == {"all", "page", "captions", "work_precision"}
 
@@ -83,7 +93,7 @@ def test_results_of_an_older_program_are_computed_again(scratch):
         (
             "stability: { families: { spring: { t_end: 11.0 } } }\n"
             "figures: { figure_7: { frequency_shown: 0.9 } }",
-            "reference measurement stability_table stability figure_7",
+            "stability_reference stability_runs stability_table stability figure_7",
             "stability/spring.nc",
         ),
     ],

@@ -8,7 +8,7 @@ from pathlib import Path
 from scripts.files.inputs import Dataset, read
 from scripts.files.tsv import read_table
 from scripts.namelists.laws import law_of
-from scripts.tables.names_of_laws import is_usual
+from scripts.plans import studies
 
 REPRODUCED = "reproduced"
 CORRECTED = "reproduced with a correction"
@@ -17,26 +17,6 @@ NOT_TESTABLE = "not testable"
 VERDICTS = [REPRODUCED, CORRECTED, NOT_REPRODUCED, NOT_TESTABLE]
 ANSWERS = {REPRODUCED: "yes", CORRECTED: "in part", NOT_REPRODUCED: "no"}
 """What a verdict is as the answer to a question of ours."""
-
-FILES = {
-    "curves": "<results>/hopf/{plane}.nc",
-    "cycles": "<results>/cycles/{line}.nc",
-    "chains": "<results>/chains/{chain}.nc",
-    "spectra": "<results>/spectra/{scene}.nc",
-    "slip_events": "<results>/slip_events/{scene}.nc",
-    "routes": "<results>/tables/routes/{route}.tsv",
-    **{
-        name.replace("-", "_"): f"<results>/tables/{name}.tsv"
-        for name in (
-            *("hopf-points", "fault-limit", "linear-stability", "stability", "attractors"),
-            *("velocity-step", "exponents", "atlas", "basins", "cycle-points", "friction-laws"),
-            "event-sizes",
-        )
-    },
-}
-"""Files of the data that tests read, one or one for each entry of a kind."""
-OF_ALL_LAWS = ("friction_laws",)
-"""Data that compare laws."""
 
 
 @dataclass
@@ -69,25 +49,26 @@ def decided_after_correction(
 
 
 class Results:
-    """Contents of `FILES`: rows of tables, data sets by the names of their files.
+    """Data of the studies by name: rows of tables, data sets by the names of their files.
 
     Data that are not given are empty.
     """
 
     def __init__(self, **given) -> None:
-        for name, path in FILES.items():
-            setattr(self, name, given.pop(name, {} if path.endswith(".nc") else []))
+        known = studies.data()
+        for name, maker in known.items():
+            setattr(self, name, given.pop(name, {} if maker.output.endswith(".nc") else []))
         if given:
-            raise ValueError(f"results: {', '.join(given)}; expected some of: {', '.join(FILES)}")
+            raise ValueError(f"results: {', '.join(given)}; expected some of: {', '.join(known)}")
 
     def stability_of(self, scene: str) -> dict:
         """The scene's row of linear stability."""
-        (row,) = _rows_about(self.linear_stability, "linear-stability.tsv", "scene", scene)
+        (row,) = rows_about(self.linear_stability, "linear-stability.tsv", "scene", scene)
         return row
 
     def attractors_of(self, scene: str) -> list[dict]:
         """The scene's attractors, that of its own history first."""
-        rows = _rows_about(self.attractors, "attractors.tsv", "scene", scene)
+        rows = rows_about(self.attractors, "attractors.tsv", "scene", scene)
         return sorted(rows, key=lambda row: row["history"])
 
     def exponents_of(self, scene: str) -> list[tuple[float, float]]:
@@ -105,27 +86,23 @@ class Results:
         """The scene's slip events; to have none is an error."""
         return _data_about(self.slip_events, "results/slip_events", scene)
 
-    def laws_of_events(self, chain: str) -> dict:
-        """The laws of the usual events of a chain."""
-        rows = _rows_about(self.event_sizes, "event-sizes.tsv", "chain", chain)
-        return next(row for row in rows if is_usual(row))
-
     def route(self, name: str) -> list[dict]:
         """Points of a route, of all runs; to have none is an error."""
-        return _rows_about(self.routes, f"routes/{name}.tsv", "route", name)
+        return rows_about(self.routes, f"routes/{name}.tsv", "route", name)
 
 
 def read_results(files: Mapping[str, str | list[str]], law: str | None = None) -> Results:
-    """Read the files, one or several of each kind, by the names of `FILES`.
+    """Read the files, one or several of each kind, by the names of the data.
 
     Of a law alone if it is given: claims about it do not take results of another one.
     """
     given = {}
     for name, listed in files.items():
         paths = [listed] if isinstance(listed, str) else listed
-        if FILES[name].endswith(".tsv"):
+        maker = studies.data()[name]
+        if maker.output.endswith(".tsv"):
             rows = [row for path in paths for row in read_table(path)]
-            one_law = law if name not in OF_ALL_LAWS else None
+            one_law = None if maker.of_all_laws else law
             given[name] = [row for row in rows if one_law in (None, law_of(row))]
         else:
             data = {Path(path).stem: read(path) for path in paths}
@@ -135,7 +112,7 @@ def read_results(files: Mapping[str, str | list[str]], law: str | None = None) -
     return Results(**given)
 
 
-def _rows_about(rows: list[dict], table: str, kind: str, name: str) -> list[dict]:
+def rows_about(rows: list[dict], table: str, kind: str, name: str) -> list[dict]:
     """Rows of a scene or a route; to have none is an error."""
     found = [row for row in rows if row[kind] == name]
     if not found:

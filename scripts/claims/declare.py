@@ -179,8 +179,8 @@ def _add(name: str, number: int, place: str, about: dict) -> None:
     _CLAIMS[name] = number, whose | about
 
 
-def paper_claims() -> dict[str, dict]:
-    """Claims of the paper, and our questions, in the order of their numbers, by name.
+def declared_claims() -> dict[str, dict]:
+    """Claims of the paper, and our questions, that are declared, in the order of their numbers.
 
     In the form of a user's file; beside it, `whose` they are.
     """

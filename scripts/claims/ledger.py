@@ -3,40 +3,36 @@
 import json
 from pathlib import Path
 
-from scripts.claims import (  # noqa: F401  (they declare the claims)
-    claims_of_attractors,
-    claims_of_bifurcations,
-    claims_of_chains,
-    claims_of_cycles,
-    claims_of_events,
-    claims_of_formulas,
-    claims_of_friction,
-    claims_of_laws,
-    claims_of_routes,
-    claims_of_runs,
-    claims_of_spectra,
-    claims_without_test,
-)
+from scripts.claims import claims_without_test  # noqa: F401  (it declares claims)
 from scripts.claims.claims_results import (
     ANSWERS,
-    FILES,
     NOT_TESTABLE,
     Finding,
     Results,
     read_results,
 )
-from scripts.claims.declare import OURS, TESTS, Names, Test, paper_claims  # noqa: F401
+from scripts.claims.declare import OURS, TESTS, Names, Test, declared_claims
 from scripts.config.check_config import in_words, validator_for
 from scripts.files import marked_words
 from scripts.files.outputs import logged, written
 from scripts.files.read_config import ConfigError
 from scripts.files.tsv import write_table
-from scripts.results.paths import cycles_of_lines, exponents_of_scenes, runs_of_basins
+from scripts.plans import studies
+from scripts.plans.declare import Table
+from scripts.plans.studies import inside
 
-TABLES = [Path(path).name for path in FILES.values() if path.endswith(".tsv") and "{" not in path]
-"""Tables that a claim may tell the reader to look at."""
-KINDS = ("scene", "plane", "route", "chain", "event_chain")
-"""What parameters of tests name."""
+studies.load_parts("claims")  # they declare their claims and tests
+
+
+def paper_claims() -> dict[str, dict]:
+    """Claims of the paper and our questions, of all studies and of none, by name."""
+    return declared_claims()
+
+
+def tables_to_look_at() -> list[str]:
+    """Tables that a claim may tell the reader to look at."""
+    outputs = [maker.output for maker in studies.data().values() if isinstance(maker, Table)]
+    return [Path(path).name for path in outputs if path.endswith(".tsv") and "{" not in path]
 
 
 def check_user_claims(said: dict, config: dict, shown: set[str]) -> dict:
@@ -45,7 +41,7 @@ def check_user_claims(said: dict, config: dict, shown: set[str]) -> dict:
     `said` are the claims of a checked configuration, `config` is that whose scenes, planes and
     routes they name. A reader may look at the figures `shown` and at the tables that tests read.
     """
-    shown = {*shown, *TABLES}
+    shown = {*shown, *tables_to_look_at()}
     document = {"claims": said}
     problems = [in_words(error) for error in validator_for(_rules(config)).iter_errors(document)]
     if not problems:
@@ -58,13 +54,7 @@ def check_user_claims(said: dict, config: dict, shown: set[str]) -> dict:
 
 def _rules(config: dict) -> dict:
     """JSON schema of the tests of claims, with the names that the configuration has."""
-    known = {
-        "scene": list(config["scenes"]),
-        "plane": list(config["hopf_curves"]),
-        "route": list(config["routes"]["lines"]),
-        "chain": list(config["chains"]),
-        "event_chain": list(config["event_sizes"]["chains"]),
-    }
+    known = {kind: list(inside(config, keys)) for kind, keys in studies.entries().items()}
     tests = _allow_keys({name: _rules_of(test, known) for name, test in TESTS.items()})
     claim = {"properties": {"test": tests}}
     return {"properties": {"claims": {"additionalProperties": claim}}}
@@ -112,11 +102,7 @@ def _contradictions(claim: dict, shown: set[str]):
 
 
 def inputs_for(claims: dict, config: dict) -> dict[str, list[str]]:
-    """Files that the tests of the claims read, by the names of `Results`.
-
-    Cycles are those that the configuration lists. Tables of exponents and basins are read if it
-    lists some.
-    """
+    """Files that the tests of the claims read, by the names of `Results`."""
     files: dict[str, list[str]] = {}
     for test, parameters in _tests_of(claims):
         for data in test.reads:
@@ -126,27 +112,30 @@ def inputs_for(claims: dict, config: dict) -> dict[str, list[str]]:
 
 
 def _paths(data: str, test: Test, parameters: dict, config: dict) -> list[str]:
-    """Files of these data that a test reads."""
-    optional = {"exponents": exponents_of_scenes, "basins": runs_of_basins}
-    if data == "cycles":
-        return cycles_of_lines(config)
-    if data in optional and not optional[data](config):
+    """Files of these data that a test reads, of entries that it names or else of all.
+
+    There is no table of what the configuration has no entries of.
+    """
+    maker = studies.data()[data]
+    if isinstance(maker, Table) and maker.wanted and not maker.wanted(config):
         return []
-    for kind in KINDS:
-        if f"{{{kind}}}" in FILES[data]:
-            return [FILES[data].format(**{kind: name}) for name in test.names_in(kind, parameters)]
-    return [FILES[data]]
+    path = f"<results>/{maker.output}"
+    for kind, keys in studies.entries().items():
+        if f"{{{kind}}}" in path:
+            names = test.names_in(kind, parameters) or inside(config, keys)
+            return [path.format(**{kind: name}) for name in names]
+    return [path]
 
 
 def names_in(claims: dict) -> dict[str, list[str]]:
-    """Scenes, planes and routes that the tests of the claims name."""
+    """Entries that the tests of the claims name, by the wildcards of their sections."""
     return {
-        f"{kind}s": [
+        kind: [
             name
             for test, parameters in _tests_of(claims)
             for name in test.names_in(kind, parameters)
         ]
-        for kind in KINDS
+        for kind in studies.entries()
     }
 
 

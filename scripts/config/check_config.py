@@ -2,34 +2,27 @@
 
 import copy
 import math
+from collections.abc import Iterator
 from difflib import get_close_matches
 
 import jsonschema
 
-from scripts.config import check_attractors, check_chains, check_laws, si
-from scripts.config.check_attractors import wrong
-from scripts.config.ranges import range_of, rules
+from scripts.config import check_laws, si
+from scripts.config.checks import check_samples, wrong
 from scripts.files.read_config import ConfigError, parse
-from scripts.namelists.laws import own_parameters
-from scripts.namelists.study_cases import cases_of_family, number_of_cases
+from scripts.plans import studies
 
 EQUATIONS = 3
 """Equations of the block: exponents that it has without delay."""
-MOST_CASES = 1000
-"""Cases that one namelist holds."""
-LONGEST_NAME = 64
-"""Letters of a case's name."""
 SIGNS = {"exclusiveMinimum": ">", "minimum": ">=", "exclusiveMaximum": "<", "maximum": "<="}
 """Bounds of numbers in the schema, as messages write them."""
-LONG = 1e4
-"""Time after which a decaying case counts as stationary."""
 
 
 def checked(config: dict) -> dict:
     """Return `config` with its defaults; raise ConfigError naming place, key, value and range."""
     texts: list[tuple[str, str, str]] = []
     problems = list(si.fill_in_parameters(config, texts))
-    schema = check_laws.with_own_parameters(rules(), config)
+    schema = check_laws.with_own_parameters(studies.schema(), config)
     problems = problems or [in_words(e) for e in validator_for(schema).iter_errors(config)]
     problems = problems or list(check_laws.contradictions(config))
     if not problems:
@@ -135,38 +128,18 @@ def _fill_in_ends_of_exponents(config: dict) -> None:
             scene["exponents"].setdefault("t_end", scene["t_end"])
 
 
-def _contradictions(config: dict):
-    """Problems that involve more than one key."""
+def _contradictions(config: dict) -> Iterator[str]:
+    """Problems that involve more than one key: of scenes, of rows of figures, and of studies."""
     scenes = config["scenes"]
     for name, scene in scenes.items():
         yield from _contradictions_of_scene(f"scene '{name}'", scene)
     for figure, settings in config["figures"].items():
         for row, shown in settings["rows"].items():
-            place = f"config figures {figure} rows {row}"
             if shown["scene"] not in scenes:
+                place = f"config figures {figure} rows {row}"
                 yield wrong(place, shown, "scene", f"one of: {', '.join(scenes)}")
-            elif figure == "true_torus" and "attractors" not in scenes[shown["scene"]]:
-                yield wrong(place, shown, "scene", "a scene with the key attractors")
-    for survey in ("attractors", "routes"):
-        if config[survey]["observation"]["kept"] == 0:
-            yield f"config {survey} observation: kept = 0; expected a whole number >= 1"
-    for name, plane in config["hopf_curves"].items():
-        place = f"config hopf_curves {name}"
-        window, own = plane["epsilon_window"], own_parameters(config, plane["law"])
-        yield from check_attractors.window(place, "epsilon_window", window, **range_of("epsilon"))
-        yield from check_attractors.check_axis(place, plane, "ordinate", own, "epsilon")
-        if plane["epsilon_window"][1] <= 0:
-            yield wrong(place, plane, "epsilon_window", "an end > 0")
-    for study in ("stability", "work_precision"):
-        reference = config[study]["reference"]
-        if reference["check_tolerance"] <= reference["tolerance"]:
-            expected = f"a finite number > tolerance = {reference['tolerance']}"
-            yield wrong(f"config {study} reference", reference, "check_tolerance", expected)
-    for name, family in config["stability"]["families"].items():
-        yield from _contradictions_of_family(config, name, family)
-    yield from _contradictions_of_measured(config["work_precision"], scenes)
-    yield from check_attractors.contradictions(config)
-    yield from check_chains.contradictions(config)
+    for checks in studies.load_parts("checks").values():
+        yield from checks.contradictions(config)
 
 
 def _contradictions_of_scene(place: str, scene: dict):
@@ -174,48 +147,10 @@ def _contradictions_of_scene(place: str, scene: dict):
     transient, t_end, wanted = scene["t_transient"], scene["t_end"], scene.get("exponents")
     if transient >= t_end:
         yield wrong(place, scene, "t_transient", f"a finite number >= 0 and < t_end = {t_end}")
-    yield from check_attractors.check_samples(place, scene)
+    yield from check_samples(place, scene)
     if wanted and scene["tau"] == 0 and wanted["count"] > EQUATIONS:
         expected = f"a whole number >= 2 and <= {EQUATIONS} without delay"
         yield wrong(f"{place} exponents", wanted, "count", expected)
     if wanted and wanted["t_end"] <= max(transient, scene["tau"]):
         expected = f"a finite number > t_transient = {transient} and > tau = {scene['tau']}"
         yield wrong(f"{place} exponents", wanted, "t_end", expected)
-
-
-def _contradictions_of_family(config: dict, name: str, family: dict):
-    """Problems of the cases of a family."""
-    place, count = f"config stability families {name}", number_of_cases(family)
-    if count > MOST_CASES:
-        yield f"{place}: {count} combinations; expected at most {MOST_CASES}"
-        return
-    longest = max((case["name"] for case in cases_of_family(config, name)), key=len)
-    if len(longest) > LONGEST_NAME:
-        yield (
-            f"{place}: case '{longest}' of {len(longest)} letters; expected at most {LONGEST_NAME}"
-            " (shorten the family's name)"
-        )
-    if family["reference"] == "stationary" and family["t_end"] < LONG:
-        expected = f"a finite number >= {LONG} where the reference is the stationary state"
-        yield wrong(place, family, "t_end", expected)
-
-
-def _contradictions_of_measured(study: dict, scenes: dict):
-    """Names that mean nothing or two things, and samples too far apart or too many."""
-    place = "config work_precision"
-    for name in study["scenes"]:
-        if name not in scenes:
-            yield (
-                f"{place} scenes: {name!r}; expected one of: {', '.join(scenes)} (or a case with"
-                " its parameters under work_precision cases)"
-            )
-    for name in study["cases"]:
-        if name in scenes:
-            yield (
-                f"{place} cases: {name!r}; expected a name that no scene has (or the scene under"
-                " work_precision scenes)"
-            )
-    runs = len(study["methods"]) * len(study["tolerances"])
-    for kind in ("scenes", "cases"):
-        for name, case in study[kind].items():
-            yield from check_attractors.check_samples(f"{place} {kind} {name}", case, runs)

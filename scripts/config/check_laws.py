@@ -4,7 +4,7 @@ import copy
 
 from scripts.files.read_config import ConfigError
 from scripts.namelists.laws import block_parameters, check_law, definitions, own_parameters
-from scripts.namelists.study_cases import HISTORY
+from scripts.namelists.parameters import HISTORY
 
 
 def with_own_parameters(schema: dict, config: dict) -> dict:

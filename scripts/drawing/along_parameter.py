@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 
 from scripts.drawing.style import FAINT
 from scripts.namelists.laws import is_on
-from scripts.namelists.study_cases import HISTORY
+from scripts.namelists.parameters import HISTORY
 
 
 def mark_scenes(axes: Axes, scenes: dict[str, dict], place: dict, along: str) -> None:

@@ -1,7 +1,7 @@
 """Parameters and numbers as figures write them, with true minus signs."""
 
 from scripts.namelists.laws import OWN, PAPER, law_of, spoken
-from scripts.namelists.study_cases import PARAMETERS
+from scripts.namelists.parameters import PARAMETERS
 
 SYMBOLS = {
     **{"tau": r"\tau", "epsilon": r"\varepsilon", "xi": r"\xi", "gamma": r"\gamma"},

@@ -5,6 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.patheffects import withStroke
 
 from scripts.drawing.style import INK
+from scripts.drawing.wording import short
 
 BASE, HARMONIC, SECOND_BASE, COMBINATION, OTHER = range(5)
 """Values of peak_kind."""
@@ -92,3 +93,21 @@ def reason(spectrum: xr.Dataset) -> str:
     if spectrum.attrs.get("bases_told_apart") == "no":
         reasons.append(f"$f_2/f_1$ not distinguished from {spectrum.attrs['ratio_of_bases']}")
     return ", ".join(reasons)
+
+
+def peaks_in_words(spectrum: xr.Dataset) -> dict:
+    """The two highest peaks, the fundamental frequencies, and the share of broadband power."""
+    peaks = spectrum.isel(peak=(-spectrum.peak_power.values).argsort())
+    frequencies = [short(value, 4) for value in peaks.peak_frequency.values]
+    second = "there is one peak."
+    if len(frequencies) > 1:
+        ratio = short(100 * peaks.peak_power[1] / peaks.peak_power[0], 2)
+        periodic = spectrum.attrs["spectrum_kind"] == "periodic"
+        place = f", which is {int(peaks.peak_multiple[1])} :math:`f_1`," if periodic else ""
+        second = f"the second peak at {frequencies[1]}{place} has {ratio} % of its height."
+    return {
+        "highest": frequencies[0] if frequencies else "no frequency",
+        "second_peak": second,
+        "bases": [short(value, 4) for value in spectrum.base_frequency.values],
+        "off_lines": short(100 * spectrum.attrs["continuum_share"], 2),
+    }

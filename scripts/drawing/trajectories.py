@@ -1,5 +1,6 @@
 """Velocity over time and phase portraits."""
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -7,6 +8,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from scripts.drawing.style import FAINT, INK
+from scripts.drawing.wording import short
 
 MOST_MISSED = 0.01
 """Maxima of v that exceed their samples by a larger share are mentioned."""
@@ -88,3 +90,18 @@ def draw_portrait(axes: Axes, trajectory: xr.Dataset, shown: float) -> None:
     if attractor.v.max() - attractor.v.min() < 0.01 * extent:
         axes.plot(attractor.u[-1], attractor.v[-1], "o", color="C1")
     axes.set(xlabel="displacement $u$", ylabel="velocity $v$")
+
+
+def end_in_words(v: xr.DataArray, motion: dict) -> str:
+    """Maxima of v and the period of a cycle by `motion`, a row of attractors, or else v(t)."""
+    if motion["class"] == "fixed point":
+        far = short(abs(v - 1).max(), 2)
+        return f"at the end v is {far} or less from steady sliding, :math:`v = 1`"
+    least, most = (short(motion.get(f"{end}_maximum", math.nan)) for end in ("smallest", "largest"))
+    if most == "nan":
+        return f"at the end v is between {short(v.min())} and {short(v.max())}"
+    words = f"maxima of v are {most if least == most else f'between {least} and {most}'}"
+    frequency = motion.get("f1", math.nan)
+    if motion["class"] == "cycle" and not math.isnan(frequency):
+        words += f" with a period of {short(1 / frequency)}"
+    return words

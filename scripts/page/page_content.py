@@ -8,7 +8,7 @@ from pathlib import Path
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, VERDICTS
 from scripts.files.read_config import read as read_yaml
 from scripts.page import captions, mathematics
-from scripts.results.manifest import is_measured
+from scripts.plans.studies import is_measured
 
 FIRST = [NOT_REPRODUCED, CORRECTED]
 """Verdicts of claims that stand first in their group."""
@@ -16,8 +16,8 @@ PIXELS = 1.3
 """Pixels of the page for a point of a figure: 7 points are 9 pixels."""
 PHONE = 346
 """Pixels of a figure that is seen as a whole on a phone."""
-MAIN, LAST = "Figures", "Solver"
-"""Categories of the paper's figures, and of those that stand last: they are not about the paper."""
+LAST = "Solver"
+"""The category of the figures that stand last: they are not about the paper."""
 
 
 def read_claims(path: str | Path, folder: Path) -> list[dict]:

@@ -13,6 +13,7 @@ from scripts.files.outputs import logged, written
 from scripts.files.tsv import read_table
 from scripts.page import findings, mathematics, page_content, page_provenance, page_views
 from scripts.page.page_assets import ASSETS, PROJECT
+from scripts.plans.declare import MAIN
 from scripts.tables.motion_rows import COLOURS
 
 TEMPLATES = PROJECT / "page"
@@ -50,7 +51,7 @@ def content(given, params, folder: Path) -> dict:
         paper |= {"block": top.get(BLOCK), "hero": top.get(HERO)}
     at_top = [paper.get("block"), paper.get("hero")]
     groups = page_content.group_figures([one for one in figures if one not in at_top])
-    sections = {"The paper in its order": groups.pop(page_content.MAIN, [])} if paper else groups
+    sections = {"The paper in its order": groups.pop(MAIN, [])} if paper else groups
     data = {path for figure in params.figures for path in figure["data"] if path.endswith(".nc")}
     return {
         "name": folder.name.replace("_", " "),
@@ -77,7 +78,7 @@ def content(given, params, folder: Path) -> dict:
 
 def content_of_paper(given, claims: list[dict]) -> dict:
     """What only the page of the paper has: opening, equations, findings and how to cite."""
-    names = ("attractors", *findings.TABLES)
+    names = ("attractors", *findings.tables_read())
     # a run that failed lacks some
     complete = claims and all(given[name] for name in names)
     tables = {name: read_table(given[name]) for name in names if complete}

@@ -1,1 +1,1 @@
-"""What each figure reads, shows and is called: all that planning a run needs of it."""
+"""What a study declares, and all studies found: all that planning a run needs of them."""

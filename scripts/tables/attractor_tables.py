@@ -8,8 +8,8 @@ from scripts.files.inputs import DataArray, Dataset, read
 from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
 from scripts.namelists.laws import OWN, law_of
-from scripts.namelists.study_cases import HISTORY, PARAMETERS
-from scripts.tables.exponents_table import SIGNS
+from scripts.namelists.parameters import HISTORY, PARAMETERS
+from scripts.tables.exponent_signs import SIGNS
 from scripts.tables.motion_rows import AXES_FIRST, has_problem
 
 SAME_MAXIMUM = 0.02

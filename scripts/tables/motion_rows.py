@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from scripts.namelists.laws import OWN, law_of
-from scripts.namelists.study_cases import HISTORY, PARAMETERS
+from scripts.namelists.parameters import HISTORY, PARAMETERS
 
 UNDECIDED = "undecided"
 AXES_FIRST = ("epsilon", "tau", "xi", "gamma")

@@ -11,32 +11,16 @@ from scripts.claims.declare import OURS
 from scripts.claims.ledger import check_user_claims, names_in, paper_claims
 from scripts.config.check_config import checked
 from scripts.files.read_config import ConfigError, check_size, merge, read
-from scripts.plans import registry
-from scripts.results import paths
-from scripts.results.programs import KINDS
+from scripts.plans import studies
+from scripts.plans.declare import Figure
+from scripts.plans.studies import inside
 
-CONFIG = Path(__file__).parents[2] / "config" / "config.yaml"
+PROJECT = Path(__file__).parents[2]
 RESULTS = "results"
 """The folder of the paper's results; each user's file has a folder of its own in it."""
 NAME = re.compile(r"(?!.*?(.+?)\1{19}\Z)[A-Za-z0-9_-]{1,100}")
 """Names of users' files. Snakemake takes a word that ends with 20 equal parts for an endless
 recursion."""
-SECTIONS = {
-    "scenes": ("scenes",),
-    "atlas": ("atlas", "planes"),
-    "planes": ("hopf_curves",),
-    "chains": ("chains",),
-    "mode_planes": ("chain_modes", "planes"),
-    "event_chains": ("event_sizes", "chains"),
-    "routes": ("routes", "lines"),
-    "cycles": ("cycles", "lines"),
-    "basins": ("basins", "places"),
-    "families": ("stability", "families"),
-    "measured_scenes": ("work_precision", "scenes"),
-    "measured_cases": ("work_precision", "cases"),
-}
-"""Where the configuration has entries with names that a user chooses; the atlas before the planes
-of Hopf curves that it draws."""
 
 
 @dataclass(frozen=True)
@@ -49,16 +33,18 @@ class Plan:
     """The folder of the results."""
     is_users: bool
     """Whether the run is for a user's file."""
-    figures: list[str]
-    """Figures, in the order of the page."""
+    figures: dict[str, Figure]
+    """Figures by name, in the order of the page."""
     claims: dict[str, dict]
     """Claims by name."""
 
     def without(self, unmade: list[str]) -> "Plan":
         """The plan without those figures and claims that a run could not make."""
-        drawn = [
-            name for name in self.figures if f"{self.results}/figures/{name}.svg" not in unmade
-        ]
+        drawn = {
+            name: figure
+            for name, figure in self.figures.items()
+            if f"{self.results}/figures/{name}.svg" not in unmade
+        }
         claims = {} if f"{self.results}/tables/claims.json" in unmade else self.claims
         return replace(self, figures=drawn, claims=claims)
 
@@ -94,32 +80,30 @@ class Plan:
 
     def _data_of_figures(self) -> list[str]:
         """Results that figures read, each once."""
-        read = [path for name in self.figures for path in registry.files_of(name, self.config)]
+        read = [path for one in self.figures.values() for path in one.files_of(self.config)]
         return [path for path in dict.fromkeys(read) if path.startswith("<results>/")]
 
     def tables(self) -> list[str]:
-        """Tables of what is in the configuration, by their paths in the folder of results."""
-        there = {section for section, path in SECTIONS.items() if _inside(self.config, path)}
-        names = [table for table, section in TABLES.items() if section in there]
-        names += ["claims"] * bool(self.claims)
-        in_si = paths.scenes_with(self.config, "si")
-        tables = [f"{name}.tsv" for name in names + ["si"] * bool(in_si)]
-        tables += [f"events/{scene}.csv" for scene in in_si]
-        return [f"<results>/tables/{table}" for table in tables]
+        """Tables of what is in the configuration; others are made where a figure needs them."""
+        values = studies.wildcards(self.config)
+        wanted = [
+            path
+            for _, table in studies.tables()
+            if table.wanted and table.wanted(self.config)
+            for output in (table.output, *table.more_outputs.values())
+            for path in in_full(output, values)
+        ]
+        return [
+            f"<results>/{path}" for path in [*wanted, *["tables/claims.tsv"] * bool(self.claims)]
+        ]
 
 
-TABLES = {
-    "linear-stability": "scenes",
-    "attractors": "scenes",
-    "hopf-points": "planes",
-    "cycle-points": "cycles",
-    "basins": "basins",
-    "stability": "families",
-    "chain-modes": "mode_planes",
-    "event-sizes": "event_chains",
-    "tolerance-proportionality": "measured_scenes",
-}
-"""Tables, and the section whose entries they list. Others are made where a figure needs them."""
+def in_full(path: str, values: dict[str, str]) -> list[str]:
+    """A path with each of the names that its wildcard stands for, if it has one."""
+    names = re.findall(r"{(\w+)}", path)
+    if not names:
+        return [path]
+    return [path.format(**{names[0]: value}) for value in values[names[0]].split("|")]
 
 
 def read_plan(overlay: dict) -> Plan:
@@ -129,9 +113,10 @@ def read_plan(overlay: dict) -> Plan:
     configuration, but for `user_file`, a path. Raises ConfigError in words.
     """
     check_size(overlay, "--config or --configfile")
+    studies.studies()
     overlay = copy.deepcopy(overlay)
     user_file = overlay.pop("user_file", None)
-    whole = merge(read(CONFIG), overlay)
+    whole = merge(studies.merged("config.yaml"), overlay)
     if user_file is None:
         config = checked(whole)
         return plan_of_paper(config, checked_folder(whole["pathvars"]["results"]))
@@ -145,7 +130,7 @@ def read_plan(overlay: dict) -> Plan:
 
 def checked_folder(results: str) -> str:
     """The folder of the results, which lies in none of the project's own."""
-    folder, first = CONFIG.parents[1] / results, results.split("/")[0]
+    folder, first = PROJECT / results, results.split("/")[0]
     above = filter(Path.exists, folder.parents[: results.count("/")])
     is_new = not folder.exists() and all(map(holds_results_alone, above))
     if first != RESULTS and not is_new and not (folder / "logs").is_dir():
@@ -165,9 +150,10 @@ def holds_results_alone(folder: Path) -> bool:
 
 def plan_of_paper(config: dict, folder: str) -> Plan:
     """All of the paper."""
-    used = {scene: registry.variables_used(config, scene) for scene in config["scenes"]}
+    figures = studies.paper_figures()
+    used = {scene: variables_used(config, scene, figures) for scene in config["scenes"]}
     config = set_variables(config, used, least=[])
-    return Plan(config, folder, False, registry.FIGURES, paper_claims())
+    return Plan(config, folder, False, figures, paper_claims())
 
 
 def plan_of_user(whole: dict, names: dict[str, list[str]], folder: str) -> Plan:
@@ -175,13 +161,25 @@ def plan_of_user(whole: dict, names: dict[str, list[str]], folder: str) -> Plan:
     config = checked(whole)
     drawn = {scene: {"u", "v"} for scene in config["scenes"]}
     config = set_variables(config, drawn, least=VARIABLES)
-    figures = registry.user_figures(config, names)
-    claims = check_user_claims(config["claims"], config, {*registry.FIGURES, *figures})
+    figures = studies.user_figures(config, names)
+    claims = check_user_claims(config["claims"], config, {*studies.paper_figures(), *figures})
     if not figures and not claims and not any(names.values()):
         raise ConfigError(
             f"{folder}: the file adds no scene, plane, route, atlas, cycles, family or claim"
         )
     return Plan(restrict(config, names, names_in(claims)), folder, True, figures, claims)
+
+
+def variables_used(config: dict, scene: str, figures: dict[str, Figure]) -> set[str]:
+    """Variables of a scene's trajectory that figures draw, and that its spectrum is computed of."""
+    used = set()
+    for figure in figures.values():
+        files = figure.files_of(config)
+        if f"<results>/trajectories/{scene}.nc" in files:
+            used |= set(figure.variables)
+        if f"<results>/spectra/{scene}.nc" in files:
+            used.add("v")
+    return used
 
 
 def set_variables(config: dict, used: dict[str, set[str]], *, least: list[str]) -> dict:
@@ -205,55 +203,45 @@ VARIABLES = ["theta", "u", "v"]
 def name_of(user_file: str) -> str:
     """Name of the folder of a user's results."""
     name = Path(user_file).stem
-    if name in KINDS | {"logs", "benchmarks", "docs"} or not NAME.fullmatch(name):
+    kinds = studies.kinds_of_results()
+    if name in kinds | {"logs", "benchmarks", "docs"} or not NAME.fullmatch(name):
         raise ConfigError(
             f"{user_file}: its results would be in {RESULTS}/{name}/; expected a name of letters,"
             " digits, _ and -, at most 100, without 20 equal parts at the end, and none of"
-            f" {', '.join(sorted(KINDS))}"
+            f" {', '.join(sorted(kinds))}"
         )
     return name
 
 
 def added(said: dict, whole: dict) -> dict[str, list[str]]:
-    """Names of what a user's file adds or changes, by section.
+    """Names of what a user's file adds or changes, by the wildcards of their sections.
 
     If the file changes shared settings of a section only, all entries of the section.
     """
-    names = {section: list(_inside(said, path)) for section, path in SECTIONS.items()}
-    named = {path[:-1] for section, path in SECTIONS.items() if names[section]}
-    for section, path in SECTIONS.items():
-        if len(path) > 1 and path[:-1] not in named and _inside(said, path[:-1]):
-            names[section] = list(_inside(whole, path))
+    sections = studies.entries()
+    names = {kind: list(inside(said, keys)) for kind, keys in sections.items()}
+    named = {keys[:-1] for kind, keys in sections.items() if names[kind]}
+    for kind, keys in sections.items():
+        if len(keys) > 1 and keys[:-1] not in named and inside(said, keys[:-1]):
+            names[kind] = list(inside(whole, keys))
     return names
 
 
 def restrict(config: dict, *groups: dict[str, list[str]]) -> dict:
-    """The configuration with the entries of these names alone.
-
-    Scenes whose runs are measured stay. The attractors of all scenes are looked for. Planes of Hopf
-    curves in planes of the atlas stay, since the atlas draws them.
-    """
-    kept = copy.deepcopy(config)
-    for section, (first, *rest) in SECTIONS.items():
-        names = {name for group in groups for name in group.get(section, [])}
-        if section == "scenes":
-            names |= {name for group in groups for name in group.get("measured_scenes", [])}
-        if section == "planes":
-            names |= {Path(path).stem for path in paths.curves_of_atlas(kept)}
-        inside = {k: v for k, v in _inside(config, (first, *rest)).items() if k in names}
-        if rest:
-            kept[first][rest[0]] = inside
-        else:
-            kept[first] = inside
-    # motions are told apart of the paper's chains and scenes alone
-    kept["chain_motions"] |= {"chains": [], "scenes": []}
-    for scene in kept["scenes"].values():
-        scene.setdefault("attractors", {})
+    """The configuration with the entries of these names alone, and with those that they use."""
+    kept = with_names_alone(config, *groups)
+    used = [study.uses(kept) for study in studies.studies().values()]
+    kept = with_names_alone(config, *groups, *used)
+    for study in studies.studies().values():
+        study.of_user(kept)
     return kept
 
 
-def _inside(config: dict, path: tuple[str, ...]) -> dict:
-    """A section; empty if it is not there."""
-    for key in path:
-        config = config.get(key) if isinstance(config, dict) else None
-    return config if isinstance(config, dict) else {}
+def with_names_alone(config: dict, *groups: dict[str, list[str]]) -> dict:
+    """The configuration with the entries of these names alone."""
+    kept = copy.deepcopy(config)
+    for kind, (*above, last) in studies.entries().items():
+        names = {name for group in groups for name in group.get(kind, [])}
+        section = inside(kept, tuple(above))
+        section[last] = {name: one for name, one in section[last].items() if name in names}
+    return kept

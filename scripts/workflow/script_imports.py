@@ -1,10 +1,11 @@
-"""A script and the modules of the project that it imports: what it makes depends on them."""
+"""A script and the modules of the project that it loads: what it makes depends on them."""
 
 import ast
 from functools import cache
 from pathlib import Path
 
 from scripts.files.digests import content_of
+from scripts.plans.studies import files_of
 
 SCRIPTS = Path(__file__).parents[1]
 PROJECT = SCRIPTS.parent
@@ -15,14 +16,19 @@ STYLE = SCRIPTS / "drawing" / "paper.mplstyle"
 
 @cache
 def imports_of(path: Path) -> frozenset[Path]:
-    """The modules of the project that a module imports, anywhere in its text."""
-    names = set()
+    """The modules of the project that a module loads, anywhere in its text.
+
+    Beside imports these are modules of the studies, by calls such as `studies.load_parts("claims")`.
+    """
+    names, files = set(), set()
     for node in ast.walk(ast.parse(content_of(path))):
         if isinstance(node, ast.Import):
             names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
             names |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
-    files = (PROJECT.joinpath(*name.split(".")).with_suffix(".py") for name in names)
+        elif isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] == "load_parts":
+            files |= {*files_of(f"{ast.literal_eval(node.args[0])}.py")}
+    files |= {PROJECT.joinpath(*name.split(".")).with_suffix(".py") for name in names}
     return frozenset(file for file in files if file.exists())
 
 

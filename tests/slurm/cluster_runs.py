@@ -16,10 +16,11 @@ from typing import NamedTuple
 
 import psutil
 import pytest
-from conftest import Project, copy_of_project, rules_in
 from slurm_cluster import Cluster
 
-SHORT_PARTS = ("--configfile", "config/smoke.yaml", "tests/slurm/short_parts.yaml")
+from conftest import SMOKE, Project, copy_of_project, rules_in
+
+SHORT_PARTS = (*SMOKE, "tests/slurm/short_parts.yaml")
 ATLAS = "results/tables/atlas.tsv"
 PARTS = [f"results/attractors/atlas/xi_05/{part:04}.nc" for part in range(1, 5)]
 PART = r"results/attractors/atlas/\w+/000[1-4].nc"
@@ -97,7 +98,7 @@ def started(cluster: Cluster, project: Project, *arguments: str) -> SlurmRun:
     command = [Path(sys.executable).parent / "snakemake", "--profile", "profiles/slurm"]
     asked_soon = ["--slurm-init-seconds-before-status-checks", "10"]
     no_accounting = ["--slurm-status-command", "squeue", "--slurm-no-account"]
-    one_core = ["--set-threads", "attractors_runs=1"]
+    one_core = ["--set-threads", "atlas_runs=1"]
     process = subprocess.Popen(
         [*command, *asked_soon, *no_accounting, *one_core, *arguments],
         cwd=project.folder,
@@ -145,7 +146,7 @@ def test_killed_jobs_are_redone_and_nothing_else(cluster, built, tmp_path):
 
     status, log = run_on(cluster, project, *SHORT_PARTS, "--", ATLAS)
     assert status == 0, log
-    assert counted(log, "attractors_runs") == 2
+    assert counted(log, "atlas_runs") == 2
     again = times_of_parts(project)
     assert set(again) - set(made) == victims
     assert {name: again[name] for name in made} == made

@@ -1,1 +1,0 @@
-"""One script and one template of a caption for each figure."""

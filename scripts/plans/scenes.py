@@ -1,0 +1,52 @@
+"""Results of scenes by their paths, and what figures mark of scenes, by the configuration."""
+
+from scripts.namelists.laws import OWN, law_in_words, own_parameters, own_place
+from scripts.namelists.parameters import PARAMETERS
+
+
+def scenes_of(config: dict, figure: str) -> list[str]:
+    """Scenes of a figure's rows, in order."""
+    return [row["scene"] for row in config["figures"][figure]["rows"].values()]
+
+
+def paths_of_scenes(kind: str, scenes: list[str]) -> list[str]:
+    """The results of scenes, of one kind: the name of their folder."""
+    return [f"<results>/{kind}/{scene}.nc" for scene in scenes]
+
+
+def scenes_with(config: dict, key: str) -> list[str]:
+    """Scenes that ask for `exponents` or `attractors`, or that are given in `si`."""
+    return [name for name, scene in config["scenes"].items() if key in scene]
+
+
+def plane_of(config: dict, settings: dict, ordinate: str = "") -> dict:
+    """What an entry has fixed in a plane of epsilon and an ordinate, by default its own."""
+    axes = ("epsilon", ordinate or settings["ordinate"])
+    place = {key: settings.get(key) for key in PARAMETERS} | own_place(config, settings)
+    return {**{key: value for key, value in place.items() if key not in axes}, "ordinate": axes[1]}
+
+
+def marked_scenes(config: dict) -> dict[str, dict]:
+    """Parameters of the scenes that figures mark: those whose attractors are looked for.
+
+    The law's own parameters have their keys in results.
+    """
+    scenes = {name: config["scenes"][name] for name in scenes_with(config, "attractors")}
+    return {
+        name: {
+            **{key: scene[key] for key in PARAMETERS},
+            "law": law_in_words(config, scene),
+            **{f"{OWN}{key}": scene[key] for key in own_parameters(config, scene["law"])},
+        }
+        for name, scene in scenes.items()
+    }
+
+
+def scenes_in_plane(config: dict, settings: dict) -> dict[str, dict]:
+    """Parameters of the marked scenes that lie in a plane of epsilon and its ordinate."""
+    return {
+        name: place
+        for name, place in marked_scenes(config).items()
+        if plane_of(config, config["scenes"][name], settings["ordinate"])
+        == plane_of(config, settings)
+    }

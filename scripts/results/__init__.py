@@ -1,1 +1,0 @@
-"""Paths of results, the programs that make them, and their digests."""

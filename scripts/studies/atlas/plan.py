@@ -1,0 +1,114 @@
+"""The atlas: classes of motion over planes of epsilon and another parameter."""
+
+from pathlib import PurePath
+
+from scripts.namelists.attractor_surveys import survey_groups
+from scripts.plans.declare import LONG_RUN, Figure, Run, Study, Table
+from scripts.plans.scenes import marked_scenes, plane_of
+from scripts.studies.atlas.parts import part_of, refinements_of
+
+
+def groups(config: dict, atlas_plane: str, part: str) -> dict:
+    """Namelist of a part of the atlas: some lines of a plane.
+
+    A part is refined by itself, from every 2**refinements-th of its lines and from the last.
+    """
+    atlas = config["atlas"]
+    settings, refinements = atlas["planes"][atlas_plane], refinements_of(atlas)
+    count = atlas["ordinate_count"]
+    shown = part_of(count, atlas["parts"], int(part), 2**refinements)
+    columns = {"window": atlas["epsilon_window"], "count": atlas["epsilon_count"]}
+    lines = {"window": settings["ordinate_window"], "count": count, "part": shown}
+    name = f"{atlas_plane} part {int(part)} of {atlas['parts']}"
+    place = {**settings, "epsilon": columns, settings["ordinate"]: lines}
+    histories = [atlas["history"]]
+    return survey_groups(
+        config, "atlas", name, place=place, histories=histories, refinements=refinements
+    )
+
+
+def parts_of_plane(config: dict, atlas_plane: str) -> list[str]:
+    """Parts of a plane."""
+    parts = range(1, config["atlas"]["parts"] + 1)
+    return [f"<results>/attractors/atlas/{atlas_plane}/{part:04}.nc" for part in parts]
+
+
+def parts_of_atlas(config: dict) -> list[str]:
+    """Parts of all planes."""
+    return [path for plane in config["atlas"]["planes"] for path in parts_of_plane(config, plane)]
+
+
+def table_of_atlas(config: dict) -> str:
+    """The table of all planes; that of a plane if it is the only one."""
+    planes = list(config["atlas"]["planes"])
+    return f"<results>/tables/atlas{'/' + planes[0] if len(planes) == 1 else ''}.tsv"
+
+
+def within(config: dict, kind: str, entries: dict[str, dict], ordinate: str = "") -> list[str]:
+    """Results of one kind about entries that lie in planes of the atlas."""
+    planes = [plane_of(config, plane) for plane in config["atlas"]["planes"].values()]
+    return [
+        f"<results>/{kind}/{name}.nc"
+        for name, entry in entries.items()
+        if plane_of(config, entry, ordinate) in planes
+    ]
+
+
+def curves_of_atlas(config: dict) -> list[str]:
+    """Hopf curves that lie in planes of the atlas."""
+    return within(config, "hopf", config["hopf_curves"])
+
+
+def inputs(config: dict) -> dict:
+    """Classes of motion, and the Hopf curves and curves of cycles in the same planes."""
+    return {
+        "table": table_of_atlas(config),
+        "curves": curves_of_atlas(config),
+        "cycles": within(config, "cycles", config["cycles"]["lines"], "tau"),
+    }
+
+
+def inputs_of_play(config: dict) -> dict:
+    """Motions at all points, and the tables of their classes."""
+    return {"runs": parts_of_atlas(config), "tables": [table_of_atlas(config)]}
+
+
+FIGURE = {
+    "title": "Figure of the atlas: classes of motion and the largest exponent over epsilon and tau.",
+    "category": "Atlas",
+    "inputs": inputs,
+    "params": lambda config: {"scenes": marked_scenes(config)},
+}
+STUDY = Study(
+    reads=("attractors", "basins", "cycles", "hopf", "scenes"),
+    entries={"atlas_plane": ("atlas", "planes")},
+    wildcards={"part": r"\d+"},
+    runs=(
+        Run(
+            *("atlas_runs", "attractors", "attractors/atlas/{atlas_plane}/{part}.nc", groups),
+            **LONG_RUN,
+        ),
+    ),
+    tables=(
+        Table(
+            *("atlas_table", "tables/atlas.tsv"),
+            lambda config: {"runs": parts_of_atlas(config)},
+            params={"of": lambda _config: "atlas"},
+            script="tables/attractor_tables.py",
+        ),
+        Table(
+            *("atlas_plane_table", "tables/atlas/{atlas_plane}.tsv"),
+            lambda config, atlas_plane: {"runs": parts_of_plane(config, atlas_plane)},
+            params={"of": lambda _config, **_: "atlas"},
+            script="tables/attractor_tables.py",
+        ),
+        Table(
+            *("play_data", "page/play-data.js", inputs_of_play),
+            params={"scenes": marked_scenes},
+            script="play_data.py",
+        ),
+    ),
+    figures=(Figure("atlas", place=310, **FIGURE),),
+    kinds=(Figure("atlas", place=60, shows=("atlas", "planes"), **FIGURE),),
+    uses=lambda config: {"plane": [PurePath(path).stem for path in curves_of_atlas(config)]},
+)

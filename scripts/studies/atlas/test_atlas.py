@@ -1,0 +1,85 @@
+"""The atlas in the workflow: only its own rules, one job a part, and no part twice.
+
+The suites refined_grid and attractor_points show which points of a refined plane are computed.
+"""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from figure_contents import title_of
+from matplotlib import pyplot as plt
+
+from conftest import Programs
+from scripts.files.tsv import read_table, write_table
+from scripts.namelists.write_namelist import write_namelist
+from scripts.studies.atlas import figure as drawing
+from scripts.studies.atlas import play_data
+from scripts.studies.atlas.plan import groups
+from scripts.tables import attractor_tables
+
+
+def test_table_holds_all_points_of_each_plane(smoke, smoke_config):
+    """Every point once, the ends of both windows among them."""
+    rows = read_table(smoke.folder / "results/tables/atlas.tsv")
+    atlas = smoke_config["atlas"]
+    assert len({(row["xi"], row["gamma"]) for row in rows}) == len(atlas["planes"])
+    for plane in atlas["planes"].values():
+        at = plane["xi"], plane["gamma"]
+        places = [(row["epsilon"], row["tau"]) for row in rows if (row["xi"], row["gamma"]) == at]
+        assert len(places) == len(set(places)) == atlas["epsilon_count"] * atlas["ordinate_count"]
+        for axis, window in enumerate((atlas["epsilon_window"], plane["ordinate_window"])):
+            values = [place[axis] for place in places]
+            assert [min(values), max(values)] == window
+
+
+def made_parts(
+    programs: Programs, config: dict, parts: int, refinements: int = 0, **counts: int
+) -> list[Path]:
+    """A plane of the atlas, divided into a number of parts."""
+    config["atlas"] |= {"parts": parts, "refinements": refinements, **counts}
+    paths = []
+    for part in range(1, parts + 1):
+        write_namelist(programs.folder / "input.nml", groups(config, "xi_05", str(part)))
+        paths.append(programs.folder / f"{parts}_{part}_{refinements}.nc")
+        run = programs.run("attractors", "input.nml", paths[-1].name)
+        assert run.returncode == 0, run.stderr
+    return paths
+
+
+@pytest.fixture
+def tiny(smoke_config) -> dict:
+    return {**smoke_config, "atlas": {**smoke_config["atlas"]}}
+
+
+def test_number_of_parts_does_not_matter(programs, tiny):
+    """The tables of a plane in one part and in three are the same."""
+    tables = []
+    for parts in (1, 3):
+        runs = [xr.load_dataset(path) for path in made_parts(programs, tiny, parts)]
+        tables.append(programs.folder / f"{parts}.tsv")
+        write_table(tables[-1], [row for run in runs for row in attractor_tables.rows_of(run)])
+    assert len(read_table(tables[0])) == 16
+    assert tables[0].read_bytes() == tables[1].read_bytes()
+
+
+def test_points_not_computed_reach_table_figure_and_page(programs, tiny):
+    """All of them, with class and without exponents; the page has words for the others."""
+    (path,) = made_parts(programs, tiny, 1, refinements=1, epsilon_count=13, ordinate_count=13)
+    table = programs.folder / "atlas.tsv"
+    write_table(table, attractor_tables.atlas_rows(xr.load_dataset(path)))
+    rows = read_table(table)
+    taken = [row for row in rows if row["computed"] == "no"]
+    assert 0 < len(taken) < len(rows) == 169
+    assert all(row["class"] in ("fixed point", "cycle", "torus", "chaos") for row in taken)
+    assert all(np.isnan(row[key]) for row in taken for key in ("exponent_1", "time", "reason"))
+    figure = drawing.draw(rows, [], [], {})
+    assert f"169 points, {169 - len(taken)} computed, " in title_of(figure.axes[0])
+    known = np.array([row["class"] != "undecided" for row in rows])
+    exponents = figure.axes[1].collections[0].get_array().filled(np.nan).ravel()
+    assert np.isfinite(exponents[known]).all()
+    plt.close(figure)
+    (plane,) = play_data.list_planes(rows, [None] * len(rows), [0.0] * len(rows))
+    in_order = sorted(rows, key=lambda row: (row["tau"], row["epsilon"]))
+    assert list(plane["words"]) == [i for i, row in enumerate(in_order) if row not in taken]

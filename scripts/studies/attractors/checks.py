@@ -1,0 +1,15 @@
+"""Keys of attractors that contradict each other."""
+
+from collections.abc import Iterator
+
+from scripts.config.checks import check_histories, check_observation
+
+
+def contradictions(config: dict) -> Iterator[str]:
+    """Problems of the histories and of the observation."""
+    study = config["attractors"]
+    yield from check_histories("config attractors histories", study["histories"])
+    place = "config attractors observation"
+    yield from check_observation(place, study["observation"], config["spectra"])
+    if study["observation"]["kept"] == 0:
+        yield f"{place}: kept = 0; expected a whole number >= 1"

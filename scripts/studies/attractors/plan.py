@@ -1,0 +1,47 @@
+"""Where the motions of scenes end: classes of attractors from the scene's own history and others."""
+
+from scripts.namelists.attractor_surveys import drawn_histories, survey_groups
+from scripts.plans.declare import PAPER, Run, Study, Table
+from scripts.plans.scenes import paths_of_scenes, scenes_with
+
+
+def groups(config: dict, scene: str) -> dict:
+    """Namelist of a scene: its own history and others."""
+    settings, study = config["scenes"][scene], config["attractors"]
+    count = settings.get("attractors", {}).get("histories", study["count"])
+    others = drawn_histories(count - 1, study["histories"])
+    histories = [settings["history"], *others]
+    return survey_groups(config, "attractors", scene, place=settings, histories=histories)
+
+
+def inputs(config: dict) -> dict:
+    """Attractors of all scenes that ask for them."""
+    return {"runs": paths_of_scenes("attractors/scenes", scenes_with(config, "attractors"))}
+
+
+def of_user(config: dict) -> None:
+    """Look for the attractors of all scenes."""
+    for scene in config["scenes"].values():
+        scene.setdefault("attractors", {})
+
+
+STUDY = Study(
+    reads=("exponents", "linear_stability", "scenes"),
+    runs=(  # the paper's figures 4 and 5 show the classes of the scenes
+        Run(
+            *("scene_attractors", "attractors", "attractors/scenes/{scene}.nc", groups),
+            priority=PAPER,
+            minutes=10,
+        ),
+    ),
+    tables=(
+        Table(
+            *("attractors_table", "tables/attractors.tsv", inputs),
+            params={"of": lambda _config: "scenes"},
+            script="tables/attractor_tables.py",
+            wanted=lambda config: bool(config["scenes"]),
+            priority=PAPER,
+        ),
+    ),
+    of_user=of_user,
+)

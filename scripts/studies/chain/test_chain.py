@@ -1,0 +1,155 @@
+"""Chains of blocks: trajectories, and what is refused."""
+
+import copy
+
+import numpy as np
+import pytest
+from independent_chain import made_up_chain, second_difference, solve_chain
+from scipy.integrate import solve_ivp
+
+from conftest import ROOT
+from scripts.claims.claims_results import NOT_REPRODUCED, REPRODUCED, Results
+from scripts.config.check_config import checked
+from scripts.files.read_config import ConfigError, read
+from scripts.namelists.chains import histories_of
+from scripts.studies.chain.claims import blocks_differ
+from scripts.studies.chain.plan import groups
+from scripts.tables.chain_motions import moves_alike, rests
+
+PLACE = {"tau": 5.0, "epsilon": 0.7, "xi": 0.5, "gamma": 0.8}
+
+
+@pytest.fixture
+def config(filled_config) -> dict:
+    """The paper's configuration with its defaults, to change."""
+    return copy.deepcopy(filled_config)
+
+
+def a_chain(config: dict, **given) -> dict:
+    """A chain with the defaults of the configuration."""
+    config["chains"]["mine"] = {**PLACE, "blocks": 4, "t_end": 20.0, **given}
+    return checked(config)["chains"]["mine"]
+
+
+@pytest.mark.parametrize(
+    ("blocks", "ends"), [(2, "free"), (3, "ring"), (3, "plate"), (5, "free"), (20, "ring")]
+)
+def test_trajectory_is_that_of_another_code(programs, config, blocks, ends):
+    """Random histories; the other code's error is about 1e-11."""
+    draw = np.random.default_rng(blocks).uniform
+    history = {
+        "theta": draw(-0.1, 0.1, blocks).tolist(),
+        "u": draw(-0.1, 0.1, blocks).tolist(),
+        "v": np.exp(draw(-0.3, 0.3, blocks)).tolist(),
+    }
+    how = {"kappa": 1.7, "ends": ends, "sample_interval": 0.5, "tolerance": 1e-11}
+    a_chain(config, blocks=blocks, history=history, **how)
+    found = programs.made_of("trajectory", groups(config, "mine"))
+    assert dict(found.sizes) == {"t": 41, "block": blocks}
+    assert found.attrs.items() >= {"blocks": blocks, "kappa": 1.7, "ends": ends}.items()
+    np.testing.assert_array_equal(found.history_theta, history["theta"])
+    states = solve_chain({**PLACE, **how, **history}, 20.0, 0.005)[::100]
+    for place, values in enumerate((found.theta, found.u, np.log(found.v))):
+        np.testing.assert_allclose(values, states[:, place], rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize("name", ["erickson", "no_delay"])
+def test_chain_without_delay_is_that_of_scipy(programs, config, name):
+    """The chains of Erickson, Birnir and Lavallee."""
+    others = read(ROOT / "config" / "long_chains.yaml")["chains"]
+    chain = (config["chains"] | others)[name]
+    bump = 1.5 * np.exp(-((np.arange(0.0, 21.0, 2.0) - 10.0) ** 2))
+    np.testing.assert_allclose(chain["history"]["u"], bump, rtol=0, atol=1e-6)
+    own = {"t_end": 100.0, "t_transient": 0.0, "tolerance": 1e-11, "variables": ["theta", "u", "v"]}
+    a_chain(config, **{**chain, **own, "disturbance": {"ln_v": 0.0}})
+    found = programs.made_of("trajectory", groups(config, "mine"))
+    epsilon, xi, gamma, kappa = (chain[key] for key in ("epsilon", "xi", "gamma", "kappa"))
+
+    def rates(_, y: np.ndarray) -> np.ndarray:
+        theta, u, w = y.reshape(3, -1)
+        v = np.exp(w)
+        force = u - kappa * second_difference(u, "free") + (theta + w) / xi
+        return np.concatenate([-v * (theta + (1 + epsilon) * w), v - 1, -(gamma**2) / v * force])
+
+    start = np.concatenate([np.zeros(11), chain["history"]["u"], np.zeros(11)])
+    options = {"method": "DOP853", "t_eval": found.t.values, "rtol": 1e-12, "atol": 1e-12}
+    expected = solve_ivp(rates, (0.0, 100.0), start, **options)
+    values = np.concatenate([found.theta, found.u, np.log(found.v)], axis=1)
+    np.testing.assert_allclose(values, expected.y.T, rtol=0, atol=1e-8)
+
+
+def test_disturbance_is_drawn_or_of_one_block(config):
+    """The same for the same seed; sizes are bounds."""
+    drawn = a_chain(config, disturbance={"ln_v": 0.2, "seed": 3})
+    histories = histories_of(drawn)
+    assert histories == histories_of(drawn)
+    assert histories["theta"] == [0.0] * 4
+    changes = np.log(np.array(histories["v"]) / 1.1)
+    assert len(set(changes)) == 4
+    assert (abs(changes) <= 0.2).all()
+    one = histories_of(a_chain(config, disturbance={"u": 0.5, "block": 2}))
+    assert one["u"] == [0.0, 0.5, 0.0, 0.0]
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"blocks": 1}, "blocks = 1; expected number of blocks, a whole number >= 2"),
+        ({"blocks": 2, "ends": "ring"}, "blocks = 2; expected a whole number >= 3 with ends"),
+        ({"kappa": -1.0}, "kappa = -1.0; expected spring constant"),
+        ({"ends": "open"}, "ends = 'open'; expected"),
+        ({"history": {"u": [0.0, 1.0]}}, "u has 2 numbers; expected one number, or 4"),
+        ({"history": {"v": [1.0, 0.0, 1.0, 1.0]}}, "expected"),
+        ({"disturbance": {"block": 5}}, "block = 5; expected a whole number >= 0 and <= blocks"),
+        ({"t_transient": 30.0}, "t_transient = 30.0; expected a finite number >= 0 and < t_end"),
+        ({"sample_interval": 30.0}, "sample_interval = 30.0; expected"),
+        ({"law": "quasistatic_slip_delayed_logarithm", "zeta": 0.1}, "a law with inertia"),
+    ],
+)
+def test_bad_chains_are_refused(config, given, words):
+    """In one line that names the chain, the value and the range."""
+    with pytest.raises(ConfigError, match=r"config chains mine") as refusal:
+        a_chain(config, **given)
+    assert words in str(refusal.value)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (lambda groups: groups.pop("blocks"), "namelist group &blocks: "),
+        (lambda groups: groups["blocks"]["v"].pop(), "block 4 of scene 'mine': v = NaN"),
+        (lambda groups: groups["blocks"]["v"].append(1.0), "namelist group &blocks: "),
+        (lambda groups: groups["scene"]["parameters"].update(ends="open"), "ends"),
+        (lambda groups: groups["scene"]["parameters"].update(kappa=-1.0), "kappa"),
+        (lambda groups: groups["scene"]["parameters"].update(blocks=0), "blocks = 0"),
+        (
+            lambda groups: groups["scene"]["parameters"].update(
+                law="quasistatic_slip_delayed_logarithm", own=[0.1]
+            ),
+            "a chain: law",
+        ),
+    ],
+)
+def test_program_refuses_bad_chains(programs, config, change, words):
+    """Without a file left behind."""
+    a_chain(config)
+    changed = groups(config, "mine")
+    change(changed)
+    run = programs.run_groups("trajectory", changed)
+    assert run.returncode == 1
+    assert words in run.stderr
+    assert programs.left_behind() == []
+
+
+def test_chains_that_move_alike_do_not_show_that_more_blocks_differ():
+    """The verdict is what the chains do."""
+    alike = made_up_chain(np.outer(np.sin(np.arange(30.0)), np.ones(4)))
+    still = made_up_chain(np.zeros((30, 4)))
+    differ = made_up_chain(np.outer(np.sin(np.arange(30.0)), [1.0, -1.0, 0.5, 2.0]))
+    assert moves_alike(alike)
+    assert rests(still)
+    for chains, verdict in (
+        ({"a": alike, "b": still}, NOT_REPRODUCED),
+        ({"a": alike, "b": differ}, REPRODUCED),
+    ):
+        assert blocks_differ(Results(chains=chains), chains=["a", "b"]).verdict == verdict

@@ -1,0 +1,153 @@
+"""Motions of chains of blocks of scenes: the table and its figure."""
+
+import copy
+
+import numpy as np
+import pytest
+
+from scripts.config.check_config import checked
+from scripts.files.read_config import ConfigError
+from scripts.studies.chain_motions import figure as chain_exponents
+from scripts.studies.chain_motions.finding import describe
+from scripts.studies.chain_motions.plan import exponents_groups, groups, motion_chains
+from scripts.studies.chain_motions.table import exponents_of, motion_of, motion_row
+
+
+@pytest.fixture
+def study(filled_config) -> dict:
+    """The paper's configuration with short runs, to change."""
+    config = copy.deepcopy(filled_config)
+    config["chain_motions"] |= {"t_end": 6000.0, "t_transient": 3000.0}
+    return config
+
+
+def row_of(programs, config: dict, motion: str) -> dict:
+    """The row of a chain that the programs compute."""
+    trajectory = programs.made_of("trajectory", groups(config, motion))
+    exponents = programs.made_of("exponents", exponents_groups(config, motion))
+    return motion_row(trajectory, exponents)
+
+
+def test_stiff_springs_keep_blocks_alike(programs, study):
+    """At kappa = 10 two blocks of scene oscillation move as one: a cycle, one zero exponent."""
+    study["chain_motions"]["kappa"] = [10.0]
+    row = row_of(programs, study, "oscillation_2_kappa_10")
+    assert (row["motion"], row["positive_exponents"], row["zero_exponents"]) == (
+        "synchronous",
+        0,
+        1,
+    )
+    assert len(exponents_of(row)) == 4
+
+
+def test_blocks_without_springs_between_have_the_exponents_of_one(programs, study):
+    """kappa = 0: each exponent of the block of scene oscillation twice, but for those of the flow,
+    of which one is not measured.
+    """
+    study["chain_motions"] |= {"kappa": [0.0], "disturbance": {**NO_DISTURBANCE, "ln_v": 0.01}}
+    row = row_of(programs, study, "oscillation_2_kappa_0")
+    values = exponents_of(row)
+    np.testing.assert_allclose(values[:2], 0.0, atol=1e-3)
+    np.testing.assert_allclose(values[2], values[3], atol=1e-3)
+    assert values[2] < -0.001
+
+
+@pytest.mark.parametrize("ends", ["free", "plate"])
+def test_exponents_at_rest_are_those_of_the_linear_chain(programs, study, ends):
+    """Without delay they are real parts of eigenvalues, by NumPy; all blocks come to rest."""
+    place = {"tau": 0.0, "epsilon": 0.12, "xi": 0.5, "gamma": 0.5}
+    study["scenes"]["torus"] |= place
+    study["chain_motions"] |= {"kappa": [0.25], "ends": ends}
+    row = row_of(programs, study, "torus_2_kappa_0_25")
+    epsilon, xi, gamma = place["epsilon"], place["xi"], place["gamma"]
+    second = np.array([[-1.0, 1.0], [1.0, -1.0]]) - (ends == "plate") * np.eye(2)
+    one, none = np.eye(2), np.zeros((2, 2))
+    stretch = -(gamma**2) * (one - 0.25 * second)
+    linear = np.block(
+        [
+            [-one, none, -(1 + epsilon) * one],
+            [none, none, one],
+            [-(gamma**2) / xi * one, stretch, -(gamma**2) / xi * one],
+        ]
+    )
+    expected = sorted(np.linalg.eigvals(linear).real, reverse=True)[:4]
+    assert row["motion"] == "rest"
+    np.testing.assert_allclose(exponents_of(row), expected, atol=2e-3)
+
+
+NO_DISTURBANCE = {"theta": 0.0, "u": 0.0, "ln_v": 0.0, "seed": 1, "block": 0}
+
+
+def test_motion_in_words():
+    """Rest, blocks that move alike or not, chaos."""
+    assert motion_of(True, True, ["negative"]) == "rest"
+    assert motion_of(False, True, ["zero"]) == "synchronous"
+    assert motion_of(False, True, ["positive", "zero"]) == "synchronous, chaotic"
+    assert motion_of(False, False, ["positive"]) == "pattern, chaotic"
+
+
+def test_names_of_chains_are_words(study):
+    """A kappa with a point has none in the name: names are names of files."""
+    study["chain_motions"] |= {"kappa": [0.1], "blocks": [5], "scenes": ["chaos"]}
+    assert list(motion_chains(study)) == [*study["chain_motions"]["chains"], "chaos_5_kappa_0_1"]
+
+
+PLACE = {"ends": "free", "tau": 7.0, "epsilon": 0.7, "xi": 0.5, "gamma": 0.8, "law": "slip"}
+ROWS = [
+    {"chain": "a", "blocks": 2, "kappa": 1.0, "positive_exponents": 1, "exponents": "0.2 0.0 -0.1"},
+    {"chain": "b", "blocks": 4, "kappa": 1.0, "positive_exponents": 3, "exponents": "0.3 0.2 0.1"},
+    {
+        "chain": "torus_2_kappa_9",
+        "blocks": 2,
+        "kappa": 9.0,
+        "positive_exponents": 0,
+        "exponents": "0.0 -0.1",
+    },
+]
+
+
+def test_figure_has_a_line_for_each_chaotic_chain():
+    """Over (number - 1/2)/blocks; the count of positive ones over the blocks."""
+    rows = [{**PLACE, "motion": "pattern", "unclear_exponents": 2, **row} for row in ROWS]
+    spectra, counts = chain_exponents.draw(rows).axes
+    lines = [line.get_xdata().tolist() for line in spectra.lines[:2]]
+    assert lines == [[0.25, 0.75, 1.25], [0.125, 0.375, 0.625]]
+    (line,) = counts.lines
+    assert (list(line.get_xdata()), list(line.get_ydata())) == ([2, 4], [1, 3])
+    (bars,) = counts.collections
+    assert [bar[:, 1].tolist() for bar in bars.get_segments()] == [[1, 3], [3, 5]]
+    (family,) = chain_exponents.numbers(rows)["families"]
+    assert "1 and 2 unclear of 2 blocks" in family["counts"]
+    assert chain_exponents.numbers(rows)["others"] == [
+        r"torus (2 blocks, :math:`\kappa` = 9): pattern"
+    ]
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"scenes": ["nothing"]}, "config chain_motions scenes: 'nothing'; expected one of: fixed"),
+        ({"chains": ["nothing"]}, "config chain_motions chains: 'nothing'; expected one of: pat"),
+        ({"t_end": 900.0}, "config chain_motions: t_end = 900.0; expected a finite number > t_tr"),
+        ({"blocks": [2], "ends": "ring"}, "config chain_motions: blocks = 2; expected a whole num"),
+    ],
+)
+def test_contradictions_are_refused(study, change, said):
+    """One line for each."""
+    study["chain_motions"] |= change
+    with pytest.raises(ConfigError, match=said):
+        checked(study)
+
+
+@pytest.mark.parametrize("holds", [True, False])
+def test_finding_follows_the_table(holds):
+    """The title says the opposite if the results do."""
+    rows = [
+        {"xi": 0.5, "gamma": 0.8, "epsilon": 0.5, "blocks": blocks, "tau": tau}
+        | {"positive_exponents": count}
+        for blocks, tau, count in ((2, 7.0, 1), (9, 7.0, 5), (11, 0.0, 2))
+    ]
+    found = describe({"chain_motions": rows if holds else rows[:1]})
+    assert found["title"].startswith("In chains" if holds else "Chains of blocks are not")
+    assert ("9 blocks with $tau = 7$ have at least 5 positive Lyapunov" in found["words"]) is holds
+    assert ("Without delay 11 blocks have at least 2 positive" in found["words"]) is holds

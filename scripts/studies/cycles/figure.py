@@ -1,0 +1,181 @@
+"""The drawing of plans/cycles.py, and the numbers of its caption."""
+
+from itertools import groupby
+from string import ascii_lowercase
+
+import numpy as np
+import xarray as xr
+from matplotlib import pyplot as plt
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from scripts.drawing import parameters
+from scripts.drawing.along_parameter import mark_scenes, maxima_of
+from scripts.drawing.special_points import STYLES, in_words, words_of
+from scripts.drawing.style import FAINT, INK
+from scripts.drawing.wording import count, counted_at, place_in_words, short
+from scripts.studies.cycles.branches import branch_of
+
+HEIGHT = 1.7
+"""Of a line, in inches."""
+LINES = (
+    {"color": INK, "lw": 2.4, "label": "stable cycle"},
+    {"color": "C1", "lw": 0.8, "label": "1 unstable multiplier"},
+    {"color": "C0", "lw": 0.8, "label": "2 unstable multipliers"},
+    {"color": "C2", "lw": 0.8, "label": "3 or more unstable multipliers"},
+)
+"""How cycles are drawn, by the number of their unstable multipliers."""
+HOPF = {"ls": "", "marker": "o", "ms": 3, "mfc": "white", "color": INK, "label": "Hopf point"}
+SWEEPS = {
+    "up": {"color": "#cc79a7", "ms": 4.2, "zorder": 2},
+    "down": {"color": "#56b4e9", "ms": 2.6, "zorder": 2.5},
+}
+"""Dots of a sweep, lighter than the lines over them. Those of the second are smaller and
+on top: both show where they agree."""
+SMALL = 0.015
+"""Share of the panel's width below which a branch is smaller than the marks of its points."""
+CUT = 1.5
+"""Dots above this many times the greatest v of all branches are cut."""
+SLIDING = {"color": FAINT, "lw": 0.8, "label": "steady sliding", "zorder": 0}
+
+
+def draw(
+    cycles: list[xr.Dataset],
+    sweeps: list[xr.Dataset],
+    directions: list[list[str]],
+    scenes: dict[str, dict],
+) -> Figure:
+    """One line below the other; `directions` of the sweeps by line, in the order of `sweeps`."""
+    figure, panels = plt.subplots(
+        len(cycles), 1, figsize=(6.7, HEIGHT * len(cycles) + 0.6), squeeze=False
+    )
+    drawn: dict[str, Artist] = {}
+    following = iter(sweeps)
+    for i, (axes, line, on_line) in enumerate(zip(panels[:, 0], cycles, directions, strict=True)):
+        along = line.attrs["along"]
+        axes.axhline(1, **SLIDING)
+        for direction in on_line:
+            draw_sweep(axes, direction, next(following), along)
+        draw_branches(axes, line, along)
+        draw_points(axes, line, along)
+        drawn |= {str(artist.get_label()): artist for artist in axes.lines}
+        abscissa = parameters.axis_of(along, line[along].attrs.get("long_name", ""))
+        axes.set(xlabel=abscissa, ylabel="maxima of $v$ (units of $v_0$)")
+        # the names of scenes stand above the dots
+        axes.margins(x=0.01, y=0.18)
+        axes.set_ylim(0, min(axes.get_ylim()[1], CUT * max(line.v_most.values, default=np.inf)))
+        mark_scenes(axes, scenes, line.attrs, along)
+        words = f"{parameters.in_words(line.attrs, along)}: {count_in_words(line)}"
+        axes.set_title(f"$\\bf{{{'abcdefgh'[i % 8]}}}$  {words}")
+    figure.legend(handles=legend_of(drawn), loc="outside lower center", ncols=3)
+    return figure
+
+
+def count_in_words(cycles: xr.Dataset) -> str:
+    """How many branches and special points there are."""
+    branches, points = cycles.sizes["branches"], cycles.sizes["special"]
+    return (
+        f"{branches} {'branch' if branches == 1 else 'branches'},"
+        f" {points} special point{'s' * (points != 1)}"
+    )
+
+
+def draw_sweep(axes: Axes, direction: str, swept: xr.Dataset, along: str) -> None:
+    """A dot for each maximum kept."""
+    style = {"ls": "", "marker": ".", "mew": 0, "rasterized": True, "label": f"sweep {direction}"}
+    axes.plot(*maxima_of(swept, along), **style, **SWEEPS[direction])
+
+
+def draw_branches(axes: Axes, cycles: xr.Dataset, along: str) -> None:
+    """The branches, cut where the number of unstable multipliers changes.
+
+    Dots of sweeps lie over the stable parts and below the others.
+    """
+    for number in range(cycles.sizes["branches"]):
+        x, y, unstable = branch_of(cycles, number + 1, along)
+        cuts = np.flatnonzero(np.diff(unstable)) + 1
+        # a branch of one orbit has no part
+        for part in filter(len, np.split(np.arange(unstable.size), cuts)):
+            count = int(unstable[part[0]])
+            ends = slice(part[0], part[-1] + 2)
+            axes.plot(x[ends], y[ends], **LINES[min(count, 3)], zorder=3 if count else 1)
+
+
+def draw_points(axes: Axes, cycles: xr.Dataset, along: str) -> None:
+    """Special points by their kind, and Hopf points, where a cycle starts from steady sliding.
+
+    Marks would hide a branch that is smaller, so that its points would stand alone.
+    """
+    kinds = np.array(words_of(cycles.special_kind))
+    x, branch = cycles[along].values, cycles.branch.values
+    sizes = [np.ptp(x[branch == number]) for number in cycles.special_branch.values]
+    large = np.array(sizes) > SMALL * np.ptp(axes.get_xlim())
+    for kind, (marker, colour) in STYLES.items():
+        these = cycles.isel(special=(kinds == kind) & large)
+        if these.sizes["special"]:
+            axes.plot(
+                these[f"special_{along}"],
+                these.special_v_most,
+                ls="",
+                marker=marker,
+                ms=3.6,
+                mfc="white",
+                mec=colour,
+                mew=0.9,
+                label=in_words(kind),
+                zorder=5,
+            )
+    if cycles.sizes["hopf"]:
+        places = cycles[f"hopf_{along}"]
+        axes.plot(places, np.ones(places.size), clip_on=False, zorder=4, **HOPF)
+
+
+def legend_of(drawn: dict[str, Artist]) -> list[Artist]:
+    """What is drawn somewhere, in the order of the lists above."""
+    names = [
+        *(str(style["label"]) for style in LINES),
+        *(f"sweep {run}" for run in SWEEPS),
+        *("steady sliding", "Hopf point", *map(in_words, STYLES)),
+    ]
+    return [drawn[name] for name in names if name in drawn]
+
+
+def numbers(cycles: list[xr.Dataset]) -> dict:
+    """Branches, special points and Hopf points of each line, and where stable cycles are."""
+    lines = []
+    for letter, line in zip(ascii_lowercase, cycles, strict=False):
+        along = line.attrs["along"]
+        kinds = words_of(line.special_kind)
+        points = sorted(zip(line[f"special_{along}"].values.tolist(), kinds, strict=True))
+        at = {
+            in_words(kind): [short(x, 4) for x, its_kind in points if its_kind == kind]
+            for kind in dict.fromkeys(kinds)
+        }
+        lines.append(
+            {
+                "letter": letter,
+                "symbol": parameters.symbol_of(along),
+                "place": place_in_words(line.attrs, along),
+                "branches": line.sizes["branches"],
+                "points": [count(len(places), name) for name, places in at.items()],
+                "points_at": [counted_at(name, places) for name, places in at.items()],
+                "hopf": [short(x, 4) for x in np.sort(line[f"hopf_{along}"].values)],
+                "stable": stable_stretches(line, along),
+            }
+        )
+    return {"lines": lines}
+
+
+def stable_stretches(cycles: xr.Dataset, along: str) -> list[str]:
+    """Intervals of the parameter with stable cycles, branch by branch."""
+    found = set()
+    for number in range(1, cycles.sizes["branches"] + 1):
+        x, _, unstable = branch_of(cycles, number, along)
+        for multipliers, parts in groupby(range(unstable.size), key=unstable.__getitem__):
+            pieces = list(parts)
+            if multipliers == 0:
+                values = x[pieces[0] : pieces[-1] + 2]
+                found.add((float(values.min()), float(values.max())))
+    words = [(short(first), short(last)) for first, last in sorted(found)]
+    return [first if first == last else f"{first} to {last}" for first, last in words]

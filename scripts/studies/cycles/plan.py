@@ -1,0 +1,96 @@
+"""Cycles followed along a parameter, stable or not, and their special points."""
+
+from pathlib import PurePath
+
+from scripts.namelists.laws import own_place
+from scripts.namelists.parameters import PARAMETERS, with_parameters
+from scripts.plans.declare import LONGEST, Figure, Run, Study, Table
+from scripts.plans.scenes import marked_scenes
+
+
+def groups(config: dict, cycle_line: str) -> dict[str, dict]:
+    """The line on which cycles are followed, and how."""
+    cycles = config["cycles"]
+    how = {key: value for key, value in cycles.items() if key not in ("lines", "curves")}
+    # curves are in planes of epsilon and tau
+    if cycles["lines"][cycle_line]["along"] in ("epsilon", "tau"):
+        how |= cycles.get("curves", {})
+    # a namelist has no empty lists
+    own = {key: value for key, value in cycles["lines"][cycle_line].items() if value != []}
+    return {"cycles": with_parameters(config, {**how, **own})}
+
+
+def cycles_of_lines(config: dict) -> list[str]:
+    """Cycles followed along all lines."""
+    return [f"<results>/cycles/{line}.nc" for line in config["cycles"]["lines"]]
+
+
+def sweeps_on_lines(config: dict) -> list[list[str]]:
+    """Sweeps on each line of cycles: those of the route with the widest window."""
+
+    def place(settings: dict) -> dict:
+        keys = ("along", *PARAMETERS)
+        return {key: settings.get(key) for key in keys} | own_place(config, settings)
+
+    found = []
+    for settings in config["cycles"]["lines"].values():
+        routes = [
+            (route["window"][1] - route["window"][0], name)
+            for name, route in config["routes"]["lines"].items()
+            if place(route) == place(settings)
+        ]
+        found.append(
+            [
+                f"<results>/attractors/routes/{name}/{run}.nc"
+                for _, name in sorted(routes)[-1:]
+                for run in config["routes"]["sweeps"]
+            ]
+        )
+    return found
+
+
+def inputs_of_points(config: dict) -> dict:
+    """Cycles of each line, and tables of the routes, whose sweeps leave them."""
+    return {
+        "cycles": cycles_of_lines(config),
+        "routes": [f"<results>/tables/routes/{route}.tsv" for route in config["routes"]["lines"]],
+    }
+
+
+def inputs(config: dict) -> dict:
+    """Cycles of each line, and the sweeps of routes on the same lines."""
+    sweeps = [path for on_line in sweeps_on_lines(config) for path in on_line]
+    return {"cycles": cycles_of_lines(config), "sweeps": sweeps}
+
+
+def params(config: dict) -> dict:
+    """Directions of the sweeps on each line, and scenes with known attractors."""
+    directions = [[PurePath(path).stem for path in one] for one in sweeps_on_lines(config)]
+    return {"directions": directions, "scenes": marked_scenes(config)}
+
+
+FIGURE = {
+    "title": "Figure of the cycles followed: their greatest v along a parameter, stable or not.",
+    "inputs": inputs,
+    "params": params,
+}
+STUDY = Study(
+    reads=("attractors", "exponents", "linear_stability", "routes", "scenes"),
+    entries={"cycle_line": ("cycles", "lines")},
+    runs=(
+        Run(
+            *("cycles_runs", "cycles", "cycles/{cycle_line}.nc", groups),
+            data="cycles",
+            priority=LONGEST,
+            minutes=10,
+        ),
+    ),
+    tables=(
+        Table(
+            *("cycle_points", "tables/cycle-points.tsv", inputs_of_points),
+            wanted=lambda config: bool(config["cycles"]["lines"]),
+        ),
+    ),
+    figures=(Figure("cycles", category="Atlas", place=340, **FIGURE),),
+    kinds=(Figure("cycles", category="Cycles", place=50, shows=("cycles", "lines"), **FIGURE),),
+)

@@ -1,0 +1,132 @@
+"""Special points of cycles on all lines as one table."""
+
+from pathlib import Path
+
+import xarray as xr
+
+from scripts.files.inputs import read
+from scripts.files.outputs import logged
+from scripts.files.tsv import as_digits, read_table, write_table
+from scripts.namelists.laws import OWN, law_of
+from scripts.namelists.parameters import PARAMETERS
+from scripts.studies.cycles.branches import cycles_there
+from scripts.tables.attractor_tables import SAME_MAXIMUM
+from scripts.tables.motion_rows import UNDECIDED
+
+NUMBERS = [*PARAMETERS, "period", "v_most"]
+"""Columns with all digits."""
+ERRORS = ["multiplier_error", "mesh_error"]
+"""Columns with two digits."""
+COLUMNS = [
+    *("of", "law", "branch", "origin", "kind", *NUMBERS, "angle", "resonance"),
+    *("unstable_before", "unstable_behind", "criticality", "coefficient", "amplitude"),
+    *("confirmed", *ERRORS, "coefficient_error"),
+]
+JUMP = 0.1
+"""Share by which the greatest v changes where a sweep leaves a cycle for another one."""
+
+
+def rows_of(line: str, cycles: xr.Dataset, swept: list[dict]) -> list[dict]:
+    """The points of one line, branch by branch; `swept` are rows of the sweeps over it.
+
+    Cusps of curves of folds that start on the line follow: they lie beside it, on no branch.
+    """
+    points = [cycles.isel(special=i) for i in range(cycles.sizes["special"])]
+    rows = [{**row_of(point), "confirmed": confirmed(point, cycles, swept)} for point in points]
+    along = cycles.attrs["along"]
+    if along.startswith(OWN):
+        for row, point in zip(rows, points, strict=True):
+            row[along] = as_digits(point[f"special_{along}"], 12)
+    for i in range(cycles.sizes["cusp"]):
+        cusp = place(cycles.isel(cusp=i), "cusp")
+        rows.append({"kind": "cusp", **cusp, "confirmed": "not simulated"})
+    return [{"of": line, "law": law_of(cycles.attrs), **row} for row in rows]
+
+
+def place(point: xr.Dataset, name: str) -> dict:
+    """Where a point lies, with its error; its variables begin with `name`."""
+    return {
+        **{key: as_digits(point[f"{name}_{key}"], 12) for key in NUMBERS},
+        **{key: as_digits(point[f"{name}_{key}"], 2, zero=0) for key in ERRORS},
+    }
+
+
+def row_of(point: xr.Dataset) -> dict:
+    """A special point on a branch; the angle and the resonance p:q next to it are those of tori."""
+    row = {
+        "kind": str(point.special_kind.values),
+        "branch": int(point.special_branch),
+        "origin": str(point.branch_origin.values[int(point.special_branch) - 1]),
+        **place(point, "special"),
+        "unstable_before": int(point.special_unstable_before),
+        "unstable_behind": int(point.special_unstable_behind),
+        "criticality": str(point.special_criticality.values),
+        "coefficient": as_digits(point.special_coefficient, 7, zero=0),
+        "amplitude": as_digits(point.special_amplitude, 4, zero=0),
+        "coefficient_error": as_digits(point.special_coefficient_error, 2, zero=0),
+    }
+    if row["kind"] == "torus":
+        row["angle"] = as_digits(point.special_angle, 12)
+        turns, periods = point.special_resonance_turns, point.special_resonance_periods
+        row["resonance"] = f"{int(turns)}:{int(periods)}"
+    return row
+
+
+def confirmed(point: xr.Dataset, cycles: xr.Dataset, swept: list[dict]) -> str:
+    """Whether a sweep that follows the stable cycle up to the point leaves it there."""
+    along = cycles.attrs["along"]
+    at, most = float(point[f"special_{along}"]), float(point.special_v_most)
+    places = sorted({row[along] for row in swept})
+    beside = [x for x in places if x <= at][-1:] + [x for x in places if x > at][:1]
+    stable_on_no_side = min(int(point.special_unstable_before), int(point.special_unstable_behind))
+    if len(beside) < 2 or stable_on_no_side:
+        return "not simulated"
+    # the point is that of a stable cycle on one of its sides
+    stable = [
+        (abs(cycle.most / most - 1), cycle.most, here, there)
+        for here, there in (beside, beside[::-1])
+        for cycle in cycles_there(cycles, here)
+        if cycle.branch == int(point.special_branch) and cycle.unstable == 0
+    ]
+    if not stable:
+        return "not simulated"
+    _, most, here, there = min(stable)
+    left = []
+    for run in {row["run"] for row in swept}:
+        rows = {row[along]: row for row in swept if row["run"] == run}
+        cycle, other = rows[here], rows[there]
+        share = abs(cycle["largest_maximum"] / most - 1)
+        if cycle["class"] == "cycle" and share < SAME_MAXIMUM and other["class"] != UNDECIDED:
+            left.append(leaves(cycle, other))
+    if not left:
+        return "not simulated"
+    return "yes" if any(left) else "no"
+
+
+def leaves(cycle: dict, other: dict) -> bool:
+    """Whether the next row of a sweep is no longer on a cycle."""
+    jump = abs(other["largest_maximum"] / cycle["largest_maximum"] - 1) > JUMP
+    return other["class"] != "cycle" or other["period"] != cycle["period"] or jump
+
+
+def sweeps_over(cycles: xr.Dataset, routes: list[dict]) -> list[dict]:
+    """Rows of the sweeps of routes on the line of the cycles."""
+    fixed = [key for key in PARAMETERS if key != cycles.attrs["along"]]
+    return [
+        row
+        for row in routes
+        if row["run"] in ("up", "down")
+        and all(row[key] == cycles.attrs[key] for key in fixed)
+        and law_of(row) == law_of(cycles.attrs)
+    ]
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        routes = [row for path in snakemake.input.routes for row in read_table(path)]
+        rows = []
+        for path in snakemake.input.cycles:
+            cycles = read(path)
+            rows += rows_of(Path(path).stem, cycles, sweeps_over(cycles, routes))
+        own = dict.fromkeys(key for row in rows for key in row if key.startswith(OWN))
+        write_table(snakemake.output[0], rows, [*COLUMNS, *own])

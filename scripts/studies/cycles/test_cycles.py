@@ -1,0 +1,126 @@
+"""The table of special points of cycles, from a made-up line with a torus bifurcation at 0.25."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from made_up_results import PLACE, cycles_to_a_torus, followed_cycles
+
+from scripts.namelists.laws import PAPER
+from scripts.studies.cycles.branches import cycles_there
+from scripts.studies.cycles.table import COLUMNS, rows_of, sweeps_over
+
+
+def sweep(*motions: tuple[str, float], run: str = "up", **given) -> list[dict]:
+    """Rows of a sweep at 0.2, 0.3 and so on: class, with points in the section behind a /."""
+    return [
+        {
+            "run": run,
+            **PLACE,
+            "tau": round(0.1 * i + 0.2, 1),
+            "class": met.split("/")[0],
+            "period": float(met.split("/")[1]) if "/" in met else float("nan"),
+            "largest_maximum": most,
+            **given,
+        }
+        for i, (met, most) in enumerate(motions)
+    ]
+
+
+ANOTHER_CYCLE = sweep(("cycle/1", 3.0), ("cycle/1", 3.1))
+
+
+@pytest.mark.parametrize(
+    ("rows", "word"),
+    [
+        (sweep(("cycle/1", 1.2), ("torus", 1.4)), "yes"),
+        (ANOTHER_CYCLE + sweep(("cycle/1", 1.2), ("torus", 1.4), run="down"), "yes"),
+        (sweep(("cycle/1", 1.2), ("cycle/1", 1.5)), "yes"),
+        (sweep(("cycle/1", 1.2), ("cycle/1", 1.25)), "no"),
+        (sweep(("cycle/1", 1.3), ("torus", 1.4)), "not simulated"),
+        (sweep(("cycle/1", 1.2), ("undecided", 1.4)), "not simulated"),
+        (sweep(("cycle/1", 1.2), ("torus", 1.4), xi=0.5), "not simulated"),
+        (sweep(("cycle/1", 1.2), ("torus", 1.4), run="near"), "not simulated"),
+        ([], "not simulated"),
+    ],
+)
+def test_confirmed_by_a_sweep(rows, word):
+    """The sweep follows the stable cycle up to the point, and leaves it beyond."""
+    cycles = cycles_to_a_torus()
+    (row,) = rows_of("mine", cycles, sweeps_over(cycles, rows))
+    assert row["confirmed"] == word
+
+
+def test_a_point_of_unstable_cycles_is_not_simulated():
+    """No simulation stays on them."""
+    cycles = cycles_to_a_torus()
+    cycles["unstable"] = cycles.unstable + 1
+    for side in ("before", "behind"):
+        cycles[f"special_unstable_{side}"] = cycles[f"special_unstable_{side}"] + 1
+    rows = sweep(("cycle/1", 1.2), ("torus", 1.4))
+    (row,) = rows_of("mine", cycles, rows)
+    assert row["confirmed"] == "not simulated"
+
+
+def test_columns_of_a_torus_point():
+    """The coefficient, its error and the amplitude are empty where they were not found."""
+    cycles = cycles_to_a_torus()
+    (row,) = rows_of("mine", cycles, [])
+    assert set(row) == set(COLUMNS)
+    assert (row["tau"], row["angle"], row["resonance"]) == ("0.25", "0.24", "1:4")
+    keys = ("criticality", "coefficient", "coefficient_error", "amplitude")
+    assert [row[key] for key in keys] == ["supercritical", "-0.1234568", "3.2e-10", "0.5432"]
+    cycles["special_criticality"] = ("special", ["not determined"])
+    for key in keys[1:]:
+        cycles[f"special_{key}"] = ("special", [float("nan")])
+    (row,) = rows_of("mine", cycles, [])
+    assert [row[key] for key in keys] == ["not determined", "", "", ""]
+
+
+def test_a_simulated_torus_has_the_amplitude_of_the_table(programs, good_inputs, good_groups):
+    """Beside a torus point a simulation reaches a torus of the amplitude that it predicts."""
+    line = {"along": "tau", "window": [14.0, 15.2], "starts": [], "most_orbits": 30}
+    place = {"epsilon": 0.4, "xi": 0.5, "gamma": 0.8}
+    values = {key: value for key, value in good_inputs["cycles"].items() if key != "tau"}
+    (row,) = rows_of("mine", programs.made_by("cycles", values | line | place), [])
+    assert (row["kind"], row["criticality"]) == ("torus", "supercritical")
+    assert float(row["coefficient"]) < 0
+    assert float(row["coefficient_error"]) < 1e-8
+    distance = 0.02
+    groups = good_groups["attractors"]
+    groups["observation"] |= {"t_transient": 4e4, "t_observed": 2000.0, "tolerance": 1e-8}
+    groups["observation"] |= {"most_steps": 10_000_000}
+    place["tau"] = float(row["tau"]) + distance
+    groups["points"] |= {"xi": place["xi"]}
+    for name in ("epsilon", "tau"):
+        groups["points"] |= {f"{name}_window": [place[name]] * 2, f"{name}_count": 1}
+        groups["points"] |= {f"{name}_part": [1, 1]}
+    groups["points"] |= {"theta": [0.0], "u": [0.0], "v": [1.1]}
+    # a run of some seconds reports its progress
+    done = programs.run_groups("attractors", groups)
+    assert done.returncode == 0, done.stderr
+    found = xr.load_dataset(programs.output)
+    simulated = np.log(found.largest_maximum / found.smallest_maximum).item() / 2
+    assert simulated == pytest.approx(float(row["amplitude"]) * np.sqrt(distance), rel=0.02)
+
+
+def test_a_cusp_lies_beside_the_line():
+    """A cusp has parameters and errors, but neither branch nor stability."""
+    row = rows_of("mine", cycles_to_a_torus(cusps=1), [])[1]
+    place = {"tau": "3.5", "epsilon": "0.5", "xi": "0.8", "gamma": "0.8"}
+    assert row == {
+        **{"of": "mine", "kind": "cusp", "period": "9", "v_most": "2.5", **place, "law": PAPER},
+        **{"confirmed": "not simulated", "multiplier_error": "0.0001", "mesh_error": "1e-10"},
+    }
+
+
+def test_cycles_at_a_value_of_the_parameter():
+    """Between the points of a branch; a closed one ends at its first orbit."""
+    found = cycles_there(cycles_to_a_torus(), 0.24)
+    assert [(cycle.unstable, round(cycle.most, 9)) for cycle in found] == [(0, 1.24)]
+    assert found[0].modulus == pytest.approx(0.98)
+    closed = followed_cycles()
+    closed["multiplier_real"] = (("orbit", "multiplier"), [[0.5]] * 10)
+    closed["multiplier_imaginary"] = (("orbit", "multiplier"), [[0.0]] * 10)
+    both = [cycle for cycle in cycles_there(closed, 0.65) if cycle.branch == 2]
+    assert [round(cycle.most, 9) for cycle in both] == [2.05, 2.55]
+    assert [cycle.unstable for cycle in both] == [0, 0]

@@ -1,0 +1,204 @@
+"""The drawing of plans/event_sizes.py, and the numbers of its caption."""
+
+import math
+
+import numpy as np
+import xarray as xr
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from scripts.drawing.style import INK
+from scripts.drawing.wording import place_in_words, short, with_error
+from scripts.namelists.parameters import PARAMETERS
+from scripts.studies.event_sizes.laws import CONFIDENCE, LARGEST, WINDOW, times_after_main_shocks
+from scripts.studies.event_sizes.names_of_laws import definition_of, is_usual
+
+MARKS = ["o", "s", "^", "D", "v", "P"]
+BINS = np.geomspace(0.3, WINDOW, 10)
+"""Times after a main shock between which events are counted."""
+
+
+def laws_of(laws: list[dict], names: list[str]) -> list[dict]:
+    """Rows of the usual events of the chains of these names, in their order."""
+    return [next(row for row in laws if row["chain"] == n and is_usual(row)) for n in names]
+
+
+def draw(
+    events: list[list[dict]], slips: list[xr.Dataset], laws: list[dict], names: list[str]
+) -> Figure:
+    """Distributions of sizes, also by other definitions; cut-offs; rates after events."""
+    figure, ((sizes, others), (cutoffs, rates)) = plt.subplots(2, 2, figsize=(6.7, 5.6))
+    usual = laws_of(laws, names)
+    for number, (chain, row) in enumerate(zip(events, usual, strict=True)):
+        colour, mark = f"C{number}", MARKS[number % len(MARKS)]
+        of_row = [event for event in chain if event["threshold"] == row["threshold"]]
+        words = f"{row['chain'].replace('_', ' ')}: {row['blocks']:g} blocks"
+        draw_sizes(sizes, [event["size"] for event in of_row], color=colour, label=words)
+        draw_law(sizes, [event["size"] for event in of_row], row, colour)
+        draw_rates(rates, of_row, row, colour, mark)
+    longest = max(range(len(names)), key=lambda i: usual[i]["blocks"])
+    shown = [row for row in laws if row["chain"] in names]
+    styles = styles_of(shown)
+    for row in shown:
+        if row["chain"] == names[longest]:
+            name = definition_of(row)
+            found = sizes_of(row, events[longest], slips[longest])
+            draw_sizes(others, found, label=name, **styles[name])
+    others.legend(fontsize=7)
+    draw_cut_offs(cutoffs, shown, styles)
+    of = names[longest].replace("_", " ")
+    titles = {sizes: "a", others: "b", cutoffs: "c", rates: "d"}
+    for axes, letter in titles.items():
+        axes.set_title(f"$\\bf{{{letter}}}${f'  {of}' if axes is others else ''}")
+    for axes in (sizes, others):
+        axes.set(xlabel="size (units of $L$)", ylabel="share of events at least as large")
+    cutoffs.set(xlabel="blocks", ylabel="cut-off (units of $L$)")
+    rates.axhline(1, color=INK, lw=0.5)
+    rates.set(
+        xlabel="time after a large event ($L/v_0$)",
+        ylabel="rate of events over its mean",
+        ylim=(0, None),
+    )
+    figure.legend(
+        *sizes.get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=7
+    )
+    return figure
+
+
+def sizes_of(row: dict, events: list[dict], slips: xr.Dataset) -> np.ndarray:
+    """Sizes of the events of a chain by the definition of a row."""
+    if row["joined"] == "yes":
+        return np.array([e["size"] for e in events if e["threshold"] == row["threshold"]])
+    start = slips.attrs["t_end"] - row["time"]
+    return slips.slip.values[(slips.threshold == row["threshold"]) & (slips.onset >= start)]
+
+
+def draw_sizes(axes: Axes, sizes, **style) -> None:
+    """The share of events at least as large."""
+    size = np.sort(sizes)
+    share = 1 - np.arange(size.size) / size.size
+    axes.loglog(size, share, lw=1, drawstyle="steps-pre", **style)
+
+
+def draw_law(axes: Axes, sizes: list[float], row: dict, colour: str) -> None:
+    """Above the lower cut-off the fitted power law."""
+    if math.isnan(row["size_exponent"]):
+        return
+    ends = np.array([row["size_least"], row["largest"]])
+    above = np.mean(np.array(sizes) >= row["size_least"])
+    line = above * (ends / ends[0]) ** (1 - row["size_exponent"])
+    axes.loglog(ends, line, color=colour, lw=0.8, ls="--")
+
+
+def styles_of(laws: list[dict]) -> dict[str, dict]:
+    """A colour for each threshold, and a kind of line, by definition."""
+    thresholds = list(dict.fromkeys(row["threshold"] for row in laws))
+    return {
+        definition_of(row): {
+            "color": f"C{thresholds.index(row['threshold'])}",
+            "ls": "-" if row["joined"] == "yes" else ":",
+        }
+        for row in laws
+    }
+
+
+def draw_cut_offs(axes: Axes, laws: list[dict], styles: dict[str, dict]) -> None:
+    """Cut-offs with their intervals over the number of blocks, a mark for each gamma."""
+    marks = dict(zip(dict.fromkeys(row["gamma"] for row in laws), MARKS, strict=False))
+    fitted = [row for row in laws if not math.isnan(row["size_cutoff"])]
+    for name, style in styles.items():
+        for gamma, mark in marks.items():
+            rows = [r for r in fitted if definition_of(r) == name and r["gamma"] == gamma]
+            blocks, middle, low, high = (
+                np.array([row[key] for row in rows])
+                for key in ("blocks", "size_cutoff", "size_cutoff_low", "size_cutoff_high")
+            )
+            bars = [middle - low, np.where(np.isinf(high), 0.0, high - middle)]
+            axes.errorbar(blocks, middle, yerr=bars, marker=mark, ms=3, lw=0.7, **style)
+    axes.set(xscale="log", yscale="log")
+    blocks = sorted({row["blocks"] for row in laws})
+    axes.set_xticks(blocks, [f"{number:g}" for number in blocks])
+    axes.minorticks_off()
+
+
+def draw_rates(axes: Axes, events: list[dict], row: dict, colour: str, mark: str) -> None:
+    """Rates of events after the largest ones over the mean rate, with three standard errors."""
+    onset, duration, size = (
+        np.array([event[key] for event in events]) for key in ("onset", "duration", "size")
+    )
+    shocks, after = times_after_main_shocks(onset, duration, size)
+    if shocks == 0:
+        return
+    counts, _ = np.histogram(after, BINS)
+    expected = shocks * len(events) / row["time"] * np.diff(BINS)
+    axes.errorbar(
+        np.sqrt(BINS[1:] * BINS[:-1]),
+        counts / expected,
+        yerr=3 * np.sqrt(counts) / expected,
+        fmt=mark,
+        color=colour,
+        ms=3,
+        lw=0.6,
+    )
+    axes.set_xscale("log")
+
+
+def numbers(
+    events: list[list[dict]], slips: list[xr.Dataset], laws: list[dict], names: list[str]
+) -> dict:
+    """What the events of each chain are, and the laws that they follow."""
+    usual = laws_of(laws, names)
+    definitions = list(dict.fromkeys(map(definition_of, laws)))
+    cut_offs = {
+        (row["chain"], definition_of(row)): with_interval(row)
+        for row in laws
+        if row["chain"] in names
+    }
+    return {
+        "chains": [numbers_of(row) for row in usual],
+        "cells": [
+            ["cut-off", *(name.replace("_", " ") for name in names)],
+            *([one, *(cut_offs[name, one] for name in names)] for one in definitions),
+            ["slips shuffled", *map(shuffled_in_words, usual)],
+        ],
+        "confidence": short(100 * CONFIDENCE),
+        "largest": short(100 * LARGEST),
+    }
+
+
+def shuffled_in_words(row: dict) -> str:
+    """The cut-off with shuffled slips."""
+    cut_off = row["shuffled_cutoff"]
+    return "too few events" if math.isnan(cut_off) else f"{cut_off:.2g}"
+
+
+def with_interval(row: dict) -> str:
+    """A cut-off with the ends of its interval."""
+    if math.isnan(row["size_cutoff"]):
+        return "too few events"
+    middle, low, high = (row[f"size_cutoff{end}"] for end in ("", "_low", "_high"))
+    return f"{middle:.2g} ({low:.2g} to {high:.2g})"
+
+
+def numbers_of(row: dict) -> dict:
+    """Numbers of one chain in words."""
+    fitted = not math.isnan(row["size_exponent"])
+    shocks = row["aftershock_main_shocks"]
+    return {
+        "cells": [
+            row["chain"].replace("_", " "),
+            f"{row['blocks']:g}",
+            short(row["gamma"]),
+            f"{row['events']:g}",
+            short(row["size_least"]) if fitted else "",
+            with_error(row["size_exponent"], row["size_error"]) if fitted else "too few",
+            short(row["size_goodness"], 2) if fitted else "",
+            short(row["size_cutoff_exponent"], 2) if fitted else "",
+            short(row["size_cutoff_goodness"], 2) if fitted else "",
+            ""
+            if math.isnan(shocks)
+            else with_error(row["aftershock_first"], row["aftershock_first_error"]),
+        ],
+        "place": place_in_words({key: row[key] for key in (*PARAMETERS, "law")}),
+    }

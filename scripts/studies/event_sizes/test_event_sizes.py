@@ -1,0 +1,260 @@
+"""Slip events of chains: the program against a raster, laws against made-up data."""
+
+import copy
+
+import numpy as np
+import powerlaw
+import pytest
+import xarray as xr
+from made_up_results import NO, PARTLY, YES, Results
+from scipy.ndimage import label
+
+from scripts.studies.event_sizes import figure as event_sizes
+from scripts.studies.event_sizes.claims import decaying_aftershocks, power_law_of_sizes
+from scripts.studies.event_sizes.events_table import event_rows
+from scripts.studies.event_sizes.laws import (
+    FEWEST,
+    fit_aftershocks,
+    fit_cut_off,
+    fit_definition,
+    fit_sizes,
+    goodness_of_cut_off,
+    shuffle_slips,
+)
+from scripts.studies.event_sizes.plan import groups
+from scripts.studies.event_sizes.table import rows_of_chain
+
+FINE = 0.01
+RUN = {"t_end": 120.0, "t_transient": 0.0, "sample_interval": FINE, "tolerance": 1e-9}
+
+
+@pytest.fixture
+def config(filled_config) -> dict:
+    """The paper's configuration with its defaults, to change."""
+    return copy.deepcopy(filled_config)
+
+
+@pytest.mark.parametrize(("ends", "threshold"), [("free", 1.0), ("ring", 1.0), ("free", 1.05)])
+def test_events_are_connected_places_of_the_trajectory(programs, config, ends, threshold):
+    """Places above the threshold in a fine raster of blocks and times, by SciPy, are the same."""
+    chain = config["event_sizes"]["chains"]["chaos_100"]
+    chain |= {**RUN, "ends": ends, "blocks": 7, "variables": ["v"]}
+    config["event_sizes"]["thresholds"] = [threshold, 3.0]
+    found = programs.made_of("slip_events", groups(config, "chaos_100"))
+    slips = found.isel(event=found.threshold.values == threshold)
+    run = programs.made_of("trajectory", groups)
+    v = run.v.values
+    labels, _ = label(v > threshold)
+    if ends == "ring":
+        for left, right in zip(labels[:, 0], labels[:, -1], strict=True):
+            if left and right:
+                labels[labels == right] = left
+    steady = np.flatnonzero(run.t >= 20.0)[0]
+    cut = set(labels[:steady].ravel()) | set(labels[-200:].ravel())
+    sizes = np.bincount(labels.ravel(), (v * FINE).ravel())
+    raster = [size for number, size in enumerate(sizes) if size > 0 and number not in cut]
+    rows = [
+        row
+        for row in event_rows(slips, 20.0)
+        if row["onset"] + row["duration"] < run.t.values[-200]
+    ]
+    assert len(rows) == len(raster) > 10
+    found = sorted(row["size"] for row in rows)
+    np.testing.assert_allclose(found, sorted(raster), atol=0.02, rtol=0.02)
+    assert max(row["blocks"] for row in rows) > 1
+
+
+def test_unfinished_events_are_left_out(programs, config):
+    """In a chain that the run ends early no event reaches its end."""
+    config["event_sizes"]["chains"]["chaos_100"] |= {**RUN, "t_end": 40.0, "blocks": 3}
+    slips = programs.made_of("slip_events", groups(config, "chaos_100"))
+    slips = slips.isel(event=slips.threshold.values == 1)
+    rows = event_rows(slips, 0.0)
+    assert rows
+    last = {
+        block: float((slips.onset + slips.recurrence_time)[slips.number_of_block == block].max())
+        for block in (1, 2, 3)
+    }
+    assert all(row["onset"] + row["duration"] <= max(last.values()) for row in rows)
+
+
+def test_block_that_does_not_slip_again_ends_no_event_of_its_neighbour():
+    """Block 1 slips at 10, 20, ... up to 90; block 2 slips at 5 and next at 15, block 3 never."""
+    onset = [5.0, *np.arange(10.0, 91.0, 10.0)]
+    values = {"onset": onset, "duration": [1.0] * 10, "slip": [2.0] * 10}
+    values |= {"recurrence_time": [10.0] * 10, "number_of_block": [2, *[1] * 9]}
+    slips = xr.Dataset({name: ("event", list_of) for name, list_of in values.items()})
+    rows = event_rows(slips.assign_attrs(blocks=3, t_end=101.0, ends="free"), 0.0)
+    assert [row["onset"] for row in rows] == onset
+
+
+def pareto(exponent: float, number: int, seed: int = 1) -> np.ndarray:
+    """Sizes with a density that falls with the exponent from 1 on."""
+    return (1 - np.random.default_rng(seed).random(number)) ** (-1 / (exponent - 1))
+
+
+def test_power_law_is_found():
+    """Its exponent within three standard errors, plausible, and better than an exponential law."""
+    law = fit_sizes(pareto(2.1, 4000))
+    assert law.exponent == pytest.approx(2.1, abs=3 * law.error)
+    assert law.goodness > 0.1
+    assert law.ratios["exponential"][0] > 0 > law.ratios["truncated_power_law"][0] - 1e-9
+
+
+@pytest.mark.filterwarnings("ignore:Fitted parameters:UserWarning")
+def test_cut_off_is_found():
+    """Of sizes thinned by exp(-size/200) the cut-off, and that a pure power law is less likely."""
+    sizes = pareto(1.5, 40000)
+    sizes = sizes[np.random.default_rng(2).random(sizes.size) < np.exp(-sizes / 200)]
+    law = fit_sizes(sizes[:4000])
+    assert 100 < law.cut_off.size < 400
+    assert law.cut_off.exponent == pytest.approx(1.5, abs=0.15)
+    assert law.ratios["truncated_power_law"][0] < 0
+    assert law.ratios["truncated_power_law"][1] < 1e-3
+    other = powerlaw.Fit(sizes[:4000], xmin=law.least, verbose=0).truncated_power_law
+    assert law.cut_off.exponent == pytest.approx(other.parameter1, abs=0.01)
+    assert law.cut_off.size == pytest.approx(1 / other.parameter2, rel=0.03)
+    with_peak = np.append(sizes[:1000], [3.0] * 500)
+    assert law.cutoff_goodness > 0.1 > goodness_of_cut_off(with_peak, 1.0)
+
+
+def test_interval_of_the_cut_off_holds_the_true_one():
+    """In about 95 % of 30 samples; in at least 25 but for a chance of one in 300."""
+    hits = 0
+    for seed in range(30):
+        sizes = pareto(1.5, 4000, seed)
+        sizes = sizes[np.random.default_rng(100 + seed).random(sizes.size) < np.exp(-sizes / 50)]
+        law = fit_cut_off(sizes, 1.0)
+        hits += law.low < 50 < law.high
+    assert hits >= 25
+
+
+def test_law_without_cut_off_has_no_upper_end():
+    assert fit_cut_off(pareto(2.5, 500), 1.0).high == np.inf
+
+
+def test_shuffled_slips_keep_their_number():
+    """Of three slips, one event has two and one has one; few events have no law."""
+    sizes = shuffle_slips(np.array([1.0, 10.0, 100.0]), np.array([2, 1]))
+    assert sizes.sum() == 111.0
+    assert sizes[1] in (1.0, 10.0, 100.0)
+    assert fit_definition(np.arange(1.0, FEWEST)) is None
+
+
+def test_few_events_have_no_law():
+    """Fewer than a fit needs."""
+    few = np.arange(1.0, FEWEST)
+    assert fit_sizes(few) is None
+    assert fit_aftershocks(few, few, few, 1.0) is None
+
+
+def made_up_shocks(decays: bool) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
+    """Events of which one in 20 is large; if it decays, 20 follow each of those as 1/(t + 1)."""
+    random = np.random.default_rng(3)
+    time = 24000.0
+    main = np.arange(100.0, time - 100.0, 200.0)
+    onset = [random.uniform(0.0, time, main.size * (5 if decays else 25)), main]
+    if decays:
+        onset += [shock + (51 ** random.random(20) - 1) for shock in main]
+    onset = np.concatenate(onset)
+    sizes = np.where(np.isin(onset, main), 100.0, 1.0) * (1 + random.random(onset.size))
+    order = np.argsort(onset)
+    return onset[order], np.zeros(onset.size), sizes[order], time
+
+
+def test_decay_after_large_events_is_found():
+    """Exponent 1 and delay 1 of the events drawn, and no decay of events at a constant rate."""
+    law = fit_aftershocks(*made_up_shocks(decays=True))
+    assert law.exponent == pytest.approx(1.0, abs=0.3)
+    assert law.chance < 1e-6
+    assert law.first > 3
+    assert law.over_exponential > 3
+    law = fit_aftershocks(*made_up_shocks(decays=False))
+    assert law.chance > 0.01
+    assert law.first == pytest.approx(1.0, abs=4 * law.first_error)
+
+
+ROW = {
+    **{"threshold": 1.0, "joined": "yes", "blocks": 50.0},
+    **{"size_cutoff_low": 4000.0, "size_cutoff_high": 6000.0},
+    **{"chain": "mine", "events": 1000, "largest": 1e4, "size_least": 10.0, "size_exponent": 1.7},
+    **{
+        "size_error": 0.03,
+        "size_goodness": 0.5,
+        "size_cutoff": 5000.0,
+        "size_cutoff_exponent": 1.5,
+        "size_cutoff_goodness": 0.5,
+    },
+    **{"exponential_ratio": 9.0, "exponential_chance": 0.0, "lognormal_ratio": 0.1},
+    **{"lognormal_chance": 0.9, "truncated_power_law_ratio": 0.0},
+    **{"cutoff_over_exponential_ratio": 9.0, "cutoff_over_exponential_chance": 0.0},
+    **{"cutoff_over_lognormal_ratio": -0.1, "cutoff_over_lognormal_chance": 0.9},
+    **{"truncated_power_law_chance": 1.0, "aftershock_main_shocks": 50},
+    **{"aftershock_first": 3.0, "aftershock_first_error": 0.1, "aftershock_chance": 1e-6},
+    "aftershock_over_exponential": 8.0,
+}
+CUT_OFF = {"truncated_power_law_ratio": -5.0, "truncated_power_law_chance": 1e-7}
+IN_PART = [CUT_OFF, {"size_goodness": 0.01}, {"lognormal_ratio": -5.0, "lognormal_chance": 1e-5}]
+SHORT_OR_LIKE_OTHERS = [
+    {"size_exponent": np.nan},
+    {"largest": 500.0, "size_cutoff": 50.0},
+    {**CUT_OFF, "size_cutoff": 50.0},
+    {**CUT_OFF, "size_cutoff_goodness": 0.01},
+    {**CUT_OFF, "cutoff_over_lognormal_ratio": -5.0, "cutoff_over_lognormal_chance": 1e-6},
+]
+
+
+@pytest.mark.parametrize(
+    ("change", "verdict"),
+    [
+        ({}, YES),
+        *((change, PARTLY) for change in IN_PART),
+        *((change, NO) for change in SHORT_OR_LIKE_OTHERS),
+    ],
+)
+def test_verdict_on_sizes(change, verdict):
+    """A pure power law over two decades; one with a cut-off in part; others not.
+
+    Nor one with a cut-off that another definition of an event does not show.
+    """
+    given = {"chains": ["mine"], "decades": 2.0}
+    rows = [{**ROW, **change}, {**ROW, "threshold": 2.0}]
+    assert power_law_of_sizes(Results(event_sizes=rows), **given).verdict == verdict
+    rows[1]["size_cutoff"] = 20.0
+    found = power_law_of_sizes(Results(event_sizes=rows), **given)
+    assert found.verdict == (NO if verdict == PARTLY else verdict)
+    assert "With v > 2, slips joined, the cut-off is 20 (4e+03 to 6e+03) in mine" in found.evidence
+
+
+@pytest.mark.parametrize(
+    ("change", "verdict"),
+    [
+        ({}, YES),
+        ({"aftershock_over_exponential": 1.0}, NO),
+        ({"aftershock_chance": 0.5}, NO),
+        ({"aftershock_first": 0.5}, NO),
+        ({"aftershock_chance": np.nan}, NO),
+    ],
+)
+def test_verdict_on_aftershocks(change, verdict):
+    """A decay by a power; one that may be exponential; none."""
+    made = Results(event_sizes=[{**ROW, **change}])
+    assert decaying_aftershocks(made, chains=["mine"]).verdict == verdict
+
+
+def test_figure_draws_the_distribution(programs, config):
+    """The line falls from 1 to one event's share; a chain with few events has no fitted line."""
+    config["event_sizes"]["chains"]["chaos_100"] |= {**RUN, "blocks": 3}
+    config["event_sizes"]["thresholds"] = [1.0]
+    slips = programs.made_of("slip_events", groups(config, "chaos_100"))
+    rows = [{"threshold": 1.0, **row} for row in event_rows(slips, 20.0)]
+    given = [rows], [slips], rows_of_chain("mine", slips, rows, 20.0, [1.0, 5.0]), ["mine"]
+    figure = event_sizes.draw(*given)
+    (line,) = figure.axes[0].lines
+    np.testing.assert_allclose(line.get_ydata()[[0, -1]], [1.0, 1 / len(rows)])
+    joined, alone, *above_5 = figure.axes[1].lines
+    assert len(joined.get_ydata()) == len(rows)
+    assert len(alone.get_ydata()) == np.count_nonzero(slips.onset >= 20.0)
+    assert [len(line.get_ydata()) for line in above_5] == [0, 0]
+    (told,) = event_sizes.numbers(*given)["chains"]
+    assert told["cells"][3:6] == [str(len(rows)), "", "too few"]

@@ -1,0 +1,37 @@
+"""Slip events of one block: recurrence times, durations and slips."""
+
+from scripts.namelists.program_groups import scene_groups
+from scripts.plans.declare import Figure, Run, Study
+from scripts.plans.scenes import paths_of_scenes, scenes_of
+
+
+def inputs(config: dict) -> dict:
+    """Slip events of the rows."""
+    return {"slip_events": paths_of_scenes("slip_events", scenes_of(config, "events"))}
+
+
+def params(config: dict) -> dict:
+    """Labels of the rows."""
+    return {"labels": list(config["figures"]["events"]["rows"])}
+
+
+STUDY = Study(
+    reads=("cycles", "scenes"),
+    runs=(
+        Run(
+            *("slip_events", "slip_events", "slip_events/{scene}.nc", scene_groups),
+            data="slip_events",
+        ),
+    ),
+    figures=(
+        Figure(
+            "events",
+            "Figure of slip events: their recurrence times in turn, the distribution of these, and"
+            " slips.",
+            category="Supplement",
+            place=130,
+            inputs=inputs,
+            params=params,
+        ),
+    ),
+)

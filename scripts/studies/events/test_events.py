@@ -1,0 +1,88 @@
+"""Slip events: the program against a trajectory, and the figure."""
+
+import numpy as np
+import pytest
+from made_up_results import slip_events
+from scipy.integrate import solve_ivp
+
+from scripts.studies.events import figure as events
+
+ENDS = {"t_end": 300.0, "t_transient": 100.0}
+FINE = 0.005
+
+
+def test_events_are_those_of_the_trajectory(programs, good_inputs, smoke_config):
+    """Of chaos: v - 1 changes its sign at both ends, and slip is the integral of v between."""
+    scene = {**good_inputs["slip_events"], **ENDS, "sample_interval": FINE, "tolerance": 1e-9}
+    of_chaos = smoke_config["scenes"]["chaos"]
+    scene |= {key: of_chaos[key] for key in ("tau", "epsilon", "xi", "gamma", "history")}
+    found = programs.made_by("slip_events", scene)
+    run = programs.made_by("trajectory", scene)
+    time, v = run.t.values, run.v.values
+    rises = time[1:][(v[:-1] < 1) & (v[1:] >= 1) & (time[:-1] >= ENDS["t_transient"])]
+    assert found.sizes["event"] == rises.size - 1 > 15
+    np.testing.assert_allclose(found.onset, rises[:-1], rtol=0, atol=FINE)
+    np.testing.assert_allclose(found.recurrence_time, np.diff(rises), rtol=0, atol=2 * FINE)
+    for i in range(found.sizes["event"]):
+        event = found.isel(event=i)
+        first, last = float(event.onset), float(event.onset + event.duration)
+        within = (time >= first) & (time <= last)
+        assert (v[within] >= 1).all()
+        slip = np.trapezoid(np.interp(np.linspace(first, last, 20001), time, v)) / 20000
+        assert slip * (last - first) == pytest.approx(float(event.slip), abs=1e-3)
+        assert v[within].max() == pytest.approx(float(event.peak_velocity), rel=1e-3)
+        loading = (time >= last) & (time <= first + float(event.recurrence_time))
+        assert v[loading].min() == pytest.approx(float(event.least_velocity), rel=1e-3)
+
+
+def stuck_cycle(epsilon: float, xi: float, gamma: float) -> tuple[float, float]:
+    """Recurrence time and least velocity without delay, by scipy and, where v < e^-20, by hand.
+
+    There theta' vanishes, u' = -1, and the inertial term of (3) is below v: ln v = -theta - xi u.
+    """
+    slow = np.exp(-20.0)
+
+    def rates(_: float, state: np.ndarray) -> list[float]:
+        theta, u, v = state
+        friction = theta + np.log(max(v, 1e-12))
+        steady = theta + (1 + epsilon) * np.log(max(v, 1e-12))
+        return [-v * steady, v - 1, -(gamma**2) * (u + friction / xi)]
+
+    def stops(_: float, state: np.ndarray) -> float:
+        return state[2] - slow
+
+    def slips(_: float, state: np.ndarray) -> float:
+        return state[2] - 1
+
+    stops.terminal, stops.direction, slips.direction = True, -1, 1
+    time, state, onsets, least = 0.0, [0.0, 0.0, 1.1], [], 0.0
+    for _ in range(4):
+        run = solve_ivp(
+            rates, (time, np.inf), state, "Radau", rtol=1e-9, atol=1e-10, events=[stops, slips]
+        )
+        onsets += list(run.t_events[1])
+        theta, u, _ = run.y_events[0][0]
+        log_v = -theta - xi * u
+        stuck = (-20.0 - log_v) / xi
+        time, state, least = run.t_events[0][0] + stuck, [theta, u - stuck, slow], np.exp(log_v)
+    return float(onsets[-1] - onsets[-2]), float(least)
+
+
+def test_stuck_block_is_that_of_another_solver(programs, good_inputs):
+    """Where v falls to 1e-43 between events, the recurrence time is right to 1e-8."""
+    parameters = {"epsilon": 11.0, "xi": 0.5, "gamma": 0.8}
+    ends = {"tau": 0.0, "t_end": 4000.0, "t_transient": 2000.0, "tolerance": 1e-9}
+    found = programs.made_by("slip_events", {**good_inputs["slip_events"], **parameters, **ends})
+    recurrence_time, least_velocity = stuck_cycle(**parameters)
+    assert found.sizes["event"] > 3
+    np.testing.assert_allclose(found.recurrence_time, recurrence_time, rtol=1e-8)
+    np.testing.assert_allclose(found.least_velocity, least_velocity, rtol=1e-5)
+
+
+def test_share_of_larger_events_is_drawn():
+    """All events have at least the smallest slip, one in four at least the largest of four."""
+    made = slip_events(slip=np.array([4.0, 1.0, 2.0, 8.0])).assign_attrs(scene="chaos")
+    figure = events.draw([made], ["a"])
+    (line,) = figure.axes[2].lines
+    drawn = dict(zip(line.get_xdata()[1:], line.get_ydata()[1:], strict=True))
+    assert drawn == {1.0: 1.0, 2.0: 0.75, 4.0: 0.5, 8.0: 0.25}

@@ -1,0 +1,140 @@
+"""The drawing of plans/exponents.py, and the numbers of its caption."""
+
+from collections import Counter
+
+import numpy as np
+import xarray as xr
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import MaxNLocator
+
+from scripts.drawing.style import FAINT
+from scripts.drawing.wording import with_error
+from scripts.tables.exponent_signs import count_in_words
+
+LEAST_SCALE = 1e-3
+"""Exponents closer to zero than this are drawn on a linear scale."""
+
+
+def draw(runs: list[xr.Dataset], table: list[dict]) -> Figure:
+    """One scene a row: convergence in time, in tolerance, and in the resolution of the history."""
+    figure, grid = plt.subplots(
+        len(runs),
+        3,
+        figsize=(6.7, 0.4 + 2.0 * len(runs)),
+        width_ratios=[2, 1, 0.7],
+        sharey="row",
+        squeeze=False,
+    )
+    for letter, run, (left, middle, right) in zip("abcdefgh", runs, grid, strict=False):
+        draw_times(left, run)
+        draw_tolerances(middle, run.isel(run=np.isnan(run.longest_step)))
+        draw_resolutions(right, run.isel(run=run.tolerance == run.tolerance[0]))
+        scene = run.attrs["scene"]
+        words = spectrum_in_words(rows_at_own_step(table, scene))
+        left.set_title(f"$\\bf{{{letter}}}$  scene {scene.replace('_', ' ')}: {words}")
+    handles = legend_of(max(run.sizes["exponent"] for run in runs))
+    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
+    grid[-1, 0].set_xlabel("time averaged over")
+    grid[-1, 1].set_xlabel("tolerance of one step")
+    grid[-1, 2].set_xlabel("mean step")
+    return figure
+
+
+def legend_of(exponents: int) -> list[Line2D]:
+    """The exponents by their colours, the largest first."""
+    return [
+        Line2D([], [], marker="o", ms=2.5, lw=0.8, color=f"C{i % 8}", label=rf"$\lambda_{i + 1}$")
+        for i in range(exponents)
+    ]
+
+
+def rows_at_own_step(table: list[dict], scene: str) -> list[dict]:
+    """Exponents of a scene at its own tolerance and steps, the largest first."""
+    rows = [row for row in table if row["scene"] == scene]
+    return [row for row in rows if row["mean_step"] == rows[0]["mean_step"]]
+
+
+def spectrum_in_words(rows: list[dict]) -> str:
+    """How many exponents are positive and zero, and the dimension."""
+    signs = Counter(row["sign"] for row in rows)
+    value, error = rows[0]["dimension"], rows[0]["dimension_error"]
+    dimension = f"{value:.2f} ± {error:.2f}" if error != 0 else f"{value:g}"
+    if np.isnan(value):
+        dimension = "not reached by these exponents"
+    return f"{count_in_words(signs)}; Kaplan-Yorke dimension {dimension}"
+
+
+def draw_times(axes: Axes, run: xr.Dataset) -> None:
+    """Plain averages up to each time; at the end the values and their error bars."""
+    elapsed = run.t - run.attrs["t_begin"]
+    for i in range(run.sizes["exponent"]):
+        axes.plot(elapsed, run.running_average[:, i], color=f"C{i % 8}", lw=0.8)
+    end = run.attrs["t_end"] - run.attrs["t_begin"]
+    draw_bars(axes, run, 0, np.full(run.sizes["exponent"], 1.03 * end))
+    axes.set(xlim=(0, 1.06 * end), ylabel=r"exponent $\lambda_i$")
+    scale(axes)
+
+
+def draw_tolerances(axes: Axes, run: xr.Dataset) -> None:
+    """Values and error bars at each tolerance, side by side."""
+    spread = 10 ** np.linspace(-0.3, 0.3, run.sizes["exponent"])
+    for k, tolerance in enumerate(run.tolerance.values):
+        draw_bars(axes, run, k, tolerance * spread)
+    axes.set_xscale("log")
+    scale(axes)
+
+
+def draw_resolutions(axes: Axes, run: xr.Dataset) -> None:
+    """Values and error bars at each mean step, side by side."""
+    steps = run.mean_step.values
+    spread = 0.05 * steps.max() * np.linspace(-1, 1, run.sizes["exponent"])
+    for k, step in enumerate(steps):
+        draw_bars(axes, run, k, step + spread)
+    axes.set_xlim(0, 1.15 * steps.max())
+    axes.xaxis.set_major_locator(MaxNLocator(3))
+    scale(axes)
+
+
+def draw_bars(axes: Axes, run: xr.Dataset, k: int, places: np.ndarray) -> None:
+    """All exponents of one run."""
+    for i, place in enumerate(places):
+        axes.errorbar(
+            place,
+            float(run.value[k, i]),
+            float(run.error[k, i]),
+            fmt="o",
+            ms=2.5,
+            capsize=2,
+            lw=0.8,
+            color=f"C{i % 8}",
+        )
+
+
+def scale(axes: Axes) -> None:
+    """Logarithmic away from zero, so that small exponents and large ones can be read."""
+    axes.axhline(0, color=FAINT, lw=0.6, zorder=0)
+    axes.set_yscale("symlog", linthresh=LEAST_SCALE)
+
+
+def numbers(runs: list[xr.Dataset], table: list[dict]) -> dict:
+    """How many exponents of each scene are positive and zero, their values, the dimension."""
+    scenes = []
+    for scene in (run.attrs["scene"] for run in runs):
+        rows = rows_at_own_step(table, scene)
+        signs = [row["sign"] for row in rows]
+        values = [with_error(row["exponent"], row["error"]) for row in rows]
+        scenes.append(
+            {
+                "name": scene.replace("_", " "),
+                "positive": signs.count("positive"),
+                "zero": signs.count("zero"),
+                "unclear": signs.count("unclear"),
+                "largest": values[0],
+                "all": values,
+                "dimension": with_error(rows[0]["dimension"], rows[0]["dimension_error"]),
+            }
+        )
+    return {"scenes": scenes}

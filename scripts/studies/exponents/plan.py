@@ -1,0 +1,51 @@
+"""Lyapunov exponents of scenes: running averages, by tolerance and by resolution of the history."""
+
+from scripts.namelists.parameters import zero_of
+from scripts.namelists.program_groups import scene_groups
+from scripts.plans.declare import LONG_RUN, Figure, Run, Study, Table
+from scripts.plans.scenes import paths_of_scenes, scenes_with
+
+
+def groups(config: dict, scene: str) -> dict[str, dict]:
+    """A scene and how its exponents are measured, by default up to its own end."""
+    settings, shared = config["scenes"][scene], config["exponents"] | zero_of(config)
+    default = {"count": shared.pop("count"), "t_end": settings["t_end"]}
+    exponents = {**default, **settings.get("exponents", {}), **shared}
+    return {**scene_groups(config, scene), "exponents": exponents}
+
+
+def runs_of_scenes(config: dict) -> list[str]:
+    """Exponents of all scenes that ask for them."""
+    return paths_of_scenes("exponents", scenes_with(config, "exponents"))
+
+
+FIGURE = {
+    "title": "Figure of exponents: running averages; values by tolerance and by resolution of the"
+    " history.",
+    "inputs": lambda config: {
+        "runs": runs_of_scenes(config),
+        "table": "<results>/tables/exponents.tsv",
+    },
+}
+STUDY = Study(
+    reads=("attractors", "scenes"),
+    runs=(Run("exponents_runs", "exponents", "exponents/{scene}.nc", groups, **LONG_RUN),),
+    tables=(
+        Table(
+            *("exponents_table", "tables/exponents.tsv"),
+            lambda config: {"runs": runs_of_scenes(config)},
+            wanted=lambda config: bool(runs_of_scenes(config)),
+        ),
+    ),
+    figures=(Figure("exponents", category="Supplement", place=110, **FIGURE),),
+    kinds=(
+        Figure(
+            *("exponents",),
+            category="Exponents",
+            place=20,
+            shows=("scenes",),
+            entries_with="exponents",
+            **FIGURE,
+        ),
+    ),
+)

@@ -1,0 +1,79 @@
+"""The least epsilon of all Hopf curves."""
+
+from decimal import Decimal, localcontext
+
+import pytest
+import xarray as xr
+
+from scripts.studies.fault_limit import table as fault_limit_table
+from scripts.workflow.plan import read_plan
+
+CONFIG = read_plan({}).config
+
+
+def least_by_6(gamma: float, xi: float) -> tuple[Decimal, Decimal]:
+    """The least epsilon by (6) without the delay, and omega^2, in 160 digits by ternary search.
+
+    (6) gives X sin(omega tau) and X cos(omega tau), X = omega (1 + epsilon) gamma^2/xi.
+    """
+    square, xi = Decimal(gamma) ** 2, Decimal(xi)
+
+    def epsilon(x: Decimal) -> Decimal:
+        sine = x * (square / xi + 1) - square
+        cosine = x - square * (1 + xi) / xi
+        return ((sine**2 + x * cosine**2) / (x * (square / xi) ** 2)).sqrt() - 1
+
+    low, high = Decimal(0), 10 * square * xi / (xi + square)
+    for _ in range(700):
+        one, two = (2 * low + high) / 3, (low + 2 * high) / 3
+        low, high = (low, two) if epsilon(one) < epsilon(two) else (one, high)
+    return epsilon(low), low
+
+
+@pytest.mark.parametrize("xi", [0.3, 0.5, 2.0])
+@pytest.mark.parametrize("gamma", [0.1, 0.8, 3.0, 10.0, 1e4, 1e8, 1e12])
+def test_least_epsilon_in_many_digits(gamma, xi):
+    """Against (6); also its distance from gamma^2 xi/(xi + gamma^2), down to 1e-50."""
+    row = fault_limit_table.row_of(xi, gamma)
+    with localcontext(prec=160):
+        least, x = least_by_6(gamma, xi)
+        without = Decimal(gamma) ** 2 * Decimal(xi) / (Decimal(xi) + Decimal(gamma) ** 2)
+        depth = float(without - least)
+    assert row["depth"] == pytest.approx(depth, rel=1e-10)
+    assert row["least"] == pytest.approx(float(least), rel=1e-13)
+    assert row["without_delay"] == pytest.approx(float(without), rel=1e-14)
+    assert row["omega"] == pytest.approx(float(x.sqrt()), rel=1e-10)
+
+
+@pytest.mark.parametrize("gamma", [10.0, 100.0, 1e4, 1e12])
+def test_leading_order(gamma):
+    """xi^3 (1 + xi)/(2 gamma^4), but for a share of size 1/gamma^2."""
+    row = fault_limit_table.row_of(0.5, gamma)
+    assert row["depth"] == pytest.approx(row["leading_order"], rel=1 / gamma**2 + 1e-14)
+
+
+@pytest.mark.parametrize("gamma", [0.3, 0.8, 3.0, 10.0, 30.0])
+def test_least_epsilon_is_on_a_curve_of_the_program(programs, gamma):
+    """Which knows (7) to (10) alone: none of its points is lower, and one is that low."""
+    row = fault_limit_table.row_of(0.5, gamma)
+    window = [row["least"] - row["depth"], row["least"] + 0.9 * row["depth"]]
+    plane = CONFIG["hopf_curves"]["tau_of_epsilon"] | {"gamma": gamma, "cells": 4}
+    curves = programs.made_by("hopf", plane | {"epsilon_window": window})
+    lowest = curves.isel(point=int(curves.epsilon.values.argmin()))
+    assert 0 <= float(lowest.epsilon) - row["least"] + 1e-14 < 1e-4 * row["depth"]
+    assert set(curves.branch.values) == set(range(1, curves.branch.values.max() + 1))
+    first = curves.isel(point=curves.branch.values == 1)
+    tau = float(first.tau[int(first.epsilon.values.argmin())])
+    assert tau == pytest.approx(row["tau"], rel=0.02)
+
+
+def test_no_delay_destabilises_at_large_gamma(smoke):
+    """At gamma = 1e8 the program counts no root to the right below epsilon = xi, at any delay; at
+    gamma = 0.8 it does below the Hopf point without delay.
+    """
+    for plane, unstable in (("tau_of_epsilon_fault", False), ("tau_of_epsilon", True)):
+        curves = xr.load_dataset(smoke.folder / "results" / "hopf" / f"{plane}.nc")
+        row = fault_limit_table.row_of(0.5, curves.attrs["gamma"])
+        stable = curves.map_unstable_pairs[:, curves.map_epsilon.values < row["without_delay"]]
+        assert stable.sizes["map_epsilon"] > 5
+        assert bool((stable > 0).any()) is unstable

@@ -1,0 +1,14 @@
+"""The model as the paper draws it."""
+
+from scripts.plans.declare import MAIN, Figure, Study
+
+STUDY = Study(
+    figures=(
+        Figure(
+            "figure_1",
+            "Figure 1: block and spring between loader plate and rough surface (a drawing, no data).",
+            category=MAIN,
+            place=10,
+        ),
+    )
+)

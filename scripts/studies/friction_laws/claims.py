@@ -1,0 +1,55 @@
+"""What of the paper's conclusion depends on its law of friction."""
+
+from scripts.claims.claims_results import Finding, Results, decided, short
+from scripts.claims.declare import Gamma, question, reads, says, tested_with
+from scripts.namelists.laws import spoken
+from scripts.studies.friction_laws.table import rows_of_planes, scenes_of, shares_of
+from scripts.tables.motion_rows import kind_of
+
+CHAOTIC, PERIODIC = "delayed_logarithm", "delayed_velocity"
+"""Places of the delay, as the names of laws end: those with chaos, and those without."""
+
+
+@question(61, "chaos_depends_on_place_of_delay", look_at="friction_laws")
+@says(
+    "Does the place of the delay, and not the law of friction, decide whether there is chaos at"
+    " $gamma = 0.8$?"
+)
+@tested_with(gamma=0.8)
+@reads("friction_laws")
+def place_of_delay_decides(results: Results, *, gamma: Gamma) -> Finding:
+    """Whether in all planes at this gamma chaos is found if the delay stands in the logarithm.
+
+    And in none under the laws with the delayed velocity itself.
+    """
+    shares = shares_of(rows_of_planes(results.friction_laws))
+    chaotic = {
+        place: [
+            share["kinds"]["chaos"] > 0
+            for share in shares
+            if share["gamma"] == gamma and share["law"].endswith(place)
+        ]
+        for place in (CHAOTIC, PERIODIC)
+    }
+    words = []
+    for place in dict.fromkeys((share["gamma"], share["xi"]) for share in shares):
+        here = [share for share in shares if (share["gamma"], share["xi"]) == place]
+        counts = [f"{share['kinds']['chaos']} ({spoken(share['law'])})" for share in here]
+        words.append(
+            f"At $gamma = {short(place[0])}$, $xi = {short(place[1])}$ of {here[0]['points']}"
+            f" points these are chaotic: {', '.join(counts)}."
+        )
+    return decided(
+        bool(chaotic[CHAOTIC]) and all(chaotic[CHAOTIC]) and not any(chaotic[PERIODIC]),
+        f"{' '.join(words)} Each point has one history. {scenes_in_words(results)}",
+        "Laws with the delay in the same place differ.",
+    )
+
+
+def scenes_in_words(results: Results) -> str:
+    """Classes of the paper's scenes under each law."""
+    parts = []
+    for scene, rows in scenes_of(results.friction_laws).items():
+        kinds = [f"{kind_of(row)} ({spoken(row['law'])})" for row in rows]
+        parts.append(f"Scene {scene}: {', '.join(kinds)}.")
+    return " ".join(parts)

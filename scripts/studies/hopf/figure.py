@@ -1,0 +1,147 @@
+"""The drawing of plans/plane.py, and the numbers of its caption."""
+
+import numpy as np
+import xarray as xr
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap, Normalize
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from scripts.drawing.hopf_plane import SCENE, SUBCRITICAL, draw_piece, mark_scenes
+from scripts.drawing.parameters import axis_of, in_words, symbol_of
+from scripts.drawing.special_points import words_of
+from scripts.drawing.style import INK
+from scripts.drawing.wording import counted_at, place_in_words, short
+
+DARKEST = 0.3
+"""How much darker than white the most unstable pairs are."""
+MARKERS = {
+    "generalised_hopf": ("D", "generalised Hopf point"),
+    "double_hopf": ("s", "double Hopf point"),
+    "hopf_without_delay": ("^", "Hopf point without delay"),
+}
+
+
+def draw(curves: xr.Dataset, scenes: dict[str, dict[str, float]]) -> Figure:
+    """Curves by branch, solid where supercritical, over unstable pairs; scenes of this plane."""
+    ordinate = curves.attrs["ordinate"]
+    figure, axes = plt.subplots(figsize=(3.6, 4.6))
+    axes.set(xlim=window_of(curves.map_epsilon.values), ylim=window_of(curves.map_ordinate.values))
+    shades = shade(axes, curves)
+    ends = []
+    for piece in np.unique(curves.piece):
+        line = curves.isel(point=curves.piece.values == piece)
+        branch = int(line.branch[0])
+        colour = f"C{branch % 8}"
+        x, y = line.epsilon.values, line[ordinate].values
+        draw_piece(axes, x, y, line.l1.values, colour)
+        last = x.argmax() if x.max() > 0.99 * axes.get_xlim()[1] else y.argmax()
+        ends.append((float(y[last]), float(x[last]), branch, colour))
+    points = mark_special_points(axes, curves)
+    label_branches(axes, ends)
+    mark_scenes(axes, scenes, ordinate)
+    axes.set_title(in_words(curves.attrs, "epsilon", ordinate), pad=14)
+    meaning = curves[ordinate].attrs.get("long_name", "")
+    axes.set(xlabel=axis_of("epsilon"), ylabel=axis_of(ordinate, meaning))
+    kinds = {"supercritical": "-", "subcritical": SUBCRITICAL} if ends else {}
+    handles = [Line2D([], [], color=INK, ls=ls, label=kind) for kind, ls in kinds.items()]
+    marked = [Line2D([], [], label="scene", **SCENE)] if scenes else []
+    bar = figure.colorbar(shades, ax=axes, label="unstable pairs", location="bottom")
+    bar.set_ticks(range(round(shades.norm.vmax - 0.5) + 1))
+    figure.legend(handles=handles + points + marked, loc="outside lower center", ncols=2)
+    return figure
+
+
+def window_of(centres: np.ndarray) -> tuple[float, float]:
+    """The ends of the window of which these are the centres of the cells."""
+    half = (centres[-1] - centres[0]) / (2 * (centres.size - 1)) if centres.size > 1 else centres[0]
+    return float(centres[0] - half), float(centres[-1] + half)
+
+
+def shade(axes: Axes, curves: xr.Dataset):
+    """The number of unstable pairs, white where there is none."""
+    pairs = curves.map_unstable_pairs.values
+    most = max(int(pairs.max()), 1)
+    greys = ListedColormap([str(1 - DARKEST * i / most) for i in range(most + 1)])
+    return axes.pcolormesh(
+        curves.map_epsilon,
+        curves.map_ordinate,
+        pairs,
+        cmap=greys,
+        norm=Normalize(-0.5, most + 0.5),
+        rasterized=True,
+        zorder=0,
+    )
+
+
+def mark_special_points(axes: Axes, curves: xr.Dataset) -> list[Line2D]:
+    """Points where the kind of the bifurcation changes, and their names for the legend."""
+    handles = []
+    kinds = curves.special_kind.values.astype(str)
+    ordinate = curves[f"special_{curves.attrs['ordinate']}"].values
+    for kind, (marker, name) in MARKERS.items():
+        these = kinds == kind
+        if not these.any():
+            continue
+        style = {"ls": "", "marker": marker, "color": INK, "mfc": "white", "ms": 4}
+        axes.plot(curves.special_epsilon.values[these], ordinate[these], clip_on=False, **style)
+        handles.append(Line2D([], [], label=name, **style))
+    return handles
+
+
+def label_branches(axes: Axes, ends: list[tuple[float, float, int, str]]) -> None:
+    """Name each piece where it leaves the window: to the right, or above."""
+    (_, right), (_, top) = axes.get_xlim(), axes.get_ylim()
+    lowest = 0.0
+    for y, x, branch, colour in sorted(ends):
+        at_right = x > 0.99 * right
+        height = max(y, lowest) if at_right else top
+        if at_right:
+            lowest = height + 0.035 * top
+        axes.annotate(
+            f"$k$ = {branch}",
+            (x, height),
+            xytext=(3, 0) if at_right else (0, 3),
+            textcoords="offset points",
+            ha="left" if at_right else "center",
+            va="center" if at_right else "bottom",
+            color=colour,
+            fontsize=7,
+            annotation_clip=False,
+        )
+
+
+def numbers(curves: xr.Dataset, scenes: dict[str, dict]) -> dict:
+    """Counts along the curves, the boundary of stability, special points, scenes in the plane."""
+    ordinate = curves.attrs["ordinate"]
+    boundary = curves.isel(point=curves.unstable_pairs.values == 0)
+    kinds = words_of(curves.special_kind)
+    epsilons = curves.special_epsilon.values.tolist()
+    ordinates = curves[f"special_{ordinate}"].values.tolist()
+    points = sorted(zip(kinds, epsilons, ordinates, strict=True))
+    places = {
+        kind: [f"({short(x)}, {short(y)})" for its_kind, x, y in points if its_kind == kind]
+        for kind in MARKERS
+    }
+    return {
+        "place": place_in_words(curves.attrs, "epsilon", ordinate),
+        "ordinate": f":math:`{symbol_of(ordinate)}`",
+        "branches": np.unique(curves.branch).size,
+        "points": curves.sizes["point"],
+        "subcritical": int((curves.l1 > 0).sum()),
+        "stabilising": int((curves.crossing < 0).sum()),
+        "stable": short(100 * float((curves.map_unstable_pairs == 0).mean()), 3),
+        "boundary": ends_of(boundary.epsilon),
+        "ordinates": ends_of(boundary[ordinate]),
+        "without_delay": [x for kind, x, _ in points if kind == "hopf_without_delay"],
+        "generalised": len(places["generalised_hopf"]),
+        "double": len(places["double_hopf"]),
+        "special": [counted_at(MARKERS[kind][1], at) for kind, at in places.items() if at],
+        "inside": [name.replace("_", " ") for name in scenes],
+    }
+
+
+def ends_of(values: xr.DataArray) -> tuple[str, str]:
+    """The least and the largest of values that may be none."""
+    return (short(values.min()), short(values.max())) if values.size else ("none", "none")

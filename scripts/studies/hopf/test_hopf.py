@@ -1,0 +1,146 @@
+"""The hopf program: every point in equation (5) and in closed form, and the table of its points.
+
+The suite hopf_curves shows that curves are complete and smooth, and which way roots cross; the
+suite hopf_unfoldings shows where curves of folds and of tori start.
+"""
+
+import numpy as np
+import pytest
+import xarray as xr
+from characteristic_equation import closed_form, count_by_crossings, residual
+
+from scripts.files.tsv import read_table
+from scripts.namelists.laws import PAPER
+from scripts.studies.hopf.table import rows_of
+
+PLANES = ["tau_of_epsilon", "xi_of_epsilon"]
+
+
+@pytest.fixture(params=PLANES)
+def plane(request, filled_config) -> dict:
+    """Settings of a plane as in the config."""
+    return filled_config["hopf_curves"][request.param] | {"cells": 20}
+
+
+@pytest.fixture
+def curves(programs, plane) -> xr.Dataset:
+    return programs.made_by("hopf", plane)
+
+
+def parameters(curves: xr.Dataset) -> list[np.ndarray]:
+    """epsilon, tau, xi and gamma of all points."""
+    gamma = np.full(curves.sizes["point"], curves.attrs["gamma"])
+    return [curves.epsilon.values, curves.tau.values, curves.xi.values, gamma]
+
+
+def test_every_point_solves_the_characteristic_equation(curves, plane):
+    """Equation (5) at i omega, recomputed and as the file says; the closed form; the plane."""
+    recomputed = residual(1j * curves.omega.values, *parameters(curves))
+    assert recomputed.max() <= 1e-10
+    np.testing.assert_allclose(curves.residual, recomputed, rtol=0, atol=1e-14)
+    epsilon, angle = closed_form(curves.omega, curves.xi, plane["gamma"])
+    np.testing.assert_allclose(curves.epsilon, epsilon, rtol=1e-9, atol=1e-12)
+    turns = (curves.omega * curves.tau - angle) / (2 * np.pi)
+    np.testing.assert_allclose(turns, curves.branch, rtol=0, atol=1e-9)
+    fixed = {"tau": "xi", "xi": "tau"}[plane["ordinate"]]
+    np.testing.assert_allclose(curves[fixed], plane[fixed], rtol=1e-13)
+    known = {"gamma": plane["gamma"], "ordinate": plane["ordinate"], fixed: plane[fixed]}
+    assert curves.attrs.items() >= known.items()
+
+
+def test_printed_formula_is_kept_with_its_residual(curves):
+    """(10) as printed, recomputed, does not solve (5), and the file says by how much."""
+    omega, branch = curves.omega.values, curves.branch.values
+    epsilon, _, xi, gamma = parameters(curves)
+    numerator = -(omega**2) * (gamma**2 / xi + 1)
+    denominator = -(omega**3) + omega * gamma**2 * (1 + xi) / xi
+    printed = (np.arctan(numerator / denominator) + 2 * np.pi * branch) / omega
+    np.testing.assert_allclose(curves.printed_tau, printed, rtol=1e-10)
+    recomputed = residual(1j * omega, epsilon, printed, xi, gamma)
+    np.testing.assert_allclose(curves.printed_residual, recomputed, rtol=0, atol=1e-9)
+    assert np.median(recomputed) > 1e-3
+
+
+def test_window_without_a_curve_makes_an_empty_file(programs, filled_config):
+    """Below epsilon = 0.1 nothing oscillates by itself at small delays."""
+    plane = filled_config["hopf_curves"]["tau_of_epsilon"] | {"cells": 20}
+    plane |= {"epsilon_window": [0.0, 0.05], "ordinate_window": [0.0, 1.0]}
+    curves = programs.made_by("hopf", plane)
+    assert curves.sizes["point"] == curves.sizes["special"] == 0
+    assert rows_of("empty", curves) == []
+
+
+def test_map_counts_the_crossings(curves, plane):
+    """In every cell: pairs at tau = 0 plus crossings of all curves below."""
+    for i, epsilon in enumerate(curves.map_epsilon.values):
+        for j, ordinate in enumerate(curves.map_ordinate.values):
+            place = {**plane, plane["ordinate"]: ordinate}
+            expected = count_by_crossings(epsilon, place["tau"], place["xi"], plane["gamma"])
+            assert curves.map_unstable_pairs.values[j, i] == expected
+
+
+def test_special_points_solve_the_characteristic_equation(curves):
+    """At one frequency or two, to rounding; a row has the coefficients and curves of its kind."""
+    rows = rows_of("plane", curves)
+    assert {"double_hopf", "generalised_hopf"} <= {row["kind"] for row in rows}
+    for row in rows:
+        place = [float(row[key]) for key in ("epsilon", "tau", "xi", "gamma")]
+        omegas = [float(row[key]) for key in ("omega_1", "omega_2") if key in row]
+        assert max(residual(1j * omega, *place) for omega in omegas) < 1e-10
+        assert (row["l1_1"] == "0") is (row["kind"] == "generalised_hopf")
+        of_two_pairs = {"g2100", "theta", "omega_2", "angle_1", "start_tau_2"}
+        assert of_two_pairs & set(row) == (of_two_pairs if row["kind"] == "double_hopf" else set())
+        if row["kind"] == "double_hopf":
+            g = {key: float(row[f"g{key}"]) for key in ("2100", "1011", "1110", "0021")}
+            assert float(row["theta"]) == pytest.approx(g["1011"] / g["0021"], rel=1e-4)
+            assert float(row["delta"]) == pytest.approx(g["1110"] / g["2100"], rel=1e-4)
+            for i, ratio in ((1, omegas[1] / omegas[0]), (2, omegas[0] / omegas[1])):
+                angle = np.cos(float(row[f"angle_{i}"]))
+                assert angle == pytest.approx(np.cos(2 * np.pi * ratio))
+        elif row["kind"] == "generalised_hopf":
+            assert float(row["l2"]) != 0
+            assert (row["unfolding"], row["torus_1"]) == ("", "")
+
+
+@pytest.mark.parametrize("along", ["gamma", "c"])
+def test_any_parameter_is_an_ordinate(programs, along):
+    """Points and counts; the law with a cut-off is here the paper's at (1 + c) xi."""
+    window = {"gamma": [0.4, 2.0], "c": [0.0, 3.0]}[along]
+    law = {"gamma": PAPER, "c": "slip_cut_off"}[along]
+    fixed = {"tau": 7.0, "xi": 0.5, "gamma": 0.8, "law": law}
+    fixed.pop(along, None)
+    plane = {"ordinate": along, "epsilon_window": [0.0, 1.2], "ordinate_window": window}
+    curves = programs.made_by("hopf", {**plane, **fixed, "cells": 16})
+    key = {"c": "law_c"}.get(along, along)
+    assert (curves.attrs["ordinate"], key in curves.attrs) == (key, False)
+    varied = curves[key].values
+    assert varied.size > 50
+    xi, gamma = (0.5, varied) if along == "gamma" else (0.5 * (1 + varied), 0.8)
+    assert residual(1j * curves.omega.values, curves.epsilon.values, 7.0, xi, gamma).max() < 1e-10
+    for i, epsilon in enumerate(curves.map_epsilon.values):
+        for j, y in enumerate(curves.map_ordinate.values):
+            place = (0.5, y) if along == "gamma" else (0.5 * (1 + y), 0.8)
+            counted = count_by_crossings(epsilon, 7.0, *place)
+            assert curves.map_unstable_pairs.values[j, i] == counted
+            # a pair becomes unstable at each curve
+            pieces = [curves.isel(point=curves.piece.values == k) for k in set(curves.piece.values)]
+            here = [one for one in pieces if one[key].min() <= y <= one[key].max()]
+            assert counted == sum(np.interp(y, one[key], one.epsilon) < epsilon for one in here)
+
+
+def test_table_of_the_workflow(smoke):
+    rows = read_table(smoke.folder / "results" / "tables" / "hopf-points.tsv")
+    kinds = {row["kind"] for row in rows}
+    assert kinds == {
+        "amplitude_death_begin",
+        "amplitude_death_end",
+        "double_hopf",
+        "generalised_hopf",
+        "hopf_without_delay",
+    }
+    (begin, end) = [
+        row["tau"]
+        for row in rows
+        if row["kind"].startswith("amplitude_death") and row["of"] == "torus"
+    ]
+    assert begin < end

@@ -1,0 +1,84 @@
+"""The linear_stability program: roots and changes of stability of the scenes, and the tables."""
+
+import numpy as np
+import pytest
+from characteristic_equation import count_by_crossings, residual
+
+from scripts.files.tsv import read_table
+from scripts.namelists.parameters import PARAMETERS
+from scripts.studies.linear_stability.table import amplitude_death, row_of
+
+SCENES = {"fixed_point": 0, "oscillation": 1, "torus": 1, "chaos": 1}
+SCENES |= {"true_torus": 1, "stick_slip": 1}
+SCENES |= dict.fromkeys(["no_delay", "no_delay_stuck", "no_delay_fast"], 1)
+SCENES |= {"no_delay_less": 1, "no_delay_more": 1, "laboratory": 2, "natural_fault": 2}
+"""Number of unstable pairs."""
+
+
+@pytest.fixture(params=SCENES)
+def stability(programs, good_inputs, smoke_config, request):
+    scene = smoke_config["scenes"][request.param]
+    parameters = {key: scene[key] for key in PARAMETERS}
+    return programs.made_by("linear_stability", good_inputs["linear_stability"] | parameters)
+
+
+def parameters(stability, **other):
+    """epsilon, tau, xi and gamma of a file, some of them replaced."""
+    return [{**stability.attrs, **other}[key] for key in ("epsilon", "tau", "xi", "gamma")]
+
+
+def test_file_and_row_of_a_scene(stability):
+    """Roots and crossings solve (5); unstable pairs are those of roots and those by crossings.
+
+    Roots lie above the bound, the rightmost first, each with its partner.
+    """
+    roots = stability.root_real.values + 1j * stability.root_imag.values
+    assert roots.size >= 2
+    assert residual(roots, *parameters(stability)).max() < 1e-12
+    assert (roots.real > stability.attrs["root_bound"]).all()
+    assert (np.diff(roots.real) <= 0).all()
+    assert set(roots) == set(roots.conj())
+    pairs = stability.attrs["unstable_pairs"]
+    assert pairs == np.count_nonzero(roots.real > 0) // 2
+    assert pairs == count_by_crossings(*parameters(stability))
+    for key in ("tau", "epsilon"):
+        places, omegas = stability[f"{key}_of_change"], stability[f"{key}_change_omega"]
+        assert places.size > 0
+        for place, omega in zip(places.values, omegas.values, strict=True):
+            assert residual(1j * omega, *parameters(stability, **{key: place})) < 1e-12
+    row = row_of("mine", stability)
+    assert row["unstable_pairs"] == pairs
+    first, *others = row["tau_of_changes"].split("; ")
+    before = int(stability.tau_change_pairs_before[0])
+    after = int(stability.tau_change_pairs_after[0])
+    assert first == f"{float(stability.tau_of_change[0]):.12g} ({before} -> {after})"
+    assert len(others) == stability.tau_of_change.size - 1
+    assert row["leading_roots"].startswith(f"{float(stability.root_real[0]):.10g}")
+
+
+@pytest.mark.parametrize("stability", ["torus", "chaos"], indirect=True)
+def test_amplitude_death(stability):
+    """Unstable without delay, stable between the first two crossings; by the crossings, too."""
+    ((begin, end),) = amplitude_death(stability)
+    assert (begin, end) == tuple(stability.tau_of_change.values[:2])
+    assert count_by_crossings(*parameters(stability, tau=0.9 * begin)) == 1
+    assert count_by_crossings(*parameters(stability, tau=(begin + end) / 2)) == 0
+    assert count_by_crossings(*parameters(stability, tau=1.1 * end)) == 1
+
+
+@pytest.mark.parametrize("stability", ["fixed_point", "oscillation"], indirect=True)
+def test_state_stable_without_delay_does_not_die(stability):
+    assert amplitude_death(stability) == []
+
+
+def test_table_of_the_workflow(smoke):
+    rows = read_table(smoke.folder / "results" / "tables" / "linear-stability.tsv")
+    assert {row["scene"]: row["unstable_pairs"] for row in rows} == SCENES
+
+
+def test_bound_too_far_is_refused(programs, good_inputs):
+    groups = {"linear_stability": {**good_inputs["linear_stability"], "tau": 1000.0}}
+    run = programs.run_groups("linear_stability", groups)
+    assert run.returncode == 1
+    assert "a bound nearer to 0 expected" in run.stderr
+    assert programs.left_behind() == []

@@ -1,0 +1,91 @@
+"""Power spectra: verdicts on made-up ones, and how they are drawn."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from figure_contents import points_in
+from made_up_results import NO, PARTLY, YES, Results, spectrum
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+
+from scripts.studies.power_spectra import figure as figure_6
+from scripts.studies.power_spectra.claims import single_peak, spectrum_class
+
+
+@pytest.mark.parametrize(
+    ("made", "verdict"),
+    [
+        (spectrum(x1=50.0), YES),
+        (spectrum(x1=50.0, x2=0.4), YES),
+        (spectrum(x1=50.0, x2=3.4), PARTLY),
+        (spectrum("quasiperiodic", x1=50.0), NO),
+        (spectrum("undecided", x1=50.0), NO),
+        (spectrum("none"), NO),
+    ],
+)
+def test_single_peak(made, verdict):
+    """One fundamental frequency with harmonics of 0.8 or 6.8 % or none, or another spectrum."""
+    assert single_peak(Results(spectra={"mine": made}), scene="mine").verdict == verdict
+
+
+@pytest.mark.parametrize("kind", ["periodic", "quasiperiodic", "continuum", "undecided", "none"])
+def test_spectrum_class(kind):
+    made = Results(spectra={"mine": spectrum(kind, x1=1.0)})
+    found = spectrum_class(made, scene="mine", expected="quasiperiodic")
+    assert found.verdict == (YES if kind == "quasiperiodic" else NO)
+    assert f"scene mine: {kind}." in found.evidence
+
+
+def test_scene_without_spectrum_is_an_error():
+    with pytest.raises(ValueError, match=r"results/spectra: no file of scene 'other'.*: mine"):
+        single_peak(Results(spectra={"mine": spectrum()}), scene="other")
+
+
+@pytest.fixture(autouse=True)
+def _closed_figures():
+    """No test leaves a figure open for the next one."""
+    yield
+    plt.close("all")
+
+
+BASE, HARMONIC, OTHER = (0.1, 9.0, 0, 1, 0), (0.2, 5.0, 1, 2, 0), (0.27, 1.0, 4, 0, 0)
+
+
+SECOND = (0.35, 4.0, 2, 0, 1)
+
+
+def draw_spectrum(*peaks: tuple[float, float, int, int, int]) -> Axes:
+    """The logarithmic panel of a made-up spectrum up to a frequency of 0.5, with peaks of
+    frequency, power, kind and multiples of both bases."""
+    frequency = np.linspace(0, 5, 501)
+    names = ["peak_frequency", "peak_power", "peak_kind", "peak_multiple", "peak_second_multiple"]
+    columns = dict(zip(names, np.transpose(peaks), strict=True))
+    data = {name: ("peak", column) for name, column in columns.items()}
+    data["power"] = ("frequency", 1e-3 + 0 * frequency)
+    data["base_frequency"] = ("base", [f for f, _, kind, *_ in peaks if kind in (0, 2)])
+    attributes = {"scene": "made_up", "line_share": 0.75, "spectrum_kind": "undecided"}
+    spectrum = xr.Dataset(data, {"frequency": frequency}, attributes)
+    settings = {"rows": {"a": {"paper": "word"}}, "frequency_shown": 0.5}
+    return figure_6.draw([spectrum], settings).axes[0]
+
+
+def test_peaks_are_named_by_kind():
+    """Base, harmonic with its multiple, other in another colour, each with its frequency."""
+    peaks = [BASE, HARMONIC, SECOND, OTHER]
+    axes = draw_spectrum(*peaks)
+    labels = {text.get_text(): text.get_color() for text in axes.texts}
+    names = ["$f_1$\n0.1000", "$2f_1$\n0.2000", "$f_2$\n0.3500", "other\n0.2700"]
+    assert list(labels) == names
+    *explained, other = labels.values()
+    assert len(set(explained)) == 1
+    assert other not in explained
+    assert {(x, y) for x, y, _ in points_in(axes)} == {p[:2] for p in peaks}
+
+
+def test_peaks_beside_a_higher_one_get_a_dot_only():
+    """Labels would lie on each other or on a dot; peaks beyond the axis get nothing."""
+    beside, beyond = (0.13, 2.0, 3, -3, 2), (0.6, 3.0, 1, 6, 0)
+    beside_a_dot = (0.155, 1.0, 3, -2, 2)
+    axes = draw_spectrum(BASE, beside, beside_a_dot, beyond)
+    assert [text.get_text() for text in axes.texts] == ["$f_1$\n0.1000"]
+    assert {x for x, *_ in points_in(axes)} == {0.1, 0.13, 0.155}

@@ -1,0 +1,23 @@
+"""Keys of routes that contradict each other."""
+
+from collections.abc import Iterator
+
+from scripts.config.checks import check_line, check_observation
+from scripts.namelists.laws import own_parameters
+from scripts.namelists.parameters import HISTORY
+
+
+def contradictions(config: dict) -> Iterator[str]:
+    """Problems of the observation, of the names of histories and of the lines."""
+    study = config["routes"]
+    place = "config routes observation"
+    yield from check_observation(place, study["observation"], config["spectra"])
+    if study["observation"]["kept"] == 0:
+        yield f"{place}: kept = 0; expected a whole number >= 1"
+    for name in set(study["histories"]) & {"up", "down"}:
+        yield (
+            f"config routes histories: name {name!r}; expected another, this is the name of a sweep"
+        )
+    for name, line in study["lines"].items():
+        own = own_parameters(config, line["law"])
+        yield from check_line(f"config routes lines {name}", line, own, HISTORY)

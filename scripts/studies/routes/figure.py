@@ -1,0 +1,166 @@
+"""The drawing of plans/routes.py, and the numbers of its caption."""
+
+from string import ascii_lowercase
+
+import numpy as np
+import xarray as xr
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from scripts.drawing import parameters
+from scripts.drawing.along_parameter import mark_scenes, maxima_of
+from scripts.drawing.class_map import draw_strips, legend_of
+from scripts.drawing.style import FAINT
+from scripts.drawing.wording import joined, place_in_words, short
+from scripts.tables.attractor_tables import same_attractor
+from scripts.tables.motion_rows import UNDECIDED, count_in_words, has_problem, parameter_of
+
+HEIGHT, OF_RUN = 1.75, 0.12
+"""Of a route without its strips, and of each strip, in inches."""
+COLOURS = ("C6", "C2", "C3", "C7")
+"""Of runs; none is that of a class."""
+DOTS = (2.8, 2.2, 1.6, 1.0)
+"""Sizes of the dots of runs in points. Later runs lie on top and are smaller, so that dots at the
+same place are all seen."""
+ROOM = 0.25
+"""Free part of the axis of maxima above the largest of them, where the names of scenes stand."""
+LOGARITHMIC = 100
+"""The axis of maxima is logarithmic where their ratio is larger."""
+
+
+def draw(tables: list[list[dict]], runs: list[xr.Dataset], scenes: dict[str, dict]) -> Figure:
+    """One route below the other; `runs` are in the order of the tables."""
+    routes = [rows_by_run(rows) for rows in tables]
+    strips = [len(by_run) for by_run in routes]
+    following = iter(runs)
+    figure, grid = plt.subplots(
+        3 * len(tables),
+        1,
+        figsize=(6.7, HEIGHT * len(tables) + OF_RUN * sum(strips) + 0.5),
+        height_ratios=[ratio for runs_there in strips for ratio in (6, runs_there, 3.4)],
+    )
+    colours: dict[str, str] = {}
+    for i, (rows, by_run) in enumerate(zip(tables, routes, strict=True)):
+        along = parameter_of(rows)
+        above, middle, below = grid[3 * i : 3 * i + 3]
+        for number, (run, of_run) in enumerate(by_run.items()):
+            colour = colours.setdefault(run, COLOURS[len(colours) % len(COLOURS)])
+            style = {"color": colour, "ms": DOTS[min(number, len(DOTS) - 1)], "mew": 0}
+            data = next(following)
+            draw_maxima(above, data, of_run, along, style)
+            draw_exponent(below, of_run, along, style)
+        draw_strips(middle, by_run, along)
+        meaning = data[along].attrs.get("long_name", "") if along in data else ""
+        label(above, middle, below, parameters.axis_of(along, meaning))
+        mark_scenes(above, scenes, rows[0], along)
+        words = f"{parameters.in_words(rows[0], along)}: {count_in_words(rows)}"
+        letter = f"$\\bf{{{'abcdefgh'[i % 8]}}}$  " if len(tables) > 1 else ""
+        above.set_title(f"{letter}{words}")
+    dots = [
+        Line2D([], [], ls="", marker="o", ms=3, color=colour, label=run)
+        for run, colour in colours.items()
+    ]
+    all_rows = [row for rows in tables for row in rows]
+    figure.legend(handles=dots + legend_of(all_rows), loc="outside lower center", ncols=5)
+    return figure
+
+
+def rows_by_run(rows: list[dict]) -> dict[str, list[dict]]:
+    """Rows of a route by run, in the order of the runs."""
+    runs: dict[str, list[dict]] = {}
+    for row in rows:
+        runs.setdefault(row["run"], []).append(row)
+    return runs
+
+
+def label(above: Axes, strips: Axes, below: Axes, abscissa: str) -> None:
+    """The same abscissa for the three, named below."""
+    first, last = strips.get_xlim()
+    margin = 0.01 * (last - first)
+    for axes in (above, strips, below):
+        axes.set_xlim(first - margin, last + margin)
+    for axes in (above, strips):
+        axes.tick_params(labelbottom=False)
+    strips.tick_params(left=False, bottom=False, pad=1, labelsize=7)
+    for side in ("left", "bottom"):
+        strips.spines[side].set_visible(False)
+    lowest, highest = above.dataLim.y0, above.dataLim.y1
+    if highest > LOGARITHMIC * lowest:
+        above.set_yscale("log")
+        above.set_ylim(lowest / 1.5, highest * (highest / lowest) ** ROOM)
+    else:
+        above.set_ylim(0, (1 + ROOM) * highest if np.isfinite(highest) else None)
+    above.set_ylabel("maxima of $v$")
+    below.axhline(0, color=FAINT, lw=0.6, zorder=0)
+    below.set(xlabel=abscissa, ylabel="exponent\n$\\lambda_1$")
+
+
+def draw_maxima(axes: Axes, run: xr.Dataset, rows: list[dict], along: str, style: dict) -> None:
+    """A dot for each maximum kept, and at v = 1 for a fixed point, whose maxima are transient."""
+    there = np.array([row["class"] != "fixed point" for row in rows])
+    places, maxima = maxima_of(run.isel(point=there), along)
+    rest = [row[along] for row in rows if row["class"] == "fixed point"]
+    axes.plot(
+        np.append(places, rest),
+        np.append(maxima, np.ones(len(rest))),
+        "o",
+        rasterized=True,
+        **style,
+    )
+
+
+def draw_exponent(axes: Axes, rows: list[dict], along: str, style: dict) -> None:
+    """The largest exponent with its standard error."""
+    keys = (along, "exponent_1", "error_1")
+    axes.errorbar(*([row[key] for row in rows] for key in keys), fmt="o", lw=0.5, **style)
+
+
+def numbers(tables: list[list[dict]]) -> dict:
+    """Where each class first appears along each route, run by run, and where runs differ."""
+    routes = []
+    for letter, rows in zip(ascii_lowercase, tables, strict=False):
+        along = parameter_of(rows)
+        runs: dict[str, list[str]] = {}
+        for run, of_run in rows_by_run(rows).items():
+            runs.setdefault(first_appearances(of_run, along), []).append(run)
+        places: dict[float, list[dict]] = {}
+        for row in rows:
+            places.setdefault(row[along], []).append(row)
+        routes.append(
+            {
+                "letter": letter,
+                "symbol": parameters.symbol_of(along),
+                "place": place_in_words(rows[0], along),
+                "runs": [
+                    {"names": f"run{'s' * (len(names) > 1)} {joined(names)}", "first": first}
+                    for first, names in runs.items()
+                ],
+                "parted": [
+                    short(place, 4)
+                    for place, there in sorted(places.items())
+                    if len({row["class"] for row in there} - {UNDECIDED}) > 1
+                ],
+                "places": len(places),
+                "several": [
+                    short(place) for place, there in sorted(places.items()) if coexist(there)
+                ],
+            }
+        )
+    return {"routes": routes, "points": sum(map(len, tables))}
+
+
+def first_appearances(rows: list[dict], along: str) -> str:
+    """Classes of a run with the least value of the parameter at which each appears."""
+    first: dict[str, float] = {}
+    for row in sorted(rows, key=lambda row: row[along]):
+        if row["class"] != UNDECIDED:
+            first.setdefault(row["class"], row[along])
+    return joined([f"{kind} {place:g}" for kind, place in first.items()]) or "none is decided"
+
+
+def coexist(rows: list[dict]) -> bool:
+    """Whether runs at the same parameters reached different motions."""
+    decided = [row for row in rows if row["class"] != UNDECIDED and not has_problem(row)]
+    return any(not same_attractor(decided[0], row) for row in decided[1:])

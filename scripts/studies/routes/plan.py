@@ -1,0 +1,76 @@
+"""Routes: attractors along lines in one parameter, from several histories and by sweeps."""
+
+import numpy as np
+
+from scripts.namelists.attractor_surveys import survey_groups
+from scripts.namelists.parameters import HISTORY
+from scripts.plans.declare import LONG_RUN, Figure, Run, Study, Table
+from scripts.plans.scenes import marked_scenes
+
+
+def groups(config: dict, route: str, run: str) -> dict:
+    """Namelist of a run of a route: from one history, or a sweep.
+
+    Along a value of the history, the others are those of the run's history.
+    """
+    routes = config["routes"]
+    settings = routes["lines"][route]
+    along, window, count = (settings[key] for key in ("along", "window", "count"))
+    first = next(iter(routes["histories"]))
+    histories = [routes["histories"].get(run, routes["histories"][first])]
+    if along in HISTORY:
+        values = np.linspace(*window, count).tolist()
+        histories = [{**histories[0], along: value} for value in values]
+    varied = {} if along in HISTORY else {along: {"window": window, "count": count}}
+    place = {**settings, **varied}
+    sweep = run if run in routes["sweeps"] else "none"
+    return survey_groups(
+        config, "routes", f"{route} {run}", place=place, histories=histories, sweep=sweep
+    )
+
+
+def runs_of_route(config: dict, route: str) -> list[str]:
+    """Runs along a route: from each history, and sweeps of a parameter."""
+    routes = config["routes"]
+    swept = [] if routes["lines"][route]["along"] in HISTORY else routes["sweeps"]
+    runs = [*routes["histories"], *swept]
+    return [f"<results>/attractors/routes/{route}/{run}.nc" for run in runs]
+
+
+def inputs(config: dict) -> dict:
+    """Classes along each route, and its runs."""
+    routes = config["routes"]["lines"]
+    return {
+        "tables": [f"<results>/tables/routes/{route}.tsv" for route in routes],
+        "runs": [path for route in routes for path in runs_of_route(config, route)],
+    }
+
+
+FIGURE = {
+    "title": "Figure of the routes: maxima of v, classes, and the largest exponent along a"
+    " parameter.",
+    "inputs": inputs,
+    "params": lambda config: {"scenes": marked_scenes(config)},
+}
+STUDY = Study(
+    reads=("atlas", "attractors", "cycles", "hopf", "linear_stability", "scenes"),
+    entries={"route": ("routes", "lines")},
+    wildcards={"run": r"\w+"},
+    runs=(
+        Run(
+            *("route_runs", "attractors", "attractors/routes/{route}/{run}.nc", groups),
+            **LONG_RUN,
+        ),
+    ),
+    tables=(
+        Table(
+            *("route_table", "tables/routes/{route}.tsv"),
+            lambda config, route: {"runs": runs_of_route(config, route)},
+            params={"of": lambda _config, **_: "route"},
+            script="tables/attractor_tables.py",
+            data="routes",
+        ),
+    ),
+    figures=(Figure("routes", category="Atlas", place=330, **FIGURE),),
+    kinds=(Figure("routes", category="Routes", place=40, shows=("routes", "lines"), **FIGURE),),
+)

@@ -1,0 +1,46 @@
+"""Namelists of routes."""
+
+import copy
+
+import pytest
+
+from scripts.namelists.laws import PAPER
+from scripts.namelists.parameters import HISTORY
+from scripts.studies.routes import plan
+
+
+@pytest.fixture
+def full(filled_config) -> dict:
+    """The whole config with its defaults, to change."""
+    return copy.deepcopy(filled_config)
+
+
+@pytest.mark.parametrize(("run", "sweep"), [("near", "none"), ("slip", "none"), ("up", "up")])
+def test_runs_of_a_route_go_along_its_parameter(full, run, sweep):
+    """Three values are fixed; sweeps start from the first history."""
+    routes = full["routes"]
+    groups = plan.groups(full, "chaos_in_epsilon", run)
+    points, line = groups["points"], routes["lines"]["chaos_in_epsilon"]
+    assert points["sweep"] == sweep
+    count = line["count"]
+    axis = {"along": "epsilon", "window": line["window"], "count": count, "part": [1, count]}
+    assert points["axes"] == [axis]
+    assert points["parameters"]["tau"] == 7.0
+    history = routes["histories"].get(run, routes["histories"]["near"])
+    assert groups["histories"] == {key: [history[key]] for key in HISTORY}
+    assert groups["observation"].items() >= full["spectra"].items()
+    assert (points["refinements"], points["kept"]) == (0, routes["observation"]["kept"])
+
+
+def test_route_along_a_value_of_the_history(full):
+    """One set of parameters and a history for each value; there are no sweeps."""
+    line = {"along": "v", "window": [0.5, 1.5], "count": 3, "tau": 7.0, "epsilon": 0.5}
+    full["routes"]["lines"]["mine"] = line | {"xi": 0.5, "gamma": 0.8, "law": PAPER}
+    groups = plan.groups(full, "mine", "slip")
+    points, histories = groups["points"], groups["histories"]
+    assert histories["v"] == [0.5, 1.0, 1.5]
+    assert histories["u"] == [full["routes"]["histories"]["slip"]["u"]] * 3
+    assert "axes" not in points
+    assert points["sweep"] == "none"
+    names = [path.split("/")[-1] for path in plan.runs_of_route(full, "mine")]
+    assert names == ["near.nc", "slip.nc"]

@@ -1,0 +1,235 @@
+"""Verdicts on what changes along a parameter, on made-up tables of routes."""
+
+import math
+
+import numpy as np
+import pytest
+from made_up_results import (
+    NO,
+    PARTLY,
+    YES,
+    Results,
+    attractor_row,
+    changed,
+    hopf_curve,
+    route_rows,
+    stability_row,
+    torus_point,
+)
+
+from scripts.claims.claims_results import VERDICTS
+from scripts.claims.ledger import paper_claims
+from scripts.drawing.write_captions import caption_of
+from scripts.files.tsv import write_table
+from scripts.plans import studies
+from scripts.studies.routes.claims import (
+    chaos_by_a_and_b,
+    delays_in_turn,
+    independent_of_spring,
+    leads_to,
+    quasiperiodic_route,
+    route,
+    torus_route,
+    two_supercritical_hopfs,
+)
+from scripts.tables.motion_rows import UNDECIDED
+
+CYCLE_TORUS = {"routes": ["mine"], "expected": ["cycle", "torus"]}
+BREAKDOWN, STRICT = ["cycle", "torus", "chaos"], ["torus", "3-torus", "chaos"]
+
+
+def twice(*classes: str, **given) -> list[dict]:
+    """Rows of a route with each class at two neighbouring points."""
+    return route_rows(*(name for name in classes for _ in range(2)), **given)
+
+
+@pytest.mark.parametrize(
+    ("classes", "verdict"),
+    [
+        (["fixed point", "cycle", "torus", "chaos"], YES),
+        (["cycle", UNDECIDED, "torus", UNDECIDED, "chaos", "cycle"], YES),
+        (["cycle", "chaos", "cycle", "torus", "chaos"], YES),
+        (["cycle", "torus", "cycle/7", "chaos"], YES),
+        (["cycle", "torus", "cycle/1", "chaos"], NO),
+        (["cycle/1", "cycle/2", "cycle/4", "chaos"], NO),
+        ([UNDECIDED], NO),
+    ],
+)
+def test_route(classes, verdict):
+    """Classes follow each other; a cycle of several points behind a torus is locked there."""
+    made = Results(routes=twice(*classes))
+    assert route(made, routes=["mine"], expected=BREAKDOWN).verdict == verdict
+
+
+def test_one_point_decides_nothing():
+    """Unless another run has the same class there."""
+    classes = ["cycle", "cycle", "torus", "chaos", "chaos"]
+    rows = route_rows(*classes)
+    assert route(Results(routes=rows), **CYCLE_TORUS).verdict == NO
+    found = route(Results(routes=rows + route_rows(*classes, run="up")), **CYCLE_TORUS)
+    assert found.verdict == YES
+    assert "cycle 0.1 to 0.2, torus 0.3; in 2 of 2 runs." in found.evidence
+
+
+def test_one_route_of_several_is_enough():
+    rows = twice("cycle", "torus") + twice("cycle", "chaos", name="other")
+    found = route(Results(routes=rows), **(CYCLE_TORUS | {"routes": ["other", "mine"]}))
+    assert found.verdict == YES
+    assert "in none of 1 runs. Along $tau$" in found.evidence
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "verdict"),
+    [
+        (("cycle", "chaos"), ("torus", "fixed point", "chaos"), YES),
+        (("cycle", "chaos"), ("chaos", "cycle"), PARTLY),
+        (("chaos",), ("chaos", "cycle"), NO),
+    ],
+)
+def test_leads_to(first, second, verdict):
+    rows = twice(*first) + twice(*second, name="other", along="xi")
+    before = ["cycle", "fixed point"]
+    found = leads_to(Results(routes=rows), routes=["mine", "other"], before=before, after="chaos")
+    assert found.verdict == verdict
+    assert ("cycle 0.1 to 0.2, chaos 0.3 to 0.4" in found.evidence) == (first == ("cycle", "chaos"))
+
+
+@pytest.mark.parametrize(
+    ("met", "delays", "along", "points", "verdict"),
+    [
+        (["cycle", "torus"], [0.1, 7.0], ["chaos"], [], YES),
+        (["cycle", "torus"], [7.0, 7.0], ["cycle", "torus"], [torus_point()], PARTLY),
+        (["cycle", "cycle"], [0.1, 7.0], ["cycle", "torus"], [torus_point()], PARTLY),
+        (["cycle", "cycle"], [0.1, 7.0], ["cycle", "torus"], [], NO),
+        (["cycle", "cycle"], [0.1, 7.0], ["cycle"], [torus_point()], NO),
+    ],
+)
+def test_delays_in_turn(met, delays, along, points, verdict):
+    """By the scenes and their delays, or by a route with a torus bifurcation."""
+    made = Results(
+        attractors=[attractor_row(name, scene) for name, scene in zip(met, "ab", strict=True)],
+        linear_stability=[
+            stability_row(scene, tau=tau) for scene, tau in zip("ab", delays, strict=True)
+        ],
+        routes=twice(*along),
+        cycle_points=points,
+    )
+    claim = {"scenes": ["a", "b"], "expected": ["cycle", "torus"], "route": "mine"}
+    found = delays_in_turn(made, **claim)
+    assert found.verdict == verdict
+    assert ("These delays grow" in found.evidence) == (delays[0] < delays[1])
+
+
+@pytest.mark.parametrize(
+    ("point", "verdict"),
+    [
+        (torus_point(), YES),
+        (torus_point(0.15), NO),
+        (torus_point(xi=0.5), NO),
+        (torus_point(kind="period_doubling"), NO),
+        (torus_point(unstable_before=1.0), NO),
+    ],
+)
+def test_torus_route(point, verdict):
+    """Cycle, torus and chaos in turn, and a torus bifurcation between cycle and torus."""
+    made = Results(routes=twice(*BREAKDOWN), cycle_points=[point])
+    found = torus_route(made, routes=["mine"], expected=BREAKDOWN)
+    assert found.verdict == verdict
+    known = f"multipliers of a stable cycle leaves the unit circle at $tau = {point['tau']}$."
+    there = point["kind"] == "torus" and point["xi"] == 0.8 and not point["unstable_before"]
+    assert (known in found.evidence) == there
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "verdict"),
+    [
+        (BREAKDOWN, STRICT, YES),
+        (BREAKDOWN, ["torus", "chaos"], PARTLY),
+        (["cycle", *STRICT], ["chaos"], PARTLY),
+        (["cycle", "chaos"], ["torus", "3-torus"], NO),
+    ],
+)
+def test_quasiperiodic_route(first, second, verdict):
+    """Torus breakdown and a third frequency, one of them, or neither."""
+    rows = twice(*first) + twice(*second, name="other")
+    rows += route_rows("torus", "cycle/42", "chaos", name="fine")
+    rows += route_rows("torus", "cycle/42", "cycle/38", name="fine", run="up")
+    made = Results(routes=rows, cycle_points=[torus_point()])
+    found = quasiperiodic_route(made, routes=["mine", "other"], fine="fine")
+    assert found.verdict == verdict
+    locked = "cycle with 42 loops in 2 runs at 0.2; chaos in 1 runs, cycle with 38 loops in 1 runs"
+    assert locked in found.evidence
+
+
+@pytest.mark.parametrize(
+    ("l1", "points", "verdict"),
+    [
+        (-0.1, [torus_point()], YES),
+        (0.1, [torus_point()], NO),
+        (-0.1, [torus_point(criticality="subcritical")], NO),
+        (-0.1, [], NO),
+        (-0.1, [torus_point(), torus_point(epsilon=0.4)], YES),
+    ],
+)
+def test_two_supercritical_hopfs(l1, points, verdict):
+    """That of steady sliding and all torus bifurcations of stable cycles on the line."""
+    curves = {"a": hopf_curve(), "b": changed(hopf_curve(xi=0.8), l1=l1)}
+    made = Results(curves=curves, routes=twice("cycle", "torus"), cycle_points=points)
+    found = two_supercritical_hopfs(made, routes=["mine"], planes=["a", "b"])
+    assert found.verdict == verdict
+
+
+@pytest.mark.parametrize(
+    ("in_epsilon", "in_xi", "verdict"),
+    [
+        (["cycle", "chaos"], ["chaos", "cycle"], YES),
+        (["cycle", "chaos"], ["cycle", "chaos"], PARTLY),
+        (["chaos", "cycle"], ["chaos", "cycle"], PARTLY),
+        (["chaos"], ["cycle", "chaos"], NO),
+    ],
+)
+def test_chaos_by_a_and_b(in_epsilon, in_xi, verdict):
+    """B alone raises epsilon, A and B in proportion lower xi."""
+    rows = twice(*in_epsilon, name="one", along="epsilon") + twice(*in_xi, name="two", along="xi")
+    assert chaos_by_a_and_b(Results(routes=rows), routes=["one", "two"]).verdict == verdict
+
+
+@pytest.mark.parametrize(
+    ("given", "classes", "verdict"),
+    [
+        ({"epsilon": 0.3}, ["chaos"] * 4, YES),
+        ({}, ["chaos"] * 4, NO),
+        ({"epsilon": 0.3}, ["cycle"] * 2 + ["chaos"] * 2, NO),
+        ({"unstable_pairs": 1}, ["chaos"] * 4, NO),
+    ],
+)
+def test_independent_of_spring(given, classes, verdict):
+    """The same epsilon and class at every xi, or one that changes; or no such point at all."""
+    curves = changed(hopf_curve(), xi=np.linspace(0.1, 1, 12), tau=12.0)
+    made = Results(
+        curves={"plane": changed(curves, **given)}, routes=route_rows(*classes, along="xi")
+    )
+    found = independent_of_spring(made, plane="plane", route="mine", limit=1e-3)
+    assert found.verdict == verdict
+
+
+def test_caption_of_a_route(tmp_path):
+    """Where classes first appear, runs that agree, and where motions coexist."""
+    kept = {"smallest_maximum": 2.0, "largest_maximum": 3.0, "problem": math.nan}
+    kept |= {"exponent_1": 0.02, "error_1": 0.001}
+    rows = [
+        row | kept
+        for run, last in (("near", "chaos"), ("slip", "torus"), ("up", "chaos"))
+        for row in route_rows("cycle/1", "torus", "cycle/2", "undecided", last, run=run)
+    ]
+    # a cycle of another size
+    rows[7] |= {"smallest_maximum": 4.0, "largest_maximum": 5.0}
+    write_table(tmp_path / "route.tsv", rows)
+    claims = [{"id": name, "verdict": VERDICTS[0]} for name in paper_claims()]
+    figure = {
+        **{"template": studies.FOLDER / "routes" / "caption.rst", "drawing": "routes.figure"},
+        **{"inputs": {"tables": [tmp_path / "route.tsv"]}, "params": {}, "paper": False},
+    }
+    words = " ".join(caption_of(figure, claims).split())
+    assert "15 points. In runs near and up each class first appears at this value" in words
+    assert "motions at 2 of 5 values of :math:`\\tau`: 0.3 and 0.5." in words

@@ -1,0 +1,53 @@
+"""Scenes: parameter sets of the block with a trajectory and its spectrum each."""
+
+from scripts.namelists.program_groups import scene_groups
+from scripts.plans.declare import PAPER, Figure, Run, Study
+
+
+def spectrum_groups(config: dict, scene: str) -> dict:
+    """The trajectory of a scene, and how its spectrum is made."""
+    return {"trajectory": f"<results>/trajectories/{scene}.nc", "spectrum": config["spectra"]}
+
+
+def inputs(config: dict) -> dict:
+    """Trajectory, spectrum, attractors and roots of the scene that the configuration lists."""
+    (scene,) = config["scenes"]
+    return {
+        "trajectory": f"<results>/trajectories/{scene}.nc",
+        "spectrum": f"<results>/spectra/{scene}.nc",
+        "attractors": f"<results>/attractors/scenes/{scene}.nc",
+        "roots": f"<results>/linear_stability/{scene}.nc",
+    }
+
+
+def params(config: dict) -> dict:
+    """The quantities of a scene that is given in SI."""
+    (scene,) = config["scenes"].values()
+    return {"si": scene.get("si", {})}
+
+
+STUDY = Study(
+    reads=("attractors", "linear_stability"),
+    entries={"scene": ("scenes",)},
+    runs=(
+        Run("trajectory", "trajectory", "trajectories/{scene}.nc", scene_groups, priority=PAPER),
+        Run(
+            *("spectrum", "spectrum", "spectra/{scene}.nc", spectrum_groups),
+            data="spectra",
+            needs={"trajectory": "trajectories/{scene}.nc"},
+            priority=PAPER,
+        ),
+    ),
+    kinds=(
+        Figure(
+            "scenes",
+            "Figure of one scene: in time, phase portrait, section, exponents, and spectrum.",
+            category="Scenes",
+            place=10,
+            inputs=inputs,
+            params=params,
+            variables=("u", "v"),
+            shows=("scenes",),
+        ),
+    ),
+)

@@ -1,0 +1,38 @@
+"""Keys of families that contradict each other."""
+
+from collections.abc import Iterator
+
+from scripts.config.checks import check_reference, wrong
+from scripts.studies.stability.cases import cases_of_family, number_of_cases
+
+MOST_CASES = 1000
+"""Cases that one namelist holds."""
+LONGEST_NAME = 64
+"""Letters of a case's name."""
+LONG = 1e4
+"""Time after which a decaying case counts as stationary."""
+
+
+def contradictions(config: dict) -> Iterator[str]:
+    """Problems of the reference and of the families."""
+    study = config["stability"]
+    yield from check_reference("config stability reference", study["reference"])
+    for name, family in study["families"].items():
+        yield from check_family(config, name, family)
+
+
+def check_family(config: dict, name: str, family: dict) -> Iterator[str]:
+    """Problems of the cases of a family."""
+    place, count = f"config stability families {name}", number_of_cases(family)
+    if count > MOST_CASES:
+        yield f"{place}: {count} combinations; expected at most {MOST_CASES}"
+        return
+    longest = max((case["name"] for case in cases_of_family(config, name)), key=len)
+    if len(longest) > LONGEST_NAME:
+        yield (
+            f"{place}: case '{longest}' of {len(longest)} letters; expected at most {LONGEST_NAME}"
+            " (shorten the family's name)"
+        )
+    if family["reference"] == "stationary" and family["t_end"] < LONG:
+        expected = f"a finite number >= {LONG} where the reference is the stationary state"
+        yield wrong(place, family, "t_end", expected)

@@ -1,0 +1,132 @@
+"""The drawing of plans/stability.py, and the numbers of its caption."""
+
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.colors import BoundaryNorm
+from matplotlib.figure import Figure
+
+from scripts.drawing.parameters import number
+from scripts.drawing.style import FAINT, INK
+from scripts.drawing.wording import short
+
+GRID = "grid_"
+"""How names of the grid's families begin."""
+LEVELS = np.arange(-14, 1, 2)
+"""Powers of ten between the colours of errors."""
+FACTOR = 100
+"""Errors up to this multiple of the expected error count as expected, in the ledger too."""
+
+
+def draw(table: list[dict]) -> Figure:
+    """Two maps above, errors against what is expected below."""
+    figure, axes = plt.subplot_mosaic(
+        [["a", "b"], ["c", "c"]], figsize=(6.7, 5.2), height_ratios=[1, 1.15]
+    )
+    methods = list(dict.fromkeys(row["method"] for row in table))
+    for label, method in zip("ab", methods, strict=False):
+        shown = [row for row in table if row["method"] == method and row["family"].startswith(GRID)]
+        mesh = draw_map(axes[label], shown)
+        axes[label].set_title(f"$\\bf{{{label}}}$  {method}, {tolerances(shown)}")
+    axes["b"].set_ylabel("")
+    bar = figure.colorbar(mesh, ax=[axes["a"], axes["b"]], pad=0.02)
+    bar.set_label("largest error")
+    bar.set_ticks(10.0**LEVELS, labels=[f"$10^{{{level}}}$" for level in LEVELS])
+    draw_errors(axes["c"], table, methods)
+    axes["c"].set_title(rf"$\bf{{c}}$  all cases with a reference, {tolerances(table)}")
+    return figure
+
+
+def draw_map(axes: Axes, rows: list[dict]):
+    """Errors over delay and frequency; a cross where the run did not reach its end."""
+    delays = sorted({row["tau"] for row in rows})
+    frequencies = sorted({row["gamma"] for row in rows})
+    errors = np.full((len(frequencies), len(delays)), np.nan)
+    for row in rows:
+        y, x = frequencies.index(row["gamma"]), delays.index(row["tau"])
+        if row["status"] == "ok":
+            errors[y, x] = max(row["error"], 10.0 ** LEVELS[0])
+        else:
+            axes.plot(x, y, "x", color=INK, ms=4, mew=0.8)
+    colours = plt.get_cmap("viridis_r").copy()
+    norm = BoundaryNorm(10.0**LEVELS, colours.N, extend="max")
+    mesh = axes.pcolormesh(
+        range(len(delays)),
+        range(len(frequencies)),
+        errors,
+        shading="nearest",
+        cmap=colours,
+        norm=norm,
+        edgecolors="white",
+        lw=0.5,
+    )
+    axes.set_xticks(range(len(delays)), [f"${number(delay)}$" for delay in delays])
+    axes.set_yticks(range(len(frequencies)), [f"${number(value)}$" for value in frequencies])
+    axes.set(xlabel=r"delay $\tau$", ylabel=r"frequency $\gamma$")
+    return mesh
+
+
+def tolerances(rows: list[dict]) -> str:
+    """The tolerance of these runs, or all that they have."""
+    values = sorted({row["tolerance"] for row in rows})
+    return f"tolerance {', '.join(f'${number(value)}$' for value in values)}"
+
+
+def draw_errors(axes: Axes, rows: list[dict], methods: list[str]) -> None:
+    """Error of each case over tolerance times amplification."""
+    for index, method in enumerate(methods):
+        for ended in (True, False):
+            shown = [
+                row
+                for row in rows
+                if row["method"] == method
+                and (row["status"] == "ok") is ended
+                and row["error"] > 0
+                and row["amplification"] > 0
+            ]
+            if not shown:
+                continue
+            axes.plot(
+                [max(row["error_expected"], row["tolerance"]) for row in shown],
+                [row["error"] for row in shown],
+                ls="",
+                marker="o^"[index % 2],
+                ms=3.5,
+                color=f"C{index}",
+                mfc=f"C{index}" if ended else "none",
+                mew=0.7,
+                label=f"{method}{'' if ended else ', ended early'}",
+            )
+    ends = np.array([1e-10, 1e6])
+    for factor, style, words in ((1, "-", ""), (100, ":", r"100 $\times$ ")):
+        label = f"error = {words}expected error"
+        axes.plot(ends, factor * ends, color=FAINT, lw=0.8, ls=style, zorder=0, label=label)
+    axes.set(
+        xscale="log",
+        yscale="log",
+        xlim=(4e-10, None),
+        ylim=(1e-16, 1e3),
+        xlabel=r"expected error = tolerance $\times$ amplification of a disturbance",
+        ylabel="largest error",
+    )
+    axes.legend(loc="lower right", ncols=2)
+
+
+def numbers(table: list[dict]) -> dict:
+    """Runs that are completed by each method, and errors that are within what is expected."""
+    methods = []
+    for method in dict.fromkeys(row["method"] for row in table):
+        rows = [row for row in table if row["method"] == method]
+        ended = [row for row in rows if row["status"] == "ok"]
+        measured = [row for row in ended if row["error"] >= 0 and row["error_expected"] > 0]
+        methods.append(
+            {
+                "name": method,
+                "runs": len(rows),
+                "completed": len(ended),
+                "measured": len(measured),
+                "within": sum(row["error"] <= FACTOR * row["error_expected"] for row in measured),
+            }
+        )
+    values = sorted({row["tolerance"] for row in table})
+    return {"methods": methods, "tolerance": ", ".join(map(short, values))}

@@ -1,0 +1,76 @@
+"""Stiff and extreme cases, solved by several methods and compared with references."""
+
+from scripts.namelists.program_groups import REFERENCE_STEPS, case_groups
+from scripts.plans.declare import LONG_RUN, Figure, Run, Study, Table
+from scripts.studies.stability.cases import cases_of_family
+
+
+def measurement_groups(config: dict, family: str) -> dict[str, dict]:
+    """Measured runs of a family."""
+    study = config["stability"]
+    measure = {
+        "methods": study["methods"],
+        "tolerances": [study["tolerance"]],
+        "most_steps": study["families"][family]["most_steps"],
+        **{key: study[key] for key in ("repeats", "least_seconds")},
+    }
+    return {**case_groups(config, cases_of_family(config, family)), "measure": measure}
+
+
+def reference_groups(config: dict, family: str) -> dict[str, dict]:
+    """References of the same cases."""
+    reference = {**config["stability"]["reference"], "most_steps": REFERENCE_STEPS}
+    return {**case_groups(config, cases_of_family(config, family)), "reference": reference}
+
+
+def references(config: dict) -> dict[str, str]:
+    """What each family of cases is compared with."""
+    return {n: family["reference"] for n, family in config["stability"]["families"].items()}
+
+
+def inputs(config: dict) -> dict:
+    """Measured runs of all families, and the references that they have."""
+    families = references(config)
+    return {
+        "measurements": [f"<results>/measurements/stability/{name}.nc" for name in families],
+        "references": [
+            f"<results>/references/stability/{name}.tsv"
+            for name, reference in families.items()
+            if reference == "quadruple"
+        ],
+    }
+
+
+STUDY = Study(
+    entries={"family": ("stability", "families")},
+    runs=(
+        Run(
+            *("stability_reference", "reference", "references/stability/{family}.tsv"),
+            reference_groups,
+            quad=True,
+            **LONG_RUN,
+        ),
+        Run(
+            *("stability_runs", "measure", "measurements/stability/{family}.nc"),
+            measurement_groups,
+        ),
+    ),
+    tables=(
+        Table(
+            *("stability_table", "tables/stability.tsv", inputs),
+            params={"references": references},
+            wanted=lambda config: bool(config["stability"]["families"]),
+        ),
+    ),
+    figures=(
+        Figure(
+            "stability",
+            "Figure of stability: the grid of frequency and delay by two methods, and all other"
+            " cases.",
+            category="Solver",
+            place=210,
+            inputs=lambda _config: {"table": "<results>/tables/stability.tsv"},
+        ),
+    ),
+    measured=("measurements/stability/",),
+)

@@ -1,0 +1,18 @@
+"""Keys of synchrony that contradict each other."""
+
+from collections.abc import Iterator
+
+from scripts.config.checks import check_scenes_of_chains, window, wrong
+
+
+def contradictions(config: dict) -> Iterator[str]:
+    """Problems of the scenes whose synchrony is tried."""
+    synchrony = config["synchrony"]
+    place = "config synchrony"
+    yield from window(place, "s_window", synchrony["s_window"], least=1.0)
+    yield from check_scenes_of_chains(place, synchrony, config["scenes"])
+    for name in config["scenes"].keys() & set(synchrony["scenes"]):
+        scene = config["scenes"][name]
+        if synchrony["t_end"] <= scene["t_transient"]:
+            expected = f"a finite number > t_transient = {scene['t_transient']} of scene '{name}'"
+            yield wrong(place, synchrony, "t_end", expected)

@@ -1,0 +1,33 @@
+"""Whether blocks that move alike stay alike: growth of disturbances over the stiffness of modes."""
+
+from scripts.namelists.program_groups import scene_alone
+from scripts.plans.declare import LONG_RUN, Figure, Run, Study
+
+
+def groups(config: dict, scene: str) -> dict[str, dict]:
+    """The motion of one block, and the modes that are tried along it."""
+    measured = {key: value for key, value in config["synchrony"].items() if key != "scenes"}
+    times = {"t_end": measured["t_end"], "tolerance": measured.pop("tolerance")}
+    return {"scene": scene_alone(config, scene, **times), "synchrony": measured}
+
+
+def inputs(config: dict) -> dict:
+    """Growth along the motion of each scene."""
+    scenes = config["synchrony"]["scenes"]
+    return {"growth": [f"<results>/synchrony/{scene}.nc" for scene in scenes]}
+
+
+STUDY = Study(
+    reads=("scenes",),
+    runs=(Run("synchrony_runs", "synchrony", "synchrony/{scene}.nc", groups, **LONG_RUN),),
+    figures=(
+        Figure(
+            "synchrony",
+            "Whether blocks that move alike stay alike: growth of disturbances over the stiffness"
+            " of modes.",
+            category="Chains",
+            place=420,
+            inputs=inputs,
+        ),
+    ),
+)

@@ -1,0 +1,159 @@
+"""Synchrony: growth of disturbances along the motion of one block."""
+
+import copy
+import math
+
+import numpy as np
+import pytest
+import xarray as xr
+from independent_chain import whole_chain
+
+from scripts.config.check_config import checked
+from scripts.files.read_config import ConfigError
+from scripts.namelists.chains import groups_of_chain
+from scripts.studies.synchrony.figure import zeros_in_words
+from scripts.studies.synchrony.plan import groups
+from scripts.studies.synchrony.ranges import (
+    growing_ranges,
+    largest_alike,
+    undecided_blocks,
+    undecided_range,
+)
+
+
+@pytest.fixture
+def config(filled_config) -> dict:
+    """The paper's configuration with its defaults, to change."""
+    return copy.deepcopy(filled_config)
+
+
+def measured(programs, config: dict, scene: str, window: list, count: int) -> xr.Dataset:
+    """A short measurement of the growth of disturbances."""
+    t_end = config["scenes"][scene]["t_transient"] + 4000.0
+    config["synchrony"] |= {"s_window": window, "count": count, "t_end": t_end, "blocks": 10}
+    return programs.made_of("synchrony", groups(config, scene))
+
+
+def test_disturbances_grow_as_between_two_blocks(programs, config):
+    """kappa = 0.0875: s = 1.175, where disturbances grow along the paper's torus."""
+    place = {key: config["scenes"]["torus"][key] for key in ("tau", "epsilon", "xi", "gamma")}
+    apart = {"v": [1.1 + 1e-9, 1.1 - 1e-9]}
+    chain = whole_chain(
+        **{**place, "blocks": 2, "kappa": 0.0875, "history": apart, "t_end": 3000.0},
+        **{"sample_interval": 0.1, "tolerance": 1e-13, "variables": ["u", "v"]},
+    )
+    two = programs.made_of("trajectory", groups_of_chain(config, "mine", chain))
+    distance = abs(np.log(two.v).diff("block")) + abs(two.u.diff("block"))
+    highest = distance.sel(t=slice(1000.0, None)).isel(block=0).coarsen(t=2000, boundary="trim")
+    peaks = highest.max()
+    slope = np.polyfit(peaks.t, np.log(peaks), 1)[0]
+    found = measured(programs, config, "torus", [1.175, 2.0], 2)
+    assert found.s.values.tolist() == pytest.approx([1.175, 2.0])
+    assert found.exponent.values[0] == pytest.approx(slope, rel=0.02)
+    assert found.exponent.values[0] > 0 > found.exponent.values[1]
+    assert 1.175 < found.zero_s.item() < 2.0
+    assert found.zero_rises.item() == 0
+
+
+@pytest.mark.parametrize(
+    ("scene", "window", "zero"),
+    [("torus", [1.0, 1.4], 1.2549), ("oscillation", [1.012, 3.0], 1.0243)],
+)
+def test_multipliers_and_exponents_agree(programs, config, scene, window, zero):
+    """Two ways to one exponent and to its zero, within three standard errors."""
+    found = measured(programs, config, scene, window, 4)
+    assert "no_multipliers" not in found.attrs
+    np.testing.assert_allclose(found.floquet_s[::10], found.s, rtol=1e-14)
+    assert (abs(found.floquet_exponent.values[::10] - found.exponent) <= 3 * found.error).all()
+    assert found.floquet_error.max() < 1e-9
+    if window[0] == 1:
+        assert found.floquet_exponent[0] == 0
+    assert found.floquet_zero_s.item() == pytest.approx(zero, abs=1e-4)
+    distance = abs(found.floquet_zero_s.item() - found.zero_s.item())
+    assert distance <= 3 * found.zero_error.item() < 1e-2
+    assert growing_ranges(found) == [(1.0, found.floquet_zero_s.item())]
+    assert f"zero at s = {zero}" in zeros_in_words(found)
+
+
+def test_motion_without_cycle_has_no_multipliers(programs, config):
+    """Chaos: the ranges are those of the exponents."""
+    found = measured(programs, config, "chaos", [1.0, 41.0], 3)
+    assert "cycle" in found.attrs["no_multipliers"]
+    assert found.sizes["floquet_s"] == found.sizes["floquet_zero"] == 0
+    assert growing_ranges(found) == [(1.0, found.zero_s.item())]
+
+
+@pytest.mark.parametrize(("blocks", "alike"), [(6, True), (7, False)])
+def test_largest_chain_that_moves_as_one(programs, config, blocks, alike):
+    """Along the paper's torus disturbances grow up to s = 1.255: seven blocks separate."""
+    assert (largest_alike([(1.0, 1.25493)], 1.0) >= blocks) == alike
+    place = {key: config["scenes"]["torus"][key] for key in ("tau", "epsilon", "xi", "gamma")}
+    chain = whole_chain(
+        **{**place, "blocks": blocks, "kappa": 1.0, "disturbance": {"ln_v": 1e-6}},
+        **{"t_end": 8000.0, "sample_interval": 0.5, "tolerance": 1e-12},
+    )
+    found = programs.made_of("trajectory", groups_of_chain(config, "mine", chain))
+    spread = np.log(found.v).std("block")
+    early, late = (float(spread.sel(t=slice(t, t + 500)).max()) for t in (3000, 7500))
+    assert (late < early) == alike
+
+
+@pytest.mark.parametrize(
+    "ranges", [[], [(1.0, 1.2)], [(1.0, math.inf)], [(1.5, 1.9)], [(1.1, 1.15), (2.0, 2.2)]]
+)
+@pytest.mark.parametrize("kappa", [0.01, 0.1, 1.0, 10.0])
+def test_largest_number_of_blocks_without_a_growing_mode(ranges, kappa):
+    """As by trying all up to 300."""
+    tried = [
+        blocks
+        for blocks in range(1, 301)
+        if not any(
+            low < 1 + kappa * (2 - 2 * math.cos(math.pi * m / blocks)) < high
+            for m in range(1, blocks)
+            for low, high in ranges
+        )
+    ]
+    assert (largest_alike(ranges, kappa) or 300) == tried[-1]
+
+
+def test_ranges_of_growth_end_at_zeros():
+    """By multipliers where there are any; signs follow from the direction of the first zero."""
+
+    def growth(zeros: list, rises: list, exponents: list, multipliers: bool) -> xr.Dataset:
+        kind = "floquet_" if multipliers else ""
+        none = {"floquet_s": [], "floquet_zero_s": [], "zero_s": []}
+        values = {
+            f"{kind}s": np.arange(1.0, len(exponents) + 1.0),
+            f"{kind}exponent": (f"{kind}s", exponents),
+            f"{kind}zero_s": (f"{kind}zero", zeros),
+            f"{kind}zero_rises": (f"{kind}zero", rises),
+        }
+        return xr.Dataset({**none, **values})
+
+    for multipliers in (False, True):
+        assert growing_ranges(growth([], [], [0.0, -1.0], multipliers)) == []
+        assert growing_ranges(growth([], [], [0.0, 1.0], multipliers)) == [(1.0, math.inf)]
+        assert growing_ranges(growth([2.0], [0], [0.0, -1.0], multipliers)) == [(1.0, 2.0)]
+        two = growth([2.0, 3.0, 4.0], [1, 0, 1], [0.0, 1.0], multipliers)
+        assert growing_ranges(two) == [(2.0, 3.0), (4.0, math.inf)]
+    # the exponents at s = 3 and 4 are within three errors of 0; of two blocks s = 1 + 2 kappa
+    unsure = growth([3.5], [0], [0.1, 0.05, 0.01, -0.01, -0.1], False)
+    unsure["error"] = ("s", [0.01] * 5)
+    assert undecided_range(unsure) == (3.0, 4.0)
+    assert undecided_blocks(unsure, 1.2, 3) == [2]
+    assert undecided_blocks(unsure, 2.0, 3) == [3]
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"scenes": ["nowhere"]}, "'nowhere'; expected one of"),
+        ({"s_window": [0.5, 2.0]}, "s_window"),
+        ({"t_end": 10.0}, "t_end = 10.0; expected a finite number > t_transient"),
+    ],
+)
+def test_bad_settings_are_refused(config, given, words):
+    config["synchrony"] |= given
+    with pytest.raises(ConfigError) as refusal:
+        checked(config)
+    assert words in str(refusal.value)

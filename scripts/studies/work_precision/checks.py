@@ -1,0 +1,27 @@
+"""Keys of measured cases that contradict each other."""
+
+from collections.abc import Iterator
+
+from scripts.config.checks import check_reference, check_samples
+
+
+def contradictions(config: dict) -> Iterator[str]:
+    """Names that mean nothing or two things, and samples too far apart or too many."""
+    place, study, scenes = "config work_precision", config["work_precision"], config["scenes"]
+    yield from check_reference(f"{place} reference", study["reference"])
+    for name in study["scenes"]:
+        if name not in scenes:
+            yield (
+                f"{place} scenes: {name!r}; expected one of: {', '.join(scenes)} (or a case with"
+                " its parameters under work_precision cases)"
+            )
+    for name in study["cases"]:
+        if name in scenes:
+            yield (
+                f"{place} cases: {name!r}; expected a name that no scene has (or the scene under"
+                " work_precision scenes)"
+            )
+    runs = len(study["methods"]) * len(study["tolerances"])
+    for kind in ("scenes", "cases"):
+        for name, case in study[kind].items():
+            yield from check_samples(f"{place} {kind} {name}", case, runs)

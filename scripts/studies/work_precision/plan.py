@@ -1,0 +1,132 @@
+"""Work against precision: error against run time of all methods, and of other solvers."""
+
+import re
+from pathlib import Path
+
+from scripts.namelists.parameters import place_of
+from scripts.namelists.program_groups import REFERENCE_STEPS, case_groups
+from scripts.plans.declare import LONG_RUN, Figure, Run, Study, Table
+
+OTHERS = "benchmarks/measured.tsv"
+
+
+def measured_study(config: dict) -> dict:
+    """The study of work against precision, in which its scenes are cases among the others."""
+    study = config["work_precision"]
+    scenes = {
+        name: place_of(config, config["scenes"][name])
+        | {"history": config["scenes"][name]["history"]}
+        | settings
+        for name, settings in study["scenes"].items()
+    }
+    return {**study, "cases": scenes | study["cases"]}
+
+
+def case_of(name: str, settings: dict) -> dict:
+    """One case up to its t_end."""
+    own = {key: value for key, value in settings.items() if key != "history"}
+    return {"name": name, **settings["history"], **own}
+
+
+def groups_of(config: dict, case: str) -> dict[str, list[dict]]:
+    """A case in full length."""
+    return case_groups(config, [case_of(case, measured_study(config)["cases"][case])])
+
+
+def trust_groups(config: dict, case: str) -> dict[str, dict]:
+    """A run of the least tolerance, which is compared with the reference."""
+    measure = {
+        "methods": ["auto"],
+        "tolerances": [min(config["work_precision"]["tolerances"])],
+        "most_steps": REFERENCE_STEPS,
+        "repeats": 0,
+        "least_seconds": 0.0,
+    }
+    return {**groups_of(config, case), "measure": measure}
+
+
+def reference_groups(config: dict, case: str) -> dict[str, dict]:
+    """The reference of a case."""
+    reference = {**config["work_precision"]["reference"], "most_steps": REFERENCE_STEPS}
+    return {**groups_of(config, case), "reference": reference}
+
+
+def measurement_groups(config: dict, case: str) -> dict[str, dict]:
+    """Measured runs of a case."""
+    keys = ["methods", "tolerances", "steps", "most_steps", "repeats", "least_seconds"]
+    measure = {key: config["work_precision"][key] for key in keys}
+    return {**groups_of(config, case), "measure": measure}
+
+
+def inputs_of(study: str):
+    """What a table of runs of a study is made of, by the configuration."""
+
+    def inputs(config: dict) -> dict:
+        cases = measured_study(config)["cases"]
+        return {
+            "measurements": [f"<results>/measurements/{study}/{case}.nc" for case in cases],
+            "references": [f"<results>/references/trust/{case}.tsv" for case in cases],
+        }
+
+    return inputs
+
+
+def params(_config: dict) -> dict:
+    """The date on which other solvers were measured, from the first lines of their table."""
+    measured = Path(__file__).parents[3] / OTHERS
+    return {"date": re.search(r"^# date: (\S+)$", measured.read_text(), re.MULTILINE)[1]}
+
+
+STUDY = Study(
+    reads=("scenes",),
+    entries={
+        "measured_scene": ("work_precision", "scenes"),
+        "measured_case": ("work_precision", "cases"),
+    },
+    wildcards={"case": r"\w+"},
+    runs=(
+        Run(
+            *("trust_reference", "reference", "references/trust/{case}.tsv", reference_groups),
+            quad=True,
+            **LONG_RUN,
+        ),
+        Run("trust_runs", "measure", "measurements/trust/{case}.nc", trust_groups),
+        Run(  # the methods take turns, so that what else the machine does hits all alike
+            *("work_precision_runs", "measure", "measurements/work_precision/{case}.nc"),
+            measurement_groups,
+            needs={"horizons": "tables/trusted-horizons.tsv"},
+            horizons=True,
+            **LONG_RUN,
+        ),
+    ),
+    tables=(
+        Table(
+            *("trusted_horizons", "tables/trusted-horizons.tsv", inputs_of("trust")),
+            params={"trusted_error": lambda config: config["work_precision"]["trusted_error"]},
+            script="horizons_table.py",
+        ),
+        Table(
+            *("work_precision_table", "tables/work-precision.tsv", inputs_of("work_precision")),
+            more_outputs={"proportionality": "tables/tolerance-proportionality.tsv"},
+            wanted=lambda config: bool(config["work_precision"]["scenes"]),
+        ),
+    ),
+    figures=(
+        Figure(
+            "work_precision",
+            "Figure of work against precision: one panel a scene, one line a solver.",
+            category="Solver",
+            place=220,
+            inputs=lambda _config: {
+                "table": "<results>/tables/work-precision.tsv",
+                "others": OTHERS,
+            },
+            params=params,
+        ),
+    ),
+    measured=(
+        *("measurements/trust/", "measurements/work_precision/"),
+        *("figures/work_precision", "tables/work-precision.tsv"),
+    ),
+    uses=lambda config: {"scene": list(config["work_precision"]["scenes"])},
+)
