@@ -74,7 +74,7 @@ class Delayed:
 
 @dataclass
 class Observed:
-    """What is looked at in motions: the signal, a state or an exponential of one, and its levels."""
+    """What is looked at in motions: the signal, a state or an exponential of one; its levels."""
 
     signal: str
     event: float | None = None
@@ -297,7 +297,9 @@ class _Reader:
         self.written = {new: old for old, new in safe.items()}
         safe = {new: f"{new}_" for new in self.written} | safe
         said = {**values, **{key: in_words(values.get(key), safe) for key in TEXTS}}
-        said["coordinates"] = [in_words(str(name), safe) for name in values.get("coordinates") or ()]
+        said["coordinates"] = [
+            in_words(str(name), safe) for name in values.get("coordinates") or ()
+        ]
         for key, section in values.items():
             if isinstance(section, dict):
                 inside = {} if key in ("parameters", "states") else safe

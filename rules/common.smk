@@ -117,7 +117,7 @@ def models_of(run):
     """Models that a run opens, by the wildcards."""
 
     def find_models(wildcards):
-        return models.models_in(run.groups(config, **wildcards), run.command)
+        return models.models_in(run.groups(config, **wildcards))
 
     return find_models
 

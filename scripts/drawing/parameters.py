@@ -1,6 +1,6 @@
 """Parameters and numbers as figures write them, with true minus signs."""
 
-from scripts.namelists.laws import OWN, PAPER, law_of, spoken
+from scripts.namelists.laws import PAPER, law_of, spoken
 from scripts.namelists.parameters import PARAMETERS
 
 SYMBOLS = {
@@ -46,7 +46,7 @@ def in_words(place: dict, *left_out: str) -> str:
 
 def symbol_of(parameter: str) -> str:
     """The symbol of a parameter, of a law's own one its name."""
-    name = parameter.removeprefix(OWN).replace("_", r"\_")
+    name = parameter.replace("_", r"\_")
     return SYMBOLS.get(parameter, rf"\mathrm{{{name}}}")
 
 
@@ -58,5 +58,5 @@ def equation(parameter: str, value: float) -> str:
 def axis_of(parameter: str, meaning: str = "") -> str:
     """Name and symbol of a parameter, the delay with its unit; a law's own one has its meaning."""
     unit = " (units of $L/v_0$)" if parameter == "tau" else ""
-    meaning = "" if meaning == parameter.removeprefix(OWN) else meaning
+    meaning = "" if meaning == parameter else meaning
     return f"{NAMES.get(parameter, meaning)} ${symbol_of(parameter)}${unit}".strip()

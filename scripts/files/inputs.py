@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 from scripts.files.outputs import FileError
+from scripts.namelists.laws import CHAIN, block_parameters, with_values
 
 # takes half a second to load, and planning knows functions of data by name alone
 if TYPE_CHECKING:
@@ -14,11 +15,12 @@ DataArray: TypeAlias = "xarray.DataArray"
 
 
 def with_law_in_words(data: Dataset) -> Dataset:
-    """The data with the values of the law's own parameters beside its name."""
-    own = data.attrs.get("law_parameters", "").split()
-    if own:
-        values = ", ".join(f"{name} = {data.attrs[f'law_{name}']:g}" for name in own)
-        data.attrs["law"] += f" ({values})"
+    """The data with the law of its model, and the values of parameters that are the law's own."""
+    if "model" in data.attrs:
+        known = {*block_parameters(), "kappa"}
+        own = [name for name in data.attrs["parameters"].split() if name not in known]
+        values = {name: data.attrs[name] for name in own if name in data.attrs}
+        data.attrs["law"] = with_values(data.attrs["model"].removeprefix(CHAIN), **values)
     return data
 
 

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from scripts.namelists.parameters import HISTORY, with_parameters
+from scripts.namelists.parameters import histories_group, with_model
 
 
 def drawn_histories(count: int, ranges: dict) -> list[dict]:
@@ -43,11 +43,11 @@ def survey_groups(
         if isinstance(value, dict) and "window" in value
     ]
     fixed = {key: value for key, value in place.items() if key not in [x["along"] for x in axes]}
-    points = {"name": name, "parameters": with_parameters(config, fixed)["parameters"], **how}
+    points = {"name": name, "model": with_model(config, fixed)["model"], **how}
     return {
         "observation": {**observation, **config["spectra"]},
         "solver": solver,
         # a namelist has no empty lists
         "points": {**points, **({"axes": axes} if axes else {})},
-        "histories": {key: [history[key] for history in histories] for key in HISTORY},
+        "histories": histories_group(histories),
     }

@@ -4,13 +4,10 @@ import math
 
 import numpy as np
 
-from scripts.namelists.parameters import HISTORY, with_parameters
-
-CHAIN = ["blocks", "kappa", "ends"]
-"""Keys of a chain beside those of a block."""
+from scripts.namelists.parameters import HISTORY, histories_group, with_model
 
 
-def histories_of(chain: dict) -> dict[str, list[float]]:
+def histories_of(chain: dict) -> list[dict[str, float]]:
     """Values for t <= 0 of each block: those of `history`, and the disturbance."""
     blocks, disturbance = chain["blocks"], chain["disturbance"]
     values = {
@@ -26,18 +23,18 @@ def histories_of(chain: dict) -> dict[str, list[float]]:
             change = disturbance[size] * (np.arange(1, blocks + 1) == disturbance["block"])
         values[key] = values[key] + change
     values["v"] = np.exp(values["v"])
-    return {key: values[key].tolist() for key in HISTORY}
+    columns = [values[key].tolist() for key in HISTORY]
+    return [dict(zip(HISTORY, block, strict=True)) for block in zip(*columns, strict=True)]
 
 
 def groups_of_chain(config: dict, chain: str, settings: dict) -> dict[str, dict]:
-    """A chain as a scene; the group `blocks` has the histories."""
-    histories = histories_of(settings)
-    left_out = {"history", "disturbance", *CHAIN}
+    """A chain as a scene, with the histories of its blocks."""
+    left_out = {"history", "disturbance"}
     scene = {key: value for key, value in settings.items() if key not in left_out}
-    groups = with_parameters(config, {"name": chain, **scene})
-    groups["parameters"] |= {key: settings[key] for key in CHAIN}
-    groups["history"] = {key: values[0] for key, values in histories.items()}
-    return {"scene": groups, "blocks": histories}
+    return {
+        "scene": with_model(config, {"name": chain, **scene}),
+        "histories": histories_group(histories_of(settings)),
+    }
 
 
 def eigenvalues(blocks: int, ends: str) -> list[float]:

@@ -20,8 +20,6 @@ PAPER = "slip_delayed_logarithm"
 """The law of equation (4)."""
 PREFIX = "quasistatic_"
 """What stands before the name of a law without inertia."""
-OWN = "law_"
-"""What stands before the name of a law's own parameter in results: columns may have its name."""
 CHAIN = "chain_"
 """What stands before the name of the law of a chain of blocks."""
 
@@ -81,14 +79,6 @@ def own_place(config: dict, settings: dict) -> dict:
     return {key: settings[key] for key in names if key in settings}
 
 
-def law_group(config: dict, settings: dict) -> dict:
-    """Law and own parameters of an entry, as programs read them."""
-    law, *own = own_place(config, settings).items()
-    # a namelist has no empty lists
-    names, values = ([item[i] for item in own] for i in (0, 1))
-    return dict([law]) | ({"own_names": names, "own": values} if own else {})
-
-
 def law_in_words(config: dict, settings: dict) -> str:
     """Name of the law of an entry, with the values of its own parameters, as results have it."""
     return with_values(**own_place(config, settings))
@@ -107,10 +97,10 @@ def law_of(place: Mapping) -> str:
 
 def is_on(scene: dict, place: Mapping, *axes: str) -> bool:
     """Whether a scene has the law and parameters of a place, those of axes aside."""
-    keys = [key for key in block_parameters() if key not in axes]
-    own = {key.removeprefix(OWN): scene[key] for key in scene if key.startswith(OWN)}
-    fixed = {key: value for key, value in own.items() if OWN + key not in axes}
+    own = {key: scene[key] for key in scene if key not in {*block_parameters(), "law"}}
+    fixed = {key: value for key, value in own.items() if key not in axes}
     law = law_of(scene) if fixed == own else with_values(law_of(scene).split()[0], **fixed)
+    keys = [key for key in block_parameters() if key not in axes]
     return law == law_of(place) and all(scene[key] == place[key] for key in keys)
 
 

@@ -8,23 +8,15 @@ OWN = "build/release"
 """The folder of the program and of the project's models."""
 
 
-def models_in(groups, command: str = "") -> set[str]:
-    """Names of the models that groups of a namelist name.
-
-    A chain needs the model of one block, too: its parameters are checked by it.
-    """
+def models_in(groups) -> set[str]:
+    """Names of the models that groups of a namelist name."""
     if isinstance(groups, list):
-        return set().union(*(models_in(each, command) for each in groups))
+        return set().union(*map(models_in, groups))
     if not isinstance(groups, dict):
         return set()
-    found = set().union(*(models_in(each, command) for each in groups.values()))
-    law = groups.get("law")
-    if isinstance(law, str):
-        found.add(law)
-        # laws without inertia have no chains
-        if ("blocks" in groups or command == "synchrony") and not law.startswith(PREFIX):
-            found.add(CHAIN + law)
-    return found
+    found = set().union(*map(models_in, groups.values()))
+    model = groups.get("model")
+    return found | ({model["name"]} if isinstance(model, dict) else set())
 
 
 def law_of(model: str) -> str:

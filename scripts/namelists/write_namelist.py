@@ -7,17 +7,17 @@ import f90nml
 
 from scripts.files.outputs import written
 
-BLOCKS = "blocks"
-"""The group with a list for each quantity of the blocks of a chain."""
+HISTORIES = "histories"
+"""The values before the initial time, which are many: a namelist group of their own."""
 
 
 def text_of(groups: dict[str, dict]) -> str:
     """The text of a namelist file with these groups of values.
 
-    The program reads them from one namelist group, &settings: there a key is `group%key`. Lists of
-    a chain's blocks are a namelist group of their own.
+    The program reads them from one namelist group, &settings: there a key is `group%key`.
+    Histories are a namelist group of their own.
     """
-    lists = {BLOCKS: groups[BLOCKS]} if BLOCKS in groups else {}
+    lists = {HISTORIES: groups[HISTORIES]} if HISTORIES in groups else {}
     settings = {key: value for key, value in groups.items() if key not in lists}
     text = io.StringIO()
     f90nml.Namelist({"settings": settings, **lists}).write(text)

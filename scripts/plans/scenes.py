@@ -1,6 +1,6 @@
 """Results of scenes by their paths, and what figures mark of scenes, by the configuration."""
 
-from scripts.namelists.laws import OWN, law_in_words, own_parameters, own_place
+from scripts.namelists.laws import law_in_words, own_parameters, own_place
 from scripts.namelists.parameters import PARAMETERS
 
 
@@ -27,16 +27,13 @@ def plane_of(config: dict, settings: dict, ordinate: str = "") -> dict:
 
 
 def marked_scenes(config: dict) -> dict[str, dict]:
-    """Parameters of the scenes that figures mark: those whose attractors are looked for.
-
-    The law's own parameters have their keys in results.
-    """
+    """Parameters of the scenes that figures mark: those whose attractors are looked for."""
     scenes = {name: config["scenes"][name] for name in scenes_with(config, "attractors")}
     return {
         name: {
             **{key: scene[key] for key in PARAMETERS},
             "law": law_in_words(config, scene),
-            **{f"{OWN}{key}": scene[key] for key in own_parameters(config, scene["law"])},
+            **{key: scene[key] for key in own_parameters(config, scene["law"])},
         }
         for name, scene in scenes.items()
     }

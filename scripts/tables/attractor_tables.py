@@ -7,7 +7,7 @@ import numpy as np
 from scripts.files.inputs import DataArray, Dataset, read
 from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
-from scripts.namelists.laws import OWN, law_of
+from scripts.namelists.laws import law_of
 from scripts.namelists.parameters import HISTORY, PARAMETERS
 from scripts.tables.exponent_signs import SIGNS
 from scripts.tables.motion_rows import AXES_FIRST, has_problem
@@ -32,7 +32,7 @@ def rows_of(run: Dataset, **flags: list[str]) -> list[dict]:
     columns = {
         **{key: numbers(run[key]) for key in AXES_FIRST},
         "law": [law_of(run.attrs)] * run.sizes["point"],
-        **{key: numbers(run[key]) for key in axes_of(run) if key.startswith(OWN)},
+        **{key: numbers(run[key]) for key in axes_of(run) if key not in PARAMETERS},
         **{key: numbers(run[f"history_{key}"]) for key in HISTORY},
         **flags,
         "class": words(run["class"]),

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from scripts.namelists.laws import OWN, law_of
+from scripts.namelists.laws import law_of
 from scripts.namelists.parameters import HISTORY, PARAMETERS
 
 UNDECIDED = "undecided"
@@ -85,7 +85,9 @@ def parameter_of(rows: list[dict]) -> str:
     """The parameter that varies along a route, or the value of the history."""
     # runs differ in their histories
     of_run = [row for row in rows if row.get("run") == rows[0].get("run")]
-    keys = (*PARAMETERS, *(key for key in rows[0] if key.startswith(OWN)), *HISTORY)
+    known = list(rows[0])
+    own = known[known.index("law") + 1 : known.index(HISTORY[0])]
+    keys = (*PARAMETERS, *own, *HISTORY)
     return next(key for key in keys if len({row[key] for row in of_run}) > 1)
 
 

@@ -66,7 +66,7 @@ def regions_of(modes: list[xr.Dataset]) -> np.ndarray:
 
 def draw_regions(axes: Axes, modes: list[xr.Dataset]) -> None:
     axes.pcolormesh(
-        modes[0].map_epsilon,
+        modes[0].map_abscissa,
         modes[0].map_ordinate,
         regions_of(modes),
         cmap=ListedColormap(list(REGIONS.values())),

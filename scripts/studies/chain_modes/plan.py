@@ -3,7 +3,7 @@
 import math
 
 from scripts.namelists.chains import eigenvalues
-from scripts.namelists.laws import law_group
+from scripts.namelists.parameters import plane_group
 from scripts.plans.declare import Figure, Run, Study, Table
 
 
@@ -18,19 +18,10 @@ def groups(config: dict, mode_plane: str, mode: str) -> dict[str, dict]:
     study = config["chain_modes"]
     plane = study["planes"][mode_plane]
     s = stiffness_of_modes(study)[int(mode)]
-    return {
-        "hopf_curves": {
-            "ordinate": "tau",
-            "parameters": {
-                "xi": plane["xi"] * s,
-                "gamma": plane["gamma"] * math.sqrt(s),
-                **law_group(config, plane),
-            },
-            "epsilon_window": plane["epsilon_window"],
-            "ordinate_window": plane["tau_window"],
-            "cells": study["cells"],
-        }
-    }
+    settings = {key: value for key, value in plane.items() if key != "tau_window"}
+    changes = {"xi": plane["xi"] * s, "gamma": plane["gamma"] * math.sqrt(s)}
+    of_tau = {"ordinate": "tau", "ordinate_window": plane["tau_window"], "cells": study["cells"]}
+    return {"hopf_curves": plane_group(config, {**settings, **changes, **of_tau})}
 
 
 def stiffness(config: dict) -> list[float]:

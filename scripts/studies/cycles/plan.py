@@ -3,7 +3,7 @@
 from pathlib import PurePath
 
 from scripts.namelists.laws import own_place
-from scripts.namelists.parameters import PARAMETERS, with_parameters
+from scripts.namelists.parameters import PARAMETERS, histories_group, with_model
 from scripts.plans.declare import LONGEST, Figure, Run, Study, Table
 from scripts.plans.scenes import marked_scenes
 
@@ -11,13 +11,16 @@ from scripts.plans.scenes import marked_scenes
 def groups(config: dict, cycle_line: str) -> dict[str, dict]:
     """The line on which cycles are followed, and how."""
     cycles = config["cycles"]
-    how = {key: value for key, value in cycles.items() if key not in ("lines", "curves")}
-    # curves are in planes of epsilon and tau
-    if cycles["lines"][cycle_line]["along"] in ("epsilon", "tau"):
-        how |= cycles.get("curves", {})
+    how = {key: value for key, value in cycles.items() if key not in ("lines", "curves", "v")}
+    if curves := cycles.get("curves"):
+        windows = [*curves["epsilon_window"], *curves["tau_window"]]
+        how |= {"curves_along": ["epsilon", "tau"], "curves_windows": windows}
     # a namelist has no empty lists
     own = {key: value for key, value in cycles["lines"][cycle_line].items() if value != []}
-    return {"cycles": with_parameters(config, {**how, **own})}
+    return {
+        "cycles": with_model(config, {**how, **own}),
+        "histories": histories_group([{"theta": 0.0, "u": 0.0, "v": cycles["v"]}]),
+    }
 
 
 def cycles_of_lines(config: dict) -> list[str]:

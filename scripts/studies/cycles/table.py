@@ -7,7 +7,7 @@ import xarray as xr
 from scripts.files.inputs import read
 from scripts.files.outputs import logged
 from scripts.files.tsv import as_digits, read_table, write_table
-from scripts.namelists.laws import OWN, law_of
+from scripts.namelists.laws import law_of
 from scripts.namelists.parameters import PARAMETERS
 from scripts.studies.cycles.branches import cycles_there
 from scripts.tables.attractor_tables import SAME_MAXIMUM
@@ -34,7 +34,7 @@ def rows_of(line: str, cycles: xr.Dataset, swept: list[dict]) -> list[dict]:
     points = [cycles.isel(special=i) for i in range(cycles.sizes["special"])]
     rows = [{**row_of(point), "confirmed": confirmed(point, cycles, swept)} for point in points]
     along = cycles.attrs["along"]
-    if along.startswith(OWN):
+    if along not in PARAMETERS:
         for row, point in zip(rows, points, strict=True):
             row[along] = as_digits(point[f"special_{along}"], 12)
     for i in range(cycles.sizes["cusp"]):
@@ -128,5 +128,5 @@ if __name__ == "__main__":
         for path in snakemake.input.cycles:
             cycles = read(path)
             rows += rows_of(Path(path).stem, cycles, sweeps_over(cycles, routes))
-        own = dict.fromkeys(key for row in rows for key in row if key.startswith(OWN))
+        own = dict.fromkeys(key for row in rows for key in row if key not in COLUMNS)
         write_table(snakemake.output[0], rows, [*COLUMNS, *own])

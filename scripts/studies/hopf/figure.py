@@ -27,7 +27,7 @@ def draw(curves: xr.Dataset, scenes: dict[str, dict[str, float]]) -> Figure:
     """Curves by branch, solid where supercritical, over unstable pairs; scenes of this plane."""
     ordinate = curves.attrs["ordinate"]
     figure, axes = plt.subplots(figsize=(3.6, 4.6))
-    axes.set(xlim=window_of(curves.map_epsilon.values), ylim=window_of(curves.map_ordinate.values))
+    axes.set(xlim=window_of(curves.map_abscissa.values), ylim=window_of(curves.map_ordinate.values))
     shades = shade(axes, curves)
     ends = []
     for piece in np.unique(curves.piece):
@@ -65,7 +65,7 @@ def shade(axes: Axes, curves: xr.Dataset):
     most = max(int(pairs.max()), 1)
     greys = ListedColormap([str(1 - DARKEST * i / most) for i in range(most + 1)])
     return axes.pcolormesh(
-        curves.map_epsilon,
+        curves.map_abscissa,
         curves.map_ordinate,
         pairs,
         cmap=greys,

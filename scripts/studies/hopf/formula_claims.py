@@ -16,6 +16,7 @@ from scripts.studies.hopf.printed_formulas import (
     points_of,
     residual_of_5,
     residual_of_6,
+    tau_of_10,
     xi_of_9,
 )
 
@@ -145,8 +146,11 @@ def equation_9(results: Results, *, plane: Plane, limit: Residual = 1e-10) -> Fi
 def equation_10(results: Results, *, plane: Plane, limit: Residual = 1e-10) -> Finding:
     """Whether (5) holds at the delay of (10)."""
     curves = results.curves[plane]
-    printed, corrected = float(curves.printed_residual.max()), float(curves.residual.max())
-    off = float(np.abs(curves.printed_tau - curves.tau).max())
+    points = points_of(curves)
+    tau = tau_of_10(points, curves.branch.values)
+    printed = float(residual_of_5(points, points.epsilon, tau).max())
+    corrected = float(curves.residual.max())
+    off = float(np.abs(tau - points.tau).max())
     return decided_after_correction(
         printed <= limit,
         corrected <= limit,
@@ -173,7 +177,8 @@ def hopf_curves(results: Results, *, planes: Planes, limit: Residual = 1e-10) ->
     for plane in planes:
         curves = results.curves[plane]
         on_curve = points_of(curves)
-        delay = curves.printed_tau.values if curves.attrs["ordinate"] == "tau" else on_curve.tau
+        of_tau = curves.attrs["ordinate"] == "tau"
+        delay = tau_of_10(on_curve, curves.branch.values) if of_tau else on_curve.tau
         residual = residual_of_5(on_curve, epsilon_of_8(on_curve, 1), delay)
         printed = max(printed, residual.max())
         corrected = max(corrected, float(curves.residual.max()))

@@ -1,13 +1,13 @@
 """Hopf curves of steady sliding in planes of epsilon and another parameter."""
 
-from scripts.namelists.parameters import with_parameters
+from scripts.namelists.parameters import plane_group
 from scripts.plans.declare import MAIN, PAPER, Figure, Run, Study, Table
 from scripts.plans.scenes import paths_of_scenes, scenes_in_plane
 
 
 def groups(config: dict, plane: str) -> dict[str, dict]:
     """A plane of Hopf curves."""
-    return {"hopf_curves": with_parameters(config, config["hopf_curves"][plane])}
+    return {"hopf_curves": plane_group(config, config["hopf_curves"][plane])}
 
 
 def inputs_of_points(config: dict) -> dict:

@@ -86,6 +86,14 @@ def xi_of_9(*, omega: np.ndarray, tau: np.ndarray | float, gamma: float) -> np.n
     return above / ((omega**3 - omega * gamma**2) * sine + (gamma**2 - omega**2) * cosine)
 
 
+def tau_of_10(points: Points, branch: np.ndarray) -> np.ndarray:
+    """(10) as printed: without gamma^2 in its numerator, and with the plain arctangent."""
+    w, square = points.omega, points.gamma**2
+    above = -(w**2) * (points.stiffness + 1)
+    below = -(w**3) + w * square * (1 + points.xi) / points.xi
+    return (np.arctan(above / below) + 2 * np.pi * branch) / w
+
+
 def friction_of_3(theta, v, _delayed, epsilon, _tau):
     """d theta/dt of (3) as printed."""
     return -v * (theta * (1 + epsilon) * np.log(v))

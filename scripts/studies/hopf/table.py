@@ -7,7 +7,7 @@ import xarray as xr
 from scripts.files.inputs import read
 from scripts.files.outputs import logged
 from scripts.files.tsv import as_digits, write_table
-from scripts.namelists.laws import OWN, law_of
+from scripts.namelists.laws import law_of
 from scripts.tables.amplitude_death import amplitude_death
 from scripts.tables.motion_rows import AXES_FIRST
 
@@ -92,5 +92,5 @@ if __name__ == "__main__":
             rows += rows_of(Path(path).stem, read(path))
         for path in snakemake.input.scenes:
             rows += death_rows_of(Path(path).stem, read(path))
-        own = dict.fromkeys(key for row in rows for key in row if key.startswith(OWN))
+        own = dict.fromkeys(key for row in rows for key in row if key not in COLUMNS)
         write_table(snakemake.output[0], rows, [*COLUMNS, *own])

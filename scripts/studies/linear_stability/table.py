@@ -18,13 +18,6 @@ ROOTS_SHOWN = 3
 def row_of(scene: str, stability: xr.Dataset) -> dict:
     """One scene; several values in a cell are separated by semicolons."""
     known = stability.attrs
-    found = {
-        "tau_of_changes": changes(stability, "tau"),
-        "epsilon_of_changes": changes(stability, "epsilon"),
-        "amplitude_death": "; ".join(
-            f"{begin:.12g} to {end:.12g}" for begin, end in amplitude_death(stability)
-        ),
-    }
     return {
         "scene": scene,
         **{key: float(known[key]) for key in PARAMETERS},
@@ -33,7 +26,11 @@ def row_of(scene: str, stability: xr.Dataset) -> dict:
         "root_bound": float(known["root_bound"]),
         "roots_above_bound": stability.sizes["root"],
         "leading_roots": leading_roots(stability),
-        **(dict.fromkeys(found, known["changes"]) if "changes" in known else found),
+        "tau_of_changes": changes(stability, "tau"),
+        "epsilon_of_changes": changes(stability, "epsilon"),
+        "amplitude_death": "; ".join(
+            f"{begin:.12g} to {end:.12g}" for begin, end in amplitude_death(stability)
+        ),
     }
 
 

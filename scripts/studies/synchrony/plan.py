@@ -1,14 +1,15 @@
 """Whether blocks that move alike stay alike: growth of disturbances over the stiffness of modes."""
 
-from scripts.namelists.program_groups import scene_alone
+from scripts.namelists.program_groups import scene_groups
 from scripts.plans.declare import LONG_RUN, Figure, Run, Study
 
 
 def groups(config: dict, scene: str) -> dict[str, dict]:
-    """The motion of one block, and the modes that are tried along it."""
+    """The motion of one block of a chain with kappa = 1, and the modes that are tried along it."""
     measured = {key: value for key, value in config["synchrony"].items() if key != "scenes"}
     times = {"t_end": measured["t_end"], "tolerance": measured.pop("tolerance")}
-    return {"scene": scene_alone(config, scene, **times), "synchrony": measured}
+    alone = {"blocks": 1, "kappa": 1.0, "ends": "free"}
+    return {**scene_groups(config, scene, **times, **alone), "synchrony": measured}
 
 
 def inputs(config: dict) -> dict:
