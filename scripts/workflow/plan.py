@@ -11,6 +11,7 @@ from scripts.claims.declare import OURS
 from scripts.claims.ledger import check_user_claims, names_in, paper_claims
 from scripts.config.check_config import checked
 from scripts.files.read_config import ConfigError, check_size, merge, read
+from scripts.namelists.laws import HISTORY, history_of, is_law
 from scripts.plans import studies
 from scripts.plans.declare import Figure
 from scripts.plans.studies import inside
@@ -159,8 +160,11 @@ def plan_of_paper(config: dict, folder: str) -> Plan:
 def plan_of_user(whole: dict, names: dict[str, list[str]], folder: str) -> Plan:
     """What a user's file adds or changes, by the names of its entries."""
     config = checked(whole)
-    drawn = {scene: {"u", "v"} for scene in config["scenes"]}
-    config = set_variables(config, drawn, least=VARIABLES)
+    drawn = {
+        name: {"u", "v"} if is_law(config, scene["law"]) else set(history_of(config, scene["law"]))
+        for name, scene in config["scenes"].items()
+    }
+    config = set_variables(config, drawn, least=list(HISTORY))
     figures = studies.user_figures(config, names)
     claims = check_user_claims(config["claims"], config, {*studies.paper_figures(), *figures})
     if not figures and not claims and not any(names.values()):
@@ -188,16 +192,14 @@ def set_variables(config: dict, used: dict[str, set[str]], *, least: list[str]) 
     By default those that figures use and those of `least`, or all of a scene that is in no figure.
     """
     for name, scene in config["scenes"].items():
-        default = [key for key in VARIABLES if key in used[name].union(least)] or VARIABLES
+        known = list(history_of(config, scene["law"]))
+        default = [key for key in known if key in used[name].union(least)] or known
         lacking = sorted(used[name] - set(scene.setdefault("variables", default)))
         if lacking:
             raise ConfigError(
                 f"scene '{name}': variables = {scene['variables']}; its figures also use {lacking}"
             )
     return config
-
-
-VARIABLES = ["theta", "u", "v"]
 
 
 def name_of(user_file: str) -> str:

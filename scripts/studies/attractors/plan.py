@@ -1,6 +1,7 @@
 """Where the motions of scenes end: classes of attractors from the scene's own history and others."""
 
 from scripts.namelists.attractor_surveys import drawn_histories, survey_groups
+from scripts.namelists.parameters import HISTORY
 from scripts.plans.declare import PAPER, Run, Study, Table
 from scripts.plans.scenes import paths_of_scenes, scenes_with
 
@@ -9,7 +10,7 @@ def groups(config: dict, scene: str) -> dict:
     """Namelist of a scene: its own history and others."""
     settings, study = config["scenes"][scene], config["attractors"]
     count = settings.get("attractors", {}).get("histories", study["count"])
-    others = drawn_histories(count - 1, study["histories"])
+    others = drawn_histories(count - 1, study["histories"], HISTORY)
     histories = [settings["history"], *others]
     return survey_groups(config, "attractors", scene, place=settings, histories=histories)
 

@@ -1,5 +1,6 @@
 """Linear stability of steady sliding: roots of (5) and changes of stability of every scene."""
 
+from scripts.namelists.laws import is_law
 from scripts.namelists.parameters import place_of, with_model
 from scripts.plans.declare import Run, Study, Table
 from scripts.plans.scenes import paths_of_scenes
@@ -7,13 +8,12 @@ from scripts.plans.scenes import paths_of_scenes
 
 def groups(config: dict, scene: str) -> dict[str, dict]:
     """The parameters of a scene, and the bounds of roots and changes of its linear stability."""
-    study, place = config["linear_stability"], place_of(config, config["scenes"][scene])
-    changes = {
-        "along": ["tau", "epsilon"],
-        "windows": [0.0, study["tau_most"], -1.0, study["epsilon_most"]],
-    }
-    bound = {"root_bound": study["root_bound"]}
-    return {"linear_stability": {**with_model(config, place), **bound, **changes}}
+    study, settings = config["linear_stability"], config["scenes"][scene]
+    group = {**with_model(config, place_of(config, settings)), "root_bound": study["root_bound"]}
+    if is_law(config, settings["law"]):
+        windows = [0.0, study["tau_most"], -1.0, study["epsilon_most"]]
+        group |= {"along": ["tau", "epsilon"], "windows": windows}
+    return {"linear_stability": group}
 
 
 STUDY = Study(
