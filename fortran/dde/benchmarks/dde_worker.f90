@@ -1,5 +1,5 @@
-!> One scene in this solver (workers.py). Arguments: the method and, for a problem without its Taylor
-!> series, "rhs".
+!> One scene in this solver (workers.py). Arguments: the method and, for a problem without its
+!> Taylor series, "rhs".
 program dde_worker
    use block_problem, only: spring_block
    use dde, only: integrate, integration_options, integration_result, table_sampler
