@@ -30,6 +30,16 @@ def largest_error(printed: str) -> float:
     return float(re.search(r"largest error +(\S+)", printed)[1])
 
 
+def test_version_stands_once(installed):
+    """In fpm.toml; what is installed and the change log follow."""
+    version = re.search(r'^version = "(.*)"$', (PACKAGE / "fpm.toml").read_text(), re.MULTILINE)[1]
+    assert version not in (PACKAGE / "CMakeLists.txt").read_text()
+    [found] = installed.rglob("dde-config-version.cmake")
+    assert f'PACKAGE_VERSION "{version}"' in found.read_text()
+    changes = (PACKAGE / "CHANGELOG.md").read_text()
+    assert re.search(r"^## (\S+?),? ", changes, re.MULTILINE)[1] == version
+
+
 @pytest.fixture(scope="module")
 def installed(tmp_path_factory) -> Path:
     """Folder of an installed copy; its sources and its build are gone."""
