@@ -56,7 +56,8 @@ contains
          do j = 1, size(pairs)
             call step%set_up(trees, pairs(j))
             call take_step(trees, 0.0_wp, h, step, estimate)
-            associate (order => trees%order, known => h**trees%order/trees%density, pair => pairs(j))
+            associate (order => trees%order, known => h**trees%order/trees%density, &
+                       pair => pairs(j))
                call expect_order(error, pair, step%y_new/known - 1.0_wp, order, orders(j))
                misfit = spread(0.0_wp, 1, trees%n)
                do k = 1, size(places)
