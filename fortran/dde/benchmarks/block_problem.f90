@@ -104,7 +104,9 @@ contains
          u = unit/(k + 1)*merge(v - 1.0_wp, v, k == 0)
          w = rate(k)/(k + 1)
          v = v_rate/(k + 1)
-         y(k + 1, :) = [theta, u, w]
+         y(k + 1, 1) = theta
+         y(k + 1, 2) = u
+         y(k + 1, 3) = w
          v_back(degree - k - 1) = v
       end do
    end subroutine series
@@ -149,7 +151,9 @@ contains
             rate(k) = k*w
             v = (earlier + v_first*rate(k))/k
          end if
-         y(k, :) = [theta, u, w]
+         y(k, 1) = theta
+         y(k, 2) = u
+         y(k, 3) = w
          v_back(degree - k) = v
          delayed_w = w
          if (size(z, 2) > 0) delayed_w = z(k, 1)
@@ -171,8 +175,12 @@ contains
       integer :: k
 
       rate(degree - 1:) = 0.0_wp
-      rate(:degree - 2) = [((k + 1)*(k + 2)/unit*u(k + 2), k=0, degree - 2)]
-      rate(degree - 1) = degree*w(degree)*exp(w(0)) &
-                         + sum([(k*w(k)*rate(degree - k - 1)/(degree - k), k=1, degree - 1)])
+      do k = 0, degree - 2
+         rate(k) = (k + 1)*(k + 2)/unit*u(k + 2)
+      end do
+      rate(degree - 1) = degree*w(degree)*exp(w(0))
+      do k = 1, degree - 1
+         rate(degree - 1) = rate(degree - 1) + k*w(k)*rate(degree - k - 1)/(degree - k)
+      end do
    end function last_rate
 end module block_problem
