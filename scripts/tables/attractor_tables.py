@@ -140,7 +140,8 @@ def same_attractor(one: dict, other: dict) -> bool:
     if one["class"] in ("cycle", "torus", "3-torus"):
         keys = ["smallest_maximum", "largest_maximum"]
         near = all(np.isclose(one[key], other[key], rtol=SAME_MAXIMUM, atol=0) for key in keys)
-        return near and (one["class"] != "cycle" or one["period"] == other["period"])
+        periods = np.array_equal(one["period"], other["period"], equal_nan=True)
+        return near and (one["class"] != "cycle" or periods)
     apart = abs(one["exponent_1"] - other["exponent_1"])
     return bool(apart <= ERROR_BARS * np.hypot(one["error_1"], other["error_1"]))
 
