@@ -39,13 +39,11 @@ def load_parts(part: str) -> dict[str, ModuleType]:
 def studies() -> dict[str, Study]:
     """All studies by name; raise ConfigError if one is missing that another one reads."""
     found = {name: module.STUDY for name, module in load_parts("plan").items()}
-    for name, study in found.items():
-        for other in study.reads:
-            if other not in found:
-                raise ConfigError(
-                    f"scripts/studies/{name}/plan.py: reads the study '{other}'; expected its folder"
-                    f" scripts/studies/{other}/, or scripts/studies/{name}/ to be removed, too"
-                )
+    for other in {other for study in found.values() for other in study.reads} - set(found):
+        readers = [name for name, study in found.items() if other in study.reads]
+        raise ConfigError(
+            f"scripts/studies/{other}/ is missing: the plans of {', '.join(readers)} read this study"
+        )
     return found
 
 

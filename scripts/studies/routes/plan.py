@@ -1,8 +1,6 @@
 """Routes: attractors along lines in one parameter, from several histories and by sweeps."""
 
-import numpy as np
-
-from scripts.namelists.attractor_surveys import survey_groups
+from scripts.namelists.attractor_surveys import evenly_spaced, survey_groups
 from scripts.namelists.parameters import HISTORY
 from scripts.plans.declare import LONG_RUN, Figure, Run, Study, Table
 from scripts.plans.scenes import marked_scenes
@@ -19,7 +17,7 @@ def groups(config: dict, route: str, run: str) -> dict:
     first = next(iter(routes["histories"]))
     histories = [routes["histories"].get(run, routes["histories"][first])]
     if along in HISTORY:
-        values = np.linspace(*window, count).tolist()
+        values = evenly_spaced(window, count)
         histories = [{**histories[0], along: value} for value in values]
     varied = {} if along in HISTORY else {along: {"window": window, "count": count}}
     place = {**settings, **varied}
