@@ -147,6 +147,21 @@ def test_project_without_studies_that_no_other_reads(tmp_path):
     assert not deleted & {*re.findall(r"^\w+", listed, re.MULTILINE)}
 
 
+def test_study_of_the_document_works(scratch):
+    """The one that CONTRIBUTING.md walks through: its table, figure and caption."""
+    text = (ROOT / "CONTRIBUTING.md").read_text().partition("## Add a study")[2]
+    files = ("plan.py", "table.py", "figure.py", "caption.rst", "test_fastest.py")
+    blocks = re.findall(r"^```(?:python|rst)\n(.*?)^```", text, re.DOTALL | re.MULTILINE)
+    folder = scratch.folder / "scripts" / "studies" / "fastest"
+    folder.mkdir()
+    for name, block in zip(files, blocks, strict=True):
+        (folder / name).write_text(block)
+    run = scratch.snakemake("fastest", "captions", *SMOKE)
+    assert run.returncode == 0, run.stdout
+    caption = (scratch.folder / "results" / "figures" / "fastest.rst").read_text()
+    assert re.search(r"The largest of all is .+\.$", caption.strip())
+
+
 def modules_in(script: str) -> set[str]:
     """Paths of the modules that a script depends on."""
     return {

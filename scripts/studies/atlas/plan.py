@@ -1,4 +1,8 @@
-"""The atlas: classes of motion over planes of epsilon and another parameter."""
+"""The atlas: classes of motion over planes of epsilon and another parameter.
+
+Formulas and sources: `attractors.f90`, `motion_classes.f90`, `section_motion.f90`, `refined_grid.f90`; motions
+on the page `motion_path.f90`.
+"""
 
 from pathlib import PurePath
 

@@ -1,4 +1,7 @@
-"""Chains of blocks with springs to their neighbours."""
+"""Chains of blocks with springs to their neighbours.
+
+Formulas and sources: `chain.yaml`, `chain.f90`.
+"""
 
 from scripts.namelists.chains import groups_of_chain
 from scripts.plans.declare import Figure, Run, Study

@@ -1,4 +1,8 @@
-"""Cycles followed along a parameter, stable or not, and their special points."""
+"""Cycles followed along a parameter, stable or not, and their special points.
+
+Formulas and sources: `orbit_equations.f90`, `floquet_multipliers.f90`, `orbit_branch.f90`,
+`orbit_points.f90`, `torus_normal_form.f90`, `block_cycles.f90`.
+"""
 
 from pathlib import PurePath
 

@@ -1,4 +1,7 @@
-"""Slip events of one block: recurrence times, durations and slips."""
+"""Slip events of one block: recurrence times, durations and slips.
+
+Formulas and sources: `slip_events.f90`.
+"""
 
 from scripts.namelists.program_groups import scene_groups
 from scripts.plans.declare import Figure, Run, Study

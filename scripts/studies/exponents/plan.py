@@ -1,4 +1,8 @@
-"""Lyapunov exponents of scenes: running averages, by tolerance and by resolution of the history."""
+"""Lyapunov exponents of scenes: running averages, by tolerance and by resolution of the history.
+
+Formulas and sources: `lyapunov_spectrum.f90`, `tangent_problem.f90`, `tangent_vectors.f90`,
+`exponent_averages.f90`.
+"""
 
 from scripts.namelists.parameters import zero_of
 from scripts.namelists.program_groups import scene_groups

@@ -1,4 +1,7 @@
-"""Whether a delay matters at the gamma of real faults: the least epsilon of all Hopf curves."""
+"""Whether a delay matters at the gamma of real faults: the least epsilon of all Hopf curves.
+
+Formulas and sources: `table.py`.
+"""
 
 from scripts.plans.declare import Figure, Study, Table
 

@@ -1,4 +1,7 @@
-"""The paper's question under other laws of friction: coarse planes, and scenes of the paper."""
+"""The paper's question under other laws of friction: coarse planes, and scenes of the paper.
+
+Formulas and sources: `fortran/src/model/laws/`.
+"""
 
 from scripts.namelists.attractor_surveys import survey_groups
 from scripts.plans.declare import LONG_RUN, Figure, Run, Study, Table

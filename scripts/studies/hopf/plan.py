@@ -1,4 +1,9 @@
-"""Hopf curves of steady sliding in planes of epsilon and another parameter."""
+"""Hopf curves of steady sliding in planes of epsilon and another parameter.
+
+Formulas and sources: (5) `characteristic_function.f90`; (7) to (10) `hopf_condition.f90`; supercritical or
+subcritical `normal_form.f90`; special points `hopf_points.f90`, `hopf_unfoldings.f90`,
+`double_hopf.f90`.
+"""
 
 from scripts.namelists.parameters import with_parameters
 from scripts.plans.declare import MAIN, PAPER, Figure, Run, Study, Table

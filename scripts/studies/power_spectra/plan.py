@@ -1,4 +1,7 @@
-"""Power spectra of the paper's scenes."""
+"""Power spectra of the paper's scenes.
+
+Formulas and sources: `spectrum.f90`, `spectral_peaks.f90`, `base_frequencies.f90`, `spectrum_verdict.f90`.
+"""
 
 from scripts.plans.declare import MAIN, Figure, Study
 from scripts.plans.scenes import paths_of_scenes, scenes_of

@@ -1,4 +1,7 @@
-"""Routes: attractors along lines in one parameter, from several histories and by sweeps."""
+"""Routes: attractors along lines in one parameter, from several histories and by sweeps.
+
+Formulas and sources: as of the attractors; sweeps `attractor_points.f90`.
+"""
 
 from scripts.namelists.attractor_surveys import evenly_spaced, survey_groups
 from scripts.namelists.parameters import HISTORY

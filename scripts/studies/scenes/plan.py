@@ -1,4 +1,7 @@
-"""Scenes: parameter sets of the block with a trajectory and its spectrum each."""
+"""Scenes: parameter sets of the block with a trajectory and its spectrum each.
+
+Formulas and sources: (3), (4) `spring_block.yaml`, `slip_delayed_logarithm.yaml`; `spectrum.f90`.
+"""
 
 from scripts.namelists.program_groups import scene_groups
 from scripts.plans.declare import PAPER, Figure, Run, Study

@@ -1,4 +1,7 @@
-"""The friction of Figure 8: its response to steps of an imposed velocity."""
+"""The friction of Figure 8: its response to steps of an imposed velocity.
+
+Formulas and sources: (1.1), (1.2) `table.py`.
+"""
 
 from scripts.plans.declare import MAIN, PAPER, Figure, Study, Table
 
