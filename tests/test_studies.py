@@ -114,21 +114,20 @@ def test_study_declares_what_it_reads(name, filled_config):
 
 @pytest.mark.parametrize("name", REMOVABLE)
 def test_study_that_no_other_reads_can_be_deleted(name, hide):
-    """What is left is planned: the paper, a smoke run, a user's file, claims and findings."""
+    """What is left is planned: the paper, a user's file, claims and findings."""
     figures, claims = read_plan({}).figures, read_plan({}).claims
     hide(name)
     paper = read_plan({})
     assert {*paper.figures} == {key for key, one in figures.items() if one.study != name}
     assert {*paper.claims} <= {*claims}
     assert ledger.inputs_for(paper.claims, paper.config)
-    assert "<results>/index.html" in read_plan(studies.merged("smoke.yaml")).targets()
     read_plan({"user_file": str(ROOT / "config" / "new.yaml")})
     assert findings.tables_read()
 
 
 def test_study_that_another_one_reads_is_missed_by_name(hide):
     hide("basins")
-    words = "studies/basins/ is missing: the plans of atlas, linear_stability read this study"
+    words = "studies/basins/ is missing: the plans of atlas, linear_stability read it"
     with pytest.raises(ConfigError, match=words):
         read_plan({})
 
@@ -176,6 +175,18 @@ def test_modules_found_by_name_enter_the_digests():
     assert len(every) > 10
     assert every | {"studies/atlas/roots_of_5.py", "studies/hopf/formula_claims.py"} <= found
     assert "studies/chain_motions/finding.py" in modules_in("page/write_page.py")
+
+
+def test_names_are_given_once():
+    """Rules, figures, and sections: a second one would take the place of the first."""
+    every = studies.studies().values()
+    for names in (
+        [one.rule for study in every for one in (*study.runs, *study.tables)],
+        [figure.name for study in every for figure in study.figures],
+        [kind.name for study in every for kind in study.kinds],
+        [name for study in every for name in (*study.entries, *study.wildcards)],
+    ):
+        assert len(names) == len({*names})
 
 
 def test_scripts_of_tables_exist():

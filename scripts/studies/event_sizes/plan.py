@@ -44,7 +44,6 @@ def inputs(config: dict) -> dict:
 
 
 FIGURE = {
-    "title": "Slip events of chains: their sizes by several definitions, cut-offs, and aftershocks.",
     "category": "Chains",
     "inputs": inputs,
     "params": lambda config: {"names": list(config["event_sizes"]["chains"])},

@@ -1,4 +1,4 @@
-"""Slip events of one block: recurrence times, durations and slips.
+"""Figure of slip events: their recurrence times in turn, the distribution of these, and slips.
 
 Formulas and sources: `slip_events.f90`.
 """
@@ -29,8 +29,6 @@ STUDY = Study(
     figures=(
         Figure(
             "events",
-            "Figure of slip events: their recurrence times in turn, the distribution of these, and"
-            " slips.",
             category="Supplement",
             place=130,
             inputs=inputs,

@@ -1,4 +1,4 @@
-"""Routes: attractors along lines in one parameter, from several histories and by sweeps.
+"""Figure of the routes: maxima of v, classes, and the largest exponent along a parameter.
 
 Formulas and sources: as of the attractors; sweeps `attractor_points.f90`.
 """
@@ -48,8 +48,6 @@ def inputs(config: dict) -> dict:
 
 
 FIGURE = {
-    "title": "Figure of the routes: maxima of v, classes, and the largest exponent along a"
-    " parameter.",
     "inputs": inputs,
     "params": lambda config: {"scenes": marked_scenes(config)},
 }

@@ -26,8 +26,6 @@ STUDY = Study(
     figures=(
         Figure(
             "synchrony",
-            "Whether blocks that move alike stay alike: growth of disturbances over the stiffness"
-            " of modes.",
             category="Chains",
             place=420,
             inputs=inputs,
