@@ -58,6 +58,10 @@ GROUPS = {
 """Namelist group of each command that reads one alone, as tests name it."""
 DEAR = {"visited", "made", "installed", "run_of", "planned"}
 """Fixtures of a module that one of the processes of `./test` makes for all tests that use them."""
+collect_ignore = (
+    [] if (studies.FOLDER / "work_precision").exists() else ["tests/test_benchmarks.py"]
+)
+"""Benchmarks measure the cases of this study."""
 MADE = set(".git .venv .snakemake build __pycache__ .pytest_cache .ruff_cache".split())
 """Folders that hold none of the project's own files, beside the one of the results."""
 

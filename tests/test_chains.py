@@ -1,4 +1,4 @@
-"""Chains of blocks: trajectories, synchrony and modes, and what is refused."""
+"""Chains of blocks: their modes, which several studies use."""
 
 import math
 
@@ -7,6 +7,7 @@ import pytest
 from independent_chain import made_up_chain, second_difference
 
 from scripts.namelists.chains import eigenvalues
+from scripts.namelists.laws import PAPER
 from scripts.tables.chain_motions import powers_of, strongest_mode
 
 ENDS = ["free", "ring", "plate"]
@@ -36,7 +37,7 @@ def test_strongest_mode(ends):
 
 
 @pytest.mark.parametrize("ends", ENDS)
-def test_roots_of_modes_are_those_of_the_chain(programs, config, ends):
+def test_roots_of_modes_are_those_of_the_chain(programs, filled_config, ends):
     """At each root the characteristic matrix of all blocks, by NumPy, is singular."""
     blocks, kappa, place = 4, 0.7, {"tau": 3.0, "epsilon": 0.9, "xi": 0.5, "gamma": 0.8}
     one = np.eye(blocks)
@@ -44,7 +45,7 @@ def test_roots_of_modes_are_those_of_the_chain(programs, config, ends):
     for mu in eigenvalues(blocks, ends):
         s = 1 + kappa * mu
         of_mode = {**place, "xi": s * place["xi"], "gamma": math.sqrt(s) * place["gamma"]}
-        own = {"law": config["scenes"]["torus"]["law"], **config["linear_stability"]}
+        own = {"law": PAPER, **filled_config["linear_stability"]}
         own["root_bound"] = -1.0
         found = programs.made_by("linear_stability", {**of_mode, **own})
         roots = found.root_real.values + 1j * found.root_imag.values

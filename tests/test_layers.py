@@ -174,10 +174,10 @@ def test_versions_agree():
 
 
 PYTHON_LAYERS = [
-    *("files", "namelists", "config", "results", "plans", "tables", "claims", "drawing"),
-    *("figures", "page", "workflow"),
+    *("files", "namelists", "plans", "config", "tables", "claims", "drawing", "page", "workflow")
 ]
-"""Folders of scripts/, from the lowest to the highest."""
+"""Rooms of scripts/ that studies share, from the lowest to the highest."""
+STUDIES = ROOT / "scripts" / "studies"
 SCRIPTS = {path: path.read_text() for path in sorted((ROOT / "scripts").glob("*/*.py"))}
 
 
@@ -188,11 +188,45 @@ def layers_imported(text: str) -> set[str]:
 
 
 def test_no_python_module_imports_from_a_higher_layer():
+    """Nor from a study: what studies have is found by its name."""
     assert {path.parent.name for path in SCRIPTS} == set(PYTHON_LAYERS)
     wrong = {
         (path.relative_to(ROOT).as_posix(), layer)
         for path, text in SCRIPTS.items()
         for layer in layers_imported(text)
-        if PYTHON_LAYERS.index(layer) > PYTHON_LAYERS.index(path.parent.name)
+        if layer not in PYTHON_LAYERS[: PYTHON_LAYERS.index(path.parent.name) + 1]
     }
     assert wrong == set()
+
+
+def imports_of_study(path: Path, text: str) -> set[str]:
+    """Rooms and other studies from which a file of a study imports and may not.
+
+    Tests may plan a run.
+    """
+    studies = set(re.findall(r"^\s*(?:from|import) scripts\.studies\.(\w+)", text, re.MULTILINE))
+    others = re.findall(r"^\s*from scripts\.studies import (\w+)", text, re.MULTILINE)
+    rooms = layers_imported(text) - {*PYTHON_LAYERS, "studies"}
+    highest = set() if path.name.startswith("test_") else layers_imported(text) & {"workflow"}
+    return (studies - {path.parent.name}) | {*others} | rooms | highest
+
+
+def test_study_imports_from_shared_rooms_alone():
+    files = {path: path.read_text() for path in sorted(STUDIES.glob("*/*.py"))}
+    wrong = {path: found for path, text in files.items() if (found := imports_of_study(path, text))}
+    assert wrong == {}
+
+
+@pytest.mark.parametrize(
+    ("name", "line", "wrong"),
+    [
+        ("table.py", "from scripts.studies.hopf.table import rows_of", {"hopf"}),
+        ("test_mine.py", "from scripts.studies import hopf", {"hopf"}),
+        ("table.py", "    from scripts.workflow.plan import read_plan", {"workflow"}),
+        ("test_mine.py", "from scripts.workflow.plan import read_plan", set()),
+        ("figure.py", "from scripts.studies.mine.table import rows_of", set()),
+        ("figure.py", "from scripts.drawing.style import INK", set()),
+    ],
+)
+def test_import_from_another_study_is_caught(name, line, wrong):
+    assert imports_of_study(STUDIES / "mine" / name, line) == wrong

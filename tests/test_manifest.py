@@ -26,8 +26,10 @@ def write(path: str, text: str, age: float = 0.0) -> None:
 def results(tmp_path, monkeypatch) -> list[str]:
     """A folder of results of one run, and those of them that a list holds."""
     monkeypatch.chdir(tmp_path)
+    begins = ("tables/b", "figures/work_precision", "times.html")
+    monkeypatch.setattr(manifest, "is_measured", lambda path: path.startswith(begins))
     kept = ["tables/a.tsv", "figures/a.svg", "index.html"]
-    measured = ["measurements/stability/a.nc", "figures/work_precision.svg", "times.html"]
+    measured = ["tables/b.tsv", "figures/work_precision.svg", "times.html"]
     others = ["logs/a.log", "benchmarks/a.tsv", "README.md", "mine/index.html"]
     for name in [*kept, *measured, *others]:
         write(f"results/{name}", name, age=100.0)

@@ -7,6 +7,7 @@ import pytest
 
 from conftest import Project
 from scripts.files.read_config import merge
+from scripts.plans.studies import schema
 from scripts.workflow.plan import read_plan
 
 PLACE = {"tau": 7.0, "epsilon": 0.7, "xi": 0.5, "gamma": 0.8}
@@ -57,6 +58,11 @@ NOTHING = {
     "chain_modes": merge(SECTIONS["chain_modes"], {"planes": {"m": {"epsilon_window": [0, 0.05]}}}),
 }
 """Motions at rest, planes and lines without Hopf points."""
+SECTIONS, NOTHING = (
+    {name: part for name, part in sections.items() if name in schema()["properties"]}
+    for sections in (SECTIONS, NOTHING)
+)
+"""Those that a study has."""
 SETTINGS = {"attractors": QUICK, "exponents": {"t_turning": 50.0, "blocks": 3}}
 
 

@@ -214,13 +214,6 @@ def test_paper_can_be_run_with_other_settings_in_another_folder(smoke, tmp_path)
     assert "results/" not in re.sub("/results/", "", run.stdout).replace("scripts/results", "")
 
 
-def test_scene_of_the_paper_can_be_measured_alone(tmp_path):
-    (tmp_path / "mine.yaml").write_text("work_precision: { scenes: { torus: { t_end: 20.0 } } }")
-    config = read_plan({"user_file": str(tmp_path / "mine.yaml")}).config
-    assert list(config["work_precision"]["scenes"]) == ["torus"]
-    assert list(config["scenes"]) == ["torus"]
-
-
 @pytest.mark.parametrize("folder", ["scripts", "docs/mine", "README.md"])
 def test_results_lie_in_no_folder_of_sources(folder):
     with pytest.raises(ConfigError, match=f"results = '{folder}': .* expected a new folder"):

@@ -30,10 +30,10 @@ def scripts() -> list[str]:
 
 def test_results_of_a_script_depend_on_what_it_imports():
     """Also on what that imports; what draws depends on the style, too."""
-    files = modules_of("studies/power_spectra/figure.py")
+    files = modules_of("studies/routes/figure.py")
     expected = [
-        "studies/power_spectra/figure.py",
-        "drawing/spectra.py",
+        "studies/routes/figure.py",
+        "drawing/class_map.py",
         "drawing/style.py",
         "files/outputs.py",
     ]

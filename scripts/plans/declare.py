@@ -98,11 +98,12 @@ class Figure:
 
     name: str
     """Name of the figure; a figure of a kind is KIND/ENTRY, for example scenes/strong_delay."""
-    title: str
     category: str
     """The heading on the page and in the report."""
     place: int
     """Figures stand on the page in ascending order of their places."""
+    title: str = ""
+    """What is drawn; by default the first line of the plan."""
     inputs: Callable[[dict], dict] = lambda _config: {}
     """Results that it reads, by name: a path or a list of paths."""
     params: Callable[[dict], dict] = lambda _config: {}
@@ -173,6 +174,8 @@ class Study:
     """Entries of other sections that its own entries need, by the wildcards for their names."""
     of_user: Callable[[dict], None] = lambda _config: None
     """What it changes in the configuration of a user's file."""
+    title: str = ""
+    """The first line of its plan; filled in by what finds the studies."""
 
 
 def stem_of(path: str) -> str:

@@ -1,4 +1,7 @@
-"""Chains of blocks with springs to their neighbours."""
+"""Chains of blocks: ln v over time and block, how far blocks are apart, and which modes move.
+
+Formulas and sources: `chain.yaml`, `chain.f90`.
+"""
 
 from scripts.namelists.chains import groups_of_chain
 from scripts.plans.declare import Figure, Run, Study
@@ -10,8 +13,6 @@ def groups(config: dict, chain: str) -> dict[str, dict]:
 
 
 FIGURE = {
-    "title": "Chains of blocks: ln v over time and block, how far blocks are apart, and which modes"
-    " move.",
     "category": "Chains",
     "inputs": lambda config: {
         "chains": [f"<results>/chains/{chain}.nc" for chain in config["chains"]]

@@ -1,4 +1,4 @@
-"""What chains of blocks of the scenes do, and how many of their exponents are positive."""
+"""Exponents of chaotic chains: their spectra over the blocks, and how many are positive."""
 
 from scripts.namelists.chains import groups_of_chain
 from scripts.namelists.parameters import place_of, zero_of
@@ -75,7 +75,6 @@ STUDY = Study(
     figures=(
         Figure(
             "chain_exponents",
-            "Exponents of chaotic chains: their spectra over the blocks, and how many are positive.",
             category="Chains",
             place=430,
             inputs=lambda _config: {"motions": "<results>/tables/chain-motions.tsv"},

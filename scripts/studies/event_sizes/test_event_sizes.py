@@ -42,7 +42,7 @@ def test_events_are_connected_places_of_the_trajectory(programs, config, ends, t
     config["event_sizes"]["thresholds"] = [threshold, 3.0]
     found = programs.made_of("slip_events", groups(config, "chaos_100"))
     slips = found.isel(event=found.threshold.values == threshold)
-    run = programs.made_of("trajectory", groups)
+    run = programs.made_of("trajectory", groups(config, "chaos_100"))
     v = run.v.values
     labels, _ = label(v > threshold)
     if ends == "ring":

@@ -1,4 +1,8 @@
-"""Lyapunov exponents of scenes: running averages, by tolerance and by resolution of the history."""
+"""Figure of exponents: running averages; values by tolerance and by resolution of the history.
+
+Formulas and sources: `lyapunov_spectrum.f90`, `tangent_problem.f90`, `tangent_vectors.f90`,
+`exponent_averages.f90`.
+"""
 
 from scripts.namelists.parameters import zero_of
 from scripts.namelists.program_groups import scene_groups
@@ -20,8 +24,6 @@ def runs_of_scenes(config: dict) -> list[str]:
 
 
 FIGURE = {
-    "title": "Figure of exponents: running averages; values by tolerance and by resolution of the"
-    " history.",
     "inputs": lambda config: {
         "runs": runs_of_scenes(config),
         "table": "<results>/tables/exponents.tsv",

@@ -23,7 +23,7 @@ def figure(number: int, rows: str) -> Figure:
     name = f"figure_{number}"
     return Figure(
         name,
-        f"Figure {number}: velocity and phase portrait, rows {rows}.",
+        title=f"Figure {number}: velocity and phase portrait, rows {rows}.",
         category=MAIN,
         place=10 * number,
         inputs=inputs,

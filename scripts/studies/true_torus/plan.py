@@ -1,4 +1,4 @@
-"""The true torus beside the paper's: in time, spectrum and section."""
+"""Figure of the true torus beside the paper's: in time, spectrum and section."""
 
 from scripts.plans.declare import Figure, Study
 from scripts.plans.scenes import paths_of_scenes, scenes_of
@@ -21,7 +21,6 @@ STUDY = Study(
     figures=(
         Figure(
             "true_torus",
-            "Figure of the true torus beside the paper's: in time, spectrum and section.",
             category="Atlas",
             place=320,
             inputs=inputs,
