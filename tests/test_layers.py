@@ -23,7 +23,7 @@ MAY_USE = {
 """For each layer: the layers that its modules may use; `api` is what a user of the solver sees,
 `files` is what of the bindings reads and writes."""
 API = ("dde", "dde_errors", "dde_kinds")
-FILES = ("file_system", "process")
+FILES = ("process", "unfinished_file")
 """Modules that others may use: layers of their own."""
 LIBRARIES = {
     "bindings": {"iso_c_binding"},

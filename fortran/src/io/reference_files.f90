@@ -80,7 +80,6 @@ contains
       if (allocated(error)) return
       self%content = "case"//tab//"status"//tab//"time"//tab//"theta"//tab//"u"//tab//"ln_v" &
                      //tab//"uncertainty"//tab//"amplification"//line_end
-      call self%place%write(self%content, error)
    end subroutine create
 
    !> A case at its sample times: the state, how far the state at a larger tolerance is from it, and
@@ -129,7 +128,6 @@ contains
       class(reference_file_type), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
 
-      call self%place%write(self%content, error)
-      if (.not. allocated(error)) call self%place%publish(error)
+      call self%place%publish(self%content, error)
    end subroutine finish
 end module reference_files
