@@ -25,7 +25,7 @@ def heed_interrupts() -> Iterator[None]:
 
 def test_program_that_is_killed_at_any_moment(programs, good_inputs):
     """There is no output, or the whole older one; the next run makes the same bytes and removes
-    what is unfinished."""
+    what is unfinished of it, and of no other file."""
     programs.write({"scene": {**good_inputs["trajectory"], "t_end": 2e5}})
     assert programs.run("trajectory", "input.nml", "output.nc").returncode == 0
     whole = programs.output.read_bytes()
@@ -41,6 +41,10 @@ def test_program_that_is_killed_at_any_moment(programs, good_inputs):
     assert programs.run("trajectory", "input.nml", "output.nc").returncode == 0
     assert programs.output.read_bytes() == whole
     assert programs.left_behind() == ["output.nc"]
+    for name in ("[a].nc.1.part", "a.nc.1.part"):
+        (programs.folder / name).touch()
+    assert programs.run("trajectory", "input.nml", "[a].nc").returncode == 0
+    assert programs.left_behind() == ["[a].nc", "a.nc.1.part", "output.nc"]
 
 
 @pytest.mark.parametrize(
