@@ -152,7 +152,7 @@ def test_bad_arguments_are_refused(programs, good_groups):
         (["spectrum", "input.nml", "output.nc", "c"], "spectrum NAMELIST OUTPUT"),
         (["spectrum", "input.nml", ""], "error: the output path is empty; expected the path of a"),
         (["spectrum", "", "output.nc"], "error: the namelist path is empty; expected the path of "),
-        (["spectrum", "input.nml", "nowhere/a.nc"], "error: nowhere/a.nc: cannot write: No such "),
+        (["spectrum", "nowhere.nml", "nowhere/a.nc"], "error: nowhere/a.nc: cannot write: No suc"),
         (["spectrum", "nowhere.nml", "link.nml"], "link.nml: cannot write: a folder, a device or"),
         (["spectrum", "nowhere.nml", "folder.nml"], "folder.nml: cannot write: a folder, a device"),
         (["hop", "input.nml", "output.nc"], "error: the command 'hop'; expected one of: trajec"),
