@@ -172,7 +172,11 @@ class Programs:
         before = unfinished(self.output)
         command = [*self.command(program), "input.nml", self.output.name]
         run = subprocess.Popen(command, cwd=self.folder, **options)
-        wait_for(lambda: bool(unfinished(self.output) - before))
+        # text is written at the end
+        empty = 0 if program == "reference" else 1
+        wait_for(
+            lambda: any(path.stat().st_size >= empty for path in unfinished(self.output) - before)
+        )
         return run
 
     def write(self, groups: dict[str, dict]) -> Path:

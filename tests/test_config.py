@@ -298,7 +298,12 @@ def test_all_problems_are_listed_at_once(config):
 
 def test_part_of_too_many_points_is_refused(config):
     """One run of the program takes a million of them."""
-    config["atlas"] |= {"abscissa_count": 100000, "ordinate_count": 80, "parts": 7, "refinements": 0}
+    config["atlas"] |= {
+        "abscissa_count": 100000,
+        "ordinate_count": 80,
+        "parts": 7,
+        "refinements": 0,
+    }
     words = "config atlas: parts = 7 of 1200000 points; expected at most 1000000 in each"
     assert words in refuse(config)
 
