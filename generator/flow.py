@@ -43,6 +43,7 @@ def input_names(model: Model) -> dict[sympy.Symbol, str]:
 def guard_names(model: Model, end: str = "") -> dict[sympy.Symbol, str]:
     """Names in conditions, with an end; auxiliaries have no value yet."""
     names = {symbol: f"{name}{end}" for symbol, name in input_names(model).items()}
+    names |= {} if end else {TIME: "t"}
     return names | {
         model.symbol(name): f"exp({state}{end})" for name, state in model.auxiliary.items()
     }

@@ -13,7 +13,6 @@ Blocks of a chain are computed one at a time: block i is at order k when the fro
 i + k reach, where neighbours are up to `reach` places apart.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from generator.address import Address
@@ -219,6 +218,8 @@ def base_series(
     inputs = {node.name for node in nodes if node.kind == "input" or node in given}
     delayed = [(i, one) for i, one in enumerate(model.delayed, 1) if one.symbol.name in inputs]
     inputs |= {one.state for _, one in delayed}
+    wanted_differences = any(one.name in inputs for one in model.differences.values())
+    inputs |= set(model.differences) if wanted_differences else set()
 
     def fetched(order: str, end: str) -> list[str]:
         found = [(name, at.state("y", order, state=name)) for name in model.states]
@@ -234,6 +235,9 @@ def base_series(
             value = at.delayed("z", order, number=number)
             statements.append(f"{name} = {one.state}{end}")
             statements.append(f"if (place_{number} > 0) {name} = {value}")
+        if wanted_differences:
+            reals.extend(f"{one.name}{end}" for one in model.differences.values())
+            statements += at.differences(lambda column: f"y({order}, {column})", end)
         return statements
 
     def stored(order: str) -> list[str]:
@@ -345,7 +349,7 @@ def tangent_series_procedure(model: Model, balance: Balance | None = None) -> Pr
     balanced, exponential, inertia = [], [], []
     if balance:
         names = {name: text(name) for name in model.states}
-        names |= {symbol.name: f"d_{symbol.name}" for symbol in model.differences.values()}
+        names |= {one.name: steps.text(flow.graph.known[one]) for one in model.differences.values()}
         total = balance.text(names, constants, whole=False)
         rate = at.kept("d_rate_before", ":", "k")
         balanced = [f"{text(balance.state)} = {total} - inertia*{rate}"]
@@ -437,7 +441,7 @@ def tangent_series_procedure(model: Model, balance: Balance | None = None) -> Pr
         "else",
         *indented(loads),
         "end if",
-        *disturbed_differences(at, text),
+        *disturbed_differences(steps),
         *inverses,
         *body,
         *(f"next_{name}(:, slot) = {held[name]}" for name in own),
@@ -461,14 +465,15 @@ def in_groups(lines: list[str]) -> list[str]:
     return ["do first = 1, vectors, lanes", *indented([*group, *lines]), "end do"]
 
 
-def disturbed_differences(at: Address, text: Callable[[str], str]) -> list[str]:
+def disturbed_differences(steps: Disturbances) -> list[str]:
     """Statements that set second differences of disturbances at order k."""
-    lines = []
+    at, lines = steps.at, []
     for state, symbol in at.model.differences.items():
-        name = f"d_{symbol.name}"
-        lines.append(f"{name} = -(2.0_wp + self%mode)*{text(state)}")
+        known = steps.flow.graph.known
+        own, node = steps.text(known[at.model.symbol(state)]), known[symbol]
+        part = steps.text(node, lanes=":used")
+        lines.append(f"{steps.text(node)} = -(2.0_wp + self%mode)*{own}")
         for side in ("left", "right"):
-            column = at.column(state, f"{side}(block)")
-            value = f"dy(k, {column}, first:last)"
-            lines.append(f"if ({side}(block) > 0) {name}(:used) = {name}(:used) + {value}")
+            value = f"dy(k, {at.column(state, f'{side}(block)')}, first:last)"
+            lines.append(f"if ({side}(block) > 0) {part} = {part} + {value}")
     return lines
