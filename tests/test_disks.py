@@ -42,8 +42,9 @@ def on_disk(
     ("program", "disk", "reason"),
     [
         ("hopf", full("4k"), "No space left on device"),
-        # a long table; a small one has room
+        # no room for a file, and room for a part of it
         ("reference", full("4k,nr_inodes=1"), "No space left on device"),
+        ("reference", full("4k"), "No space left on device"),
         ("reference", READ_ONLY, "Read-only file system"),
     ],
 )
