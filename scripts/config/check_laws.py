@@ -70,7 +70,7 @@ def contradictions(config: dict):
         for key in sorted((every - set(own)) & set(entry)):
             has = f"it has {', '.join(own)}" if own else "it has none of its own"
             yield f"{place}: {key} is no parameter of the law {entry['law']}; {has}"
-        # an axis has no value; check_attractors.py refuses one that is no parameter
+        # an axis has no value; checks.py refuses one that is no parameter
         axis = entry.get("along", entry.get("ordinate"))
         values = HISTORY if path[0] == "routes" else []
         known = axis in (None, *block_parameters(), *own, *values)
