@@ -38,11 +38,7 @@ def hide(monkeypatch):
 
         monkeypatch.setattr(studies, "files_of", files_of)
         forget()
-        tests = {
-            key: test
-            for key, test in declare.TESTS.items()
-            if not test.find.__module__.startswith(f"scripts.studies.{name}.")
-        }
+        tests = {key: test for key, test in declare.TESTS.items() if study_of(key) != name}
         claims = {
             key: (number, about)
             for key, (number, about) in declare._CLAIMS.items()
@@ -57,14 +53,20 @@ def hide(monkeypatch):
     forget()
 
 
+def study_of(test: str) -> str:
+    """The study that has a test of claims."""
+    return declare.TESTS[test].find.__module__.split(".")[2]
+
+
+def texts_of(name: str) -> list[str]:
+    """Templates of the captions of a study."""
+    return [path.read_text() for path in (studies.FOLDER / name).glob("*.rst")]
+
+
 def read_by(name: str, config: dict) -> set[str]:
     """Results that a study reads, by their paths, in its runs, tables, figures and claims."""
     study = studies.studies()[name]
-    named = {
-        test
-        for test, known in declare.TESTS.items()
-        if known.find.__module__.startswith(f"scripts.studies.{name}.")
-    }
+    named = {test for test in declare.TESTS if study_of(test) == name}
     claims = {
         key: about
         for key, about in read_plan({}).claims.items()
@@ -101,10 +103,19 @@ def makers_of(path: str, config: dict) -> set[str]:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_study_declares_what_it_reads(name, filled_config):
-    """Of others it reads results of those that its plan names, and findings read as claims do."""
+    """Of others it reads results and verdicts of those that its plan names."""
     found = {
         other for path in read_by(name, filled_config) for other in makers_of(path, filled_config)
     }
+    shown = {
+        claim
+        for text in texts_of(name)
+        for claim in re.findall(r"{{ verdict\(\"(\w+)\"\) }}", text)
+    }
+    left_out = {claim for text in texts_of(name) for claim in re.findall(r"if \"(\w+)\" in", text)}
+    claims = ledger.paper_claims()
+    for claim in shown - left_out:
+        found |= {study_of(test) for test in claims[claim]["test"]}
     finding = studies.load_parts("finding").get(name)
     for data in finding.READS if finding else ():
         found |= makers_of(f"<results>/{studies.data()[data].output}", filled_config)
@@ -171,7 +182,7 @@ def test_modules_found_by_name_enter_the_digests():
     """A claim of any study is stale once its module changes, or one that this imports."""
     found = modules_in("claims/ledger.py")
     every = {f"studies/{path.parent.name}/claims.py" for path in studies.FOLDER.glob("*/claims.py")}
-    assert every | {"studies/atlas/roots_of_5.py", "studies/hopf/formula_claims.py"} <= found
+    assert every | {"studies/atlas/roots_of_5.py", "studies/formulas/printed_formulas.py"} <= found
     shown = {f"studies/{path.parent.name}/finding.py" for path in studies.files_of("finding.py")}
     assert shown <= modules_in("page/write_page.py")
 

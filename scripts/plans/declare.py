@@ -158,7 +158,7 @@ class Study:
     """All that planning knows of a study."""
 
     reads: tuple[str, ...] = ()
-    """Other studies whose results or sections it reads: it cannot be without them."""
+    """Other studies whose results, sections or verdicts it reads: it cannot be without them."""
     entries: dict[str, tuple[str, ...]] = field(default_factory=dict)
     """Keys of the sections with entries that a user names, by the wildcard for their names."""
     wildcards: dict[str, str | Callable[[dict], list[str]]] = field(default_factory=dict)

@@ -96,7 +96,7 @@ FIGURE = {
     "params": lambda config: {"scenes": marked_scenes(config)},
 }
 STUDY = Study(
-    reads=("attractors", "basins", "cycles", "hopf", "scenes"),
+    reads=("attractors", "basins", "cycles", "hopf", "routes", "scenes"),
     entries={"atlas_plane": ("atlas", "planes")},
     wildcards={"part": r"\d+"},
     runs=(

@@ -30,7 +30,7 @@ FIGURE = {
     },
 }
 STUDY = Study(
-    reads=("attractors", "scenes"),
+    reads=("attractors", "cycles", "scenes"),
     runs=(Run("exponents_runs", "exponents", "exponents/{scene}.nc", groups, **LONG_RUN),),
     tables=(
         Table(

@@ -48,7 +48,7 @@ def params(config: dict) -> dict:
 
 
 STUDY = Study(
-    reads=("attractors", "scenes"),
+    reads=("attractors", "routes", "scenes"),
     wildcards={
         "friction_law": lambda config: config["friction_laws"]["laws"],
         "part_of_laws": parts,

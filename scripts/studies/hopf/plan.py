@@ -50,7 +50,7 @@ def figure(number: int, title: str, plane: str) -> Figure:
 
 
 STUDY = Study(
-    reads=("linear_stability", "scenes"),
+    reads=("formulas", "linear_stability", "routes", "scenes"),
     entries={"plane": ("hopf_curves",)},
     runs=(Run("hopf_curves", "hopf", "hopf/{plane}.nc", groups, data="curves", priority=PAPER),),
     tables=(

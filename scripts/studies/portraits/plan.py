@@ -35,7 +35,7 @@ def figure(number: int, rows: str) -> Figure:
 
 
 STUDY = Study(
-    reads=("attractors", "scenes"),
+    reads=("attractors", "cycles", "scenes"),
     figures=(
         figure(4, "a (fixed point) and b (oscillations)"),
         figure(5, "a (the paper's torus) and b (chaos)"),

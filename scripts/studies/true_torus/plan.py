@@ -17,7 +17,7 @@ def inputs(config: dict) -> dict:
 
 
 STUDY = Study(
-    reads=("attractors", "linear_stability", "scenes"),
+    reads=("attractors", "cycles", "linear_stability", "scenes"),
     figures=(
         Figure(
             "true_torus",
