@@ -20,7 +20,7 @@ from generator.flow import (
 from generator.fortran import indented
 from generator.graph import in_order
 from generator.recurrences import Constants, Recurrences
-from generator.slow import Balance
+from generator.slow import Balance, inertia_lines
 
 
 class Series:
@@ -40,14 +40,12 @@ class Series:
         roots = list(self.rates.values())
         in_lanes = self.at.in_chain
         self.recurrences = Recurrences(in_order(roots), roots, self.constants, in_lanes=in_lanes)
+        self.inertia = inertia_lines(balance, self.constants)
         self.last = "degree" if balance else "degree - 1"
 
     def before(self) -> list[str]:
         """Statements before all others."""
-        lines = []
-        if self.balance:
-            lines.append(f"inertia = {self.constants.text(1 / self.balance.rate)}/unit")
-        return [*self.at.places(), *self.constants.fetched(), *lines]
+        return [*self.at.places(), *self.constants.fetched(), *self.inertia]
 
     def rate_before(self, lane: str) -> list[str]:
         """Statements that set v' times the unit of the iteration before."""

@@ -56,3 +56,8 @@ def balance_of(model: Model) -> Balance | None:
             return None
         return Balance(state, auxiliary, rate, value, slopes, constant)
     return None
+
+
+def inertia_lines(balance: Balance | None, constants: Constants) -> list[str]:
+    """The statement that sets what v' is multiplied by."""
+    return [f"inertia = {constants.text(1 / balance.rate)}/unit"] if balance else []
