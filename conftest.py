@@ -181,10 +181,10 @@ class Programs:
 
     def write(self, groups: dict[str, dict]) -> Path:
         """Write a namelist; the models that it names are compiled."""
-        command = "synchrony" if "synchrony" in groups else ""
-        for model in models_in(groups, command):
+        groups = in_groups(groups)
+        for model in models_in(groups):
             compile_model(model, quad="reference" in groups)
-        write_namelist(self.folder / "input.nml", in_groups(groups))
+        write_namelist(self.folder / "input.nml", groups)
         return self.folder / "input.nml"
 
     def run_groups(self, program: str, groups: dict[str, dict]) -> subprocess.CompletedProcess[str]:
@@ -292,8 +292,8 @@ def compile_model(name: str, *, quad: bool) -> None:
     """Compile a model of the project where it is not up to date; other names are the program's."""
     if law_of(name) not in built_in():
         return
-    (path,) = objects_of({name}, {}, "", quad)
-    parts = [ROOT / part for part in parts_of(name, {}, "")]
+    (path,) = objects_of({name}, {"laws": {}}, "", quad)
+    parts = [ROOT / part for part in parts_of(name, {"laws": {}}, "")]
     sources = [*parts, *ROOT.glob("generator/*.py"), *ROOT.glob("generator/fortran/shared/*.f90")]
     with locked(ROOT / "build" / "lock"):
         made = (ROOT / path).stat().st_mtime if (ROOT / path).exists() else 0.0
