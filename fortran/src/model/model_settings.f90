@@ -138,7 +138,7 @@ contains
          call raise(error, place//": blocks = "//text(self%blocks)//" of the model " &
                     //trim(self%name)//"; expected 1, since it has no second difference")
       else if (self%blocks > 1 .and. self%ends == "ring") then
-         call check_count(error, place//": ends = ring: ", "blocks", self%blocks, at_least=3)
+         call check_count(error, place//": ends = ring", "blocks", self%blocks, at_least=3)
       end if
    end subroutine check_blocks
 end module model_settings

@@ -10,11 +10,11 @@ module test_attractors
    use dde_kinds, only: wp
    use lyapunov_spectrum, only: growth_type
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use model_problem, only: model_type
    use motion_classes, only: chaos, class_names, cycle_motion, fixed_point, none, three_torus, &
                              torus, undecided
    use observed_motion, only: observed_motion_type
    use solving, only: at_tolerance, run
-   use spring_block, only: spring_block_type
    implicit none (type, external)
    private
    public :: collect_attractors
@@ -39,7 +39,7 @@ contains
 
    !> The attractor of a block and its four classes.
    subroutine find(block, settings, class, found, error)
-      type(spring_block_type), intent(in) :: block
+      type(model_type), intent(in) :: block
       type(attractor_settings_type), intent(in) :: settings
       !> Its class, that none of its indicators contradicts
       integer, intent(in) :: class
@@ -154,8 +154,7 @@ contains
       type(growth_type) :: measured
 
       settings = after(0.0_wp, 500.0_wp)
-      found%motion%sample_interval = settings%sample_interval
-      call found%motion%clear()
+      call found%motion%begin(disturbed(7.0_wp, 0.7_wp, 0.5_wp), settings%sample_interval)
       call found%motion%observe(disturbed(7.0_wp, 0.7_wp, 0.5_wp), settings%t_observed, &
                                 at_tolerance(1.0e-8_wp, "auto"), failure)
       call expect_success(error, failure)
@@ -278,7 +277,7 @@ contains
 
    !> A torus that is certain late, but not later than a given time.
    subroutine find_late_torus(block, latest, error)
-      type(spring_block_type), intent(in) :: block
+      type(model_type), intent(in) :: block
       real(wp), intent(in) :: latest
       type(error_type), allocatable, intent(inout) :: error
       type(attractor_settings_type) :: settings
@@ -321,7 +320,7 @@ contains
       type(observed_motion_type) :: motion(5)
       real(wp), parameter :: epsilons(5) = [1.5_wp, 1.0_wp, 1.25_wp, 1.16_wp, 1.4_wp]
       real(wp), parameter :: delays(5) = [9.3_wp, 13.3_wp, 14.7_wp, 18.7_wp, 18.7_wp]
-      type(spring_block_type) :: stuck
+      type(model_type) :: stuck
       integer :: i
 
       options = at_tolerance(1.0e-6_wp, "auto")
@@ -330,8 +329,7 @@ contains
          call run(error, stuck, 0.0_wp, 1000.0_wp, options, outcome, &
                   continuation=motion(i)%continuation)
          if (allocated(error)) return
-         motion(i)%sample_interval = 0.1_wp
-         call motion(i)%clear()
+         call motion(i)%begin(stuck, 0.1_wp)
          call motion(i)%observe(stuck, 1000.0_wp, options, failure)
          call expect_success(error, failure)
          if (allocated(error)) return

@@ -2,15 +2,15 @@
 !> side; runs without delay against GSL.
 module test_spring_block
    use, intrinsic :: iso_c_binding, only: c_double, c_int
-   use block_builder, only: build_block
+   use block_builder, only: build_block, index_of_ln_v, index_of_theta, index_of_u
    use dde_errors, only: text
    use dde_interpolant, only: series_value
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use model_problem, only: model_type
    use pseudo_random, only: uniform
    use solving, only: at_tolerance, solve
-   use spring_block, only: index_of_ln_v, index_of_theta, index_of_u, spring_block_type
    implicit none (type, external)
    private
    public :: collect_spring_block
@@ -42,7 +42,7 @@ contains
    !> With a delay, at random states and parameters; dw/dt = (dv/dt)/v.
    subroutine test_equation_4(error)
       type(error_type), allocatable, intent(out) :: error
-      type(spring_block_type) :: block
+      type(model_type) :: block
       real(wp) :: delayed_v, dydt(3), x(8)
       integer :: i
 
@@ -72,7 +72,7 @@ contains
       integer, parameter :: degree = 20
       real(wp), parameter :: gamma(4) = [0.05_wp, 0.8_wp, 3.0_wp, 20.0_wp], s = 0.5_wp
       real(wp), parameter :: w(4) = [0.7_wp, -1.0_wp, 0.1_wp, 1.5_wp]
-      type(spring_block_type) :: problem
+      type(model_type) :: problem
       real(wp) :: coefficient(0:degree, 3), found(3), rises(0:degree - 1, 3), slope(3), unit
       real(wp), allocatable :: delayed(:, :)
       integer :: delays, i, k
@@ -114,7 +114,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       integer, parameter :: degree = 14
       real(wp), parameter :: gamma(3) = [1.0e3_wp, 1.0e6_wp, 1.0e12_wp], s = 0.7_wp
-      type(spring_block_type) :: problem
+      type(model_type) :: problem
       real(wp) :: found(3), rises(0:degree - 1, 3), slope(3), state(3), v, y(0:degree, 3)
       real(wp), allocatable :: z(:, :)
       real(wp), parameter :: unit = 0.05_wp
