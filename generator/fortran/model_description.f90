@@ -110,8 +110,8 @@ contains
             parameter = parameter + 1
             description%parameters(parameter) = parameter_type(words(2), words(3), words(4))
          case ("state")
-            description%states = [description%states, words(2) (:word_length)]
-            description%meanings = [description%meanings, words(3)]
+            description%states = [character(len=word_length) :: description%states, words(2)]
+            description%meanings = [character(len=line_length) :: description%meanings, words(3)]
          case ("auxiliary")
             read (words(3), *) place
             description%auxiliaries = [description%auxiliaries, auxiliary_type(words(2), place)]

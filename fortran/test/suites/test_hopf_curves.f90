@@ -341,8 +341,8 @@ contains
                      [by_epsilon, by_tau], [0.0_wp, 1.5_wp, 0.0_wp, 20.0_wp], error)
       ! c and zeta follow the parameters of all blocks
       call check_law("quasistatic_slip_cut_off", &
-                     [7.0_wp, 0.7_wp, 0.5_wp, 0.8_wp, 0.5_wp, 0.0_wp], [6, by_xi], &
-                     [0.0_wp, 2.0_wp, 0.05_wp, 1.0_wp], error)
+                     [0.0_wp, 1.0_wp, 0.5_wp, 0.8_wp, 0.5_wp, 0.0_wp], [6, by_tau], &
+                     [0.0_wp, 1.0_wp, 0.0_wp, 20.0_wp], error)
    end subroutine test_laws
 
    !> A plane of a law.
@@ -355,7 +355,7 @@ contains
       type(curve_point_type), allocatable :: points(:)
       type(failure_type), allocatable :: failure
       type(hopf_on_line_type), allocatable :: known(:)
-      real(wp), parameter :: columns(3) = [0.13_wp, 0.49_wp, 0.88_wp]
+      real(wp), parameter :: columns(3) = [0.31_wp, 0.49_wp, 0.88_wp]
       real(wp) :: place(2)
       real(wp), allocatable :: found(:)
       integer :: i, j

@@ -44,9 +44,9 @@ contains
       call expect_failure(error, failure, "a bound nearer to 0 expected")
       ! there are exp(100), or more than the largest number
       call find_model_roots(torus, -10.0_wp, roots, failure)
-      call expect_failure(error, failure, "more than 512 roots above -10.0; a bound nearer to 0")
+      call expect_failure(error, failure, "more than 512 above -10.0; a bound nearer to 0")
       call find_model_roots(torus, -100.0_wp, roots, failure)
-      call expect_failure(error, failure, "more than 512 roots above -100.0; a bound nearer to 0")
+      call expect_failure(error, failure, "more than 512 above -100.0; a bound nearer to 0")
    end subroutine test_roots
 
    !> An oscillation of ln v that grows at a rate, from an amplitude, in 400 units of time.

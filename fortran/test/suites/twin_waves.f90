@@ -51,12 +51,9 @@ contains
       self%omega2 = parameters(2)
       self%p22 = cmplx(parameters(1), imaginary_part_of_p22, kind=wp)
       self%turned = exp(cmplx(0.0_wp, -lag*[omega1, self%omega2], kind=wp))
-      if (self%delayed) then
-         self%k = [k1, k2]
-      else
-         self%b = b
-         self%c = c
-      end if
+      self%k = merge([k1, k2], (0.0_wp, 0.0_wp), self%delayed)
+      self%b = merge(0.0_wp, b, self%delayed)
+      self%c = merge(0.0_wp, c, self%delayed)
       self%alpha = cmplx(0.0_wp, [omega1, self%omega2], kind=wp) - [p11, p21] - self%k*self%turned
    end subroutine put_waves
 
