@@ -15,7 +15,7 @@ module hopf_planes
    !> when steps no longer become smaller below the second bound, or after so many steps.
    real(wp), parameter :: last_step = 1.0e-15_wp, small_step = 1.0e-9_wp
    integer, parameter :: most_steps = 12
-   !> Least cosine of the angle between the curve and the direction along which the distance is given.
+   !> Least cosine of the angle of the curve to the direction along which the distance is given.
    real(wp), parameter :: least_cosine = 1.0e-6_wp
 
    !> A plane (abscissa, ordinate) with a window.
@@ -160,8 +160,8 @@ contains
             along = cross(matrix(1, :), matrix(2, :))
             if (found) exit
             if (abs(dot_product(along, direction)) <= least_cosine*norm2(along)) return
-            step = solution(matrix, [-real(delta)/scale, -aimag(delta)/scale, &
-                                     value - dot_product(direction, [point%place, log(point%omega)])])
+            step = solution(matrix, [-[real(delta), aimag(delta)]/scale, value &
+                                     - dot_product(direction, [point%place, log(point%omega)])])
          end associate
          if (.not. all(abs(step) < 1.0_wp)) return
          point%place = point%place + step(:2)

@@ -1,6 +1,6 @@
-!> Models whose right-hand side is written once, for complex numbers, and not by a definition. Slopes
-!> are imaginary parts of f(x + i h) over h, without rounding. Forms of any order come from values on
-!> circles in the complex plane (Cauchy's integral). So no derivative is written by hand.
+!> Models whose right-hand side is written once, for complex numbers, and not by a definition. Their
+!> derivatives are imaginary parts of f(x + i h) over h, without rounding; forms of any order come
+!> from values on circles in the complex plane (Cauchy's integral).
 module analytic_models
    use dde_kinds, only: wp
    use model_problem, only: model_type

@@ -48,15 +48,15 @@ contains
       block = build_block(tau=tau, epsilon=epsilon, xi=xi, gamma=0.8_wp, v=1.1_wp)
    end function disturbed_block
 
-   !> The attractor of a block, at the tolerance 1e-8.
-   subroutine search(block, settings, found, error)
-      type(model_type), intent(in) :: block
+   !> The attractor of a model, at the tolerance 1e-8.
+   subroutine search(model, settings, found, error)
+      class(model_type), intent(in) :: model
       type(attractor_settings_type), intent(in) :: settings
       type(attractor_type), intent(out) :: found
       type(error_type), allocatable, intent(inout) :: error
       type(failure_type), allocatable :: failure
 
-      call find_attractor(block, settings, at_tolerance(1.0e-8_wp, "auto"), found, failure)
+      call find_attractor(model, settings, at_tolerance(1.0e-8_wp, "auto"), found, failure)
       call expect_success(error, failure)
    end subroutine search
 end module attractor_searches

@@ -24,8 +24,8 @@ module known_models
    !>                    a = -2 s^3, b = 3 s^2, a cusp at a = b = 0
    !>     driven_growth  (x1, x2) turns on the unit circle once in a unit of time,
    !>                    x3' = (a + b x1) x3(t - lag); a, b, lag
-   !>     mackey_glass   x' = beta z/(1 + z^10) - x/10, z = x(t - tau); tau, beta, at rest in 1 where
-   !>                    beta = 0.2
+   !>     mackey_glass   x' = beta z/(1 + z^10) - x/10, z = x(t - tau); tau, beta; at rest in 1
+   !>                    where beta = 0.2
    !>     duffing        delayed feedback, "minimal_demo" of DDE-BIFTOOL, in the state
    !>                    (x + bend v^2, v) with v = x': x'' + d x' + a x + x^3 + b [x - x(t - tau)]
    !>                    = 0; tau, a, b, d, bend

@@ -50,8 +50,8 @@ contains
       type(periodic_orbit_type) :: reference
 
       reference = orbit
-      call correct_orbit(fixed_model(model), reference, no_direction, [real(wp) ::], orbit, newton, &
-                         failure)
+      call correct_orbit(fixed_model(model), reference, no_direction, [real(wp) ::], orbit, &
+                         newton, failure)
    end subroutine correct
 
    !> Go on with a run, and note the maxima of a component.

@@ -19,8 +19,10 @@ contains
       complex(wp), intent(in) :: s
       complex(wp) :: term(5)
 
-      term = [s**3, s**2*(1.0_wp + p(by_gamma)**2/p(by_xi)), s*p(by_gamma)**2*(1.0_wp + 1.0_wp/p(by_xi)), &
-              cmplx(p(by_gamma)**2, kind=wp), delayed_term(p, s)]
+      associate (gamma => p(by_gamma), xi => p(by_xi))
+         term = [s**3, s**2*(1.0_wp + gamma**2/xi), s*gamma**2*(1.0_wp + 1.0_wp/xi), &
+                 cmplx(gamma**2, kind=wp), delayed_term(p, s)]
+      end associate
    end function terms
 
    !> The delayed term -s (1 + epsilon) (gamma^2/xi) exp(-s tau).

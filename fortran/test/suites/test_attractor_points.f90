@@ -32,9 +32,9 @@ contains
    end subroutine collect_attractor_points
 
    !> The block; points have parameters of their own.
-   type(model_type) function block_model() result(block)
-      block = build_block(0.0_wp, 0.5_wp, 0.8_wp, 0.8_wp)
-   end function block_model
+   type(model_type) function block() result(model)
+      model = build_block(0.0_wp, 0.5_wp, 0.8_wp, 0.8_wp)
+   end function block
 
    !> How attractors are found here.
    pure type(attractor_settings_type) function quickly() result(settings)
@@ -55,9 +55,10 @@ contains
       integer :: i, j
 
       points = [((near_sliding(0.0_wp, 0.1_wp*i, 0.5_wp + 0.02_wp*j), i=1, columns), j=1, lines)]
-      call find_attractors(block_model(), points, quickly(), at_tolerance(1.0e-6_wp, "auto"), all_computed)
-      call find_attractors(block_model(), points, quickly(), at_tolerance(1.0e-6_wp, "auto"), findings, progress, &
-                           columns, 1)
+      call find_attractors(block(), points, quickly(), at_tolerance(1.0e-6_wp, "auto"), &
+                           all_computed)
+      call find_attractors(block(), points, quickly(), at_tolerance(1.0e-6_wp, "auto"), findings, &
+                           progress, columns, 1)
       call expect(error, all(all_computed%computed) .and. .not. all(findings%computed), &
                   "some points are not computed")
       call expect(error, all(findings%attractor%class == all_computed%attractor%class), &
@@ -98,8 +99,8 @@ contains
       points = [near_sliding(0.0_wp, 0.3_wp, 0.8_wp, 1.0_wp), &
                 near_sliding(10.0_wp, 0.5_wp, 0.8_wp, 1.0e-300_wp), &
                 near_sliding(10.0_wp, 0.5_wp, 0.8_wp, 1.5_wp)]
-      call find_attractors(block_model(), points, quickly(), at_tolerance(1.0e-6_wp, "auto"), findings)
-      call find_attractors(block_model(), points(3:), quickly(), at_tolerance(1.0e-6_wp, "auto"), alone)
+      call find_attractors(block(), points, quickly(), at_tolerance(1.0e-6_wp, "auto"), findings)
+      call find_attractors(block(), points(3:), quickly(), at_tolerance(1.0e-6_wp, "auto"), alone)
       call expect_success(error, findings(1)%problem)
       call expect_failure(error, findings(2)%problem, "stopped at t = ")
       call expect_success(error, findings(3)%problem)
@@ -130,7 +131,7 @@ contains
       integer :: i
 
       largest = 0.0_wp
-      call sweep_attractors(block_model(), points, settings, at_tolerance(1.0e-7_wp, "auto"), findings)
+      call sweep_attractors(block(), points, settings, at_tolerance(1.0e-7_wp, "auto"), findings)
       do i = 1, size(points)
          call expect_success(error, findings(i)%problem)
          if (allocated(error)) return
@@ -165,8 +166,8 @@ contains
       points = near_sliding([9.5_wp, 10.0_wp, 11.0_wp], 0.5_wp, 0.8_wp)
       call largest_maxima(error, points, coarse_settings(1500.0_wp), up)
       call largest_maxima(error, points(3:1:-1), coarse_settings(1500.0_wp), down)
-      call find_attractors(block_model(), points, coarse_settings(1500.0_wp), at_tolerance(1.0e-7_wp, "auto"), &
-                           alone)
+      call find_attractors(block(), points, coarse_settings(1500.0_wp), &
+                           at_tolerance(1.0e-7_wp, "auto"), alone)
       do i = 1, 3
          call expect_success(error, alone(i)%problem)
          if (allocated(error)) return
@@ -184,8 +185,8 @@ contains
       integer :: i
 
       points = near_sliding([0.0_wp, 2.0_wp, 0.0_wp], 0.5_wp, 0.8_wp)
-      call sweep_attractors(block_model(), points, coarse_settings(1000.0_wp), at_tolerance(1.0e-7_wp, "auto"), &
-                            findings)
+      call sweep_attractors(block(), points, coarse_settings(1000.0_wp), &
+                            at_tolerance(1.0e-7_wp, "auto"), findings)
       do i = 1, 3
          call expect_success(error, findings(i)%problem)
       end do
@@ -207,7 +208,7 @@ contains
       options = at_tolerance(1.0e-7_wp, "explicit")
       options%most_steps = 20000
       points = near_sliding([10.0_wp, 1.0e-3_wp, 10.0_wp], 0.5_wp, 0.8_wp)
-      call sweep_attractors(block_model(), points, coarse_settings(1500.0_wp), options, findings)
+      call sweep_attractors(block(), points, coarse_settings(1500.0_wp), options, findings)
       call expect_success(error, findings(1)%problem)
       call expect_failure(error, findings(2)%problem, "20000 steps (most_steps) were used up")
       call expect_success(error, findings(3)%problem)

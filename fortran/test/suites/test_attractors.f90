@@ -10,6 +10,7 @@ module test_attractors
    use dde_kinds, only: wp
    use lyapunov_spectrum, only: growth_type
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use model_library, only: open_model
    use model_problem, only: model_type
    use motion_classes, only: chaos, class_names, cycle_motion, fixed_point, none, three_torus, &
                              torus, undecided
@@ -34,19 +35,20 @@ contains
                    new_unittest("tori after another motion", test_late_tori), &
                    new_unittest("unstable steady sliding", test_unstable), &
                    new_unittest("too few samples", test_few_samples), &
+                   new_unittest("models of one state", test_one_state), &
                    new_unittest("maxima of a stuck block", test_stuck)]
    end subroutine collect_attractors
 
-   !> The attractor of a block and its four classes.
-   subroutine find(block, settings, class, found, error)
-      type(model_type), intent(in) :: block
+   !> The attractor of a model and its four classes.
+   subroutine find(model, settings, class, found, error)
+      class(model_type), intent(in) :: model
       type(attractor_settings_type), intent(in) :: settings
       !> Its class, that none of its indicators contradicts
       integer, intent(in) :: class
       type(attractor_type), intent(out) :: found
       type(error_type), allocatable, intent(inout) :: error
 
-      call search(block, settings, found, error)
+      call search(model, settings, found, error)
       if (allocated(error)) return
       associate (classes => [found%class, found%by_exponents, found%by_section, found%by_spectrum])
          call expect(error, all(classes(:2) == class) .and. &
@@ -309,6 +311,40 @@ contains
       call expect_failure(error, failure, "samples")
       call expect(error, found%class == undecided, "undecided")
    end subroutine test_few_samples
+
+   !> A model without coordinates of its section, which is met where the state rises through rest.
+   !> The exponents at rest are the real parts of the roots of s + exp(-s) = 0. The points of the
+   !> section of the cycle that follows the Hopf point of Mackey and Glass's equation are the time
+   !> since the passage before and the greatest value since.
+   subroutine test_one_state(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(attractor_type) :: found
+      type(failure_type), allocatable :: failure
+      type(model_type) :: model
+      integer :: n
+
+      call open_model("made_decay", model, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call model%set([1.0_wp], [0.5_wp])
+      call find(model, after(100.0_wp, 100.0_wp), fixed_point, found, error)
+      if (allocated(error)) return
+      call expect_close(error, found%exponents%value, &
+                        [-0.3181315052047642_wp, -0.3181315052047642_wp, &
+                         -2.0622777295982839_wp, -2.0622777295982839_wp], 1.0e-12_wp, "exponents")
+      call open_model("made_mackey_glass", model, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call model%set([6.0_wp], [1.2_wp])
+      call find(model, after(1000.0_wp, 1000.0_wp), cycle_motion, found, error)
+      if (allocated(error)) return
+      call expect(error, found%period == 1, "period 1")
+      if (allocated(error)) return
+      n = size(found%motion%section_time)
+      call expect_close(error, found%motion%section(:, n), &
+                        [1.0_wp/found%bases(1), found%motion%maxima(size(found%motion%maxima))], &
+                        1.0e-6_wp, "the last point of the section")
+   end subroutine test_one_state
 
    !> A loose tolerance makes no maxima while v of a stuck block is 1e-6 and less. All maxima of
    !> these cycles are larger than 0.04 at the tolerance 1e-10.

@@ -41,7 +41,7 @@ contains
       names = pack(names, index(names, "chain_") /= 1)
    end function law_names
 
-   !> Delta(s) of each law is the determinant of s - A0 - A1 exp(-s tau). Its derivatives by s and by
+   !> Delta(s) of each law is the determinant of s - A0 - A1 exp(-s tau). Its derivatives by s and
    !> all parameters are those by differences of fourth order. The bound of the slope by s holds it.
    subroutine test_laws(error)
       type(error_type), allocatable, intent(out) :: error

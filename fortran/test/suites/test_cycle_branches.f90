@@ -43,8 +43,8 @@ contains
       if (allocated(error)) return
       do i = 1, size(found)
          associate (there => found(i)%numbers([by_epsilon, by_tau]))
-            if (found(i)%kind == kind .and. norm2(there - place) < norm2(nearest - place)) &
-               nearest = there
+            if (found(i)%kind /= kind) cycle
+            if (norm2(there - place) < norm2(nearest - place)) nearest = there
          end associate
       end do
    end subroutine nearest_hopf_point

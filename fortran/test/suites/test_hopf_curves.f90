@@ -341,8 +341,8 @@ contains
                      [by_epsilon, by_tau], [0.0_wp, 1.5_wp, 0.0_wp, 20.0_wp], error)
       ! c and zeta follow the parameters of all blocks
       call check_law("quasistatic_slip_cut_off", &
-                     [0.0_wp, 1.0_wp, 0.5_wp, 0.8_wp, 0.5_wp, 0.0_wp], [6, by_tau], &
-                     [0.0_wp, 1.0_wp, 0.0_wp, 20.0_wp], error)
+                     [0.0_wp, 1.5_wp, 0.5_wp, 0.8_wp, 0.5_wp, 0.0_wp], [6, by_tau], &
+                     [0.0_wp, 0.5_wp, 0.0_wp, 20.0_wp], error)
    end subroutine test_laws
 
    !> A plane of a law.

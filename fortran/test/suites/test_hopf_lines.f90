@@ -148,8 +148,8 @@ contains
    end subroutine check_points
 
    !> At tau = 0 there is one epsilon, that of Routh and Hurwitz. Below the least epsilon of all
-   !> Hopf curves no delay makes a change. Points with fewer turns in the delay come first. A line in
-   !> tau meets Hopf points of lines in xi and gamma.
+   !> curves no delay makes a change. Points with fewer turns in the delay come first. A line in tau
+   !> meets Hopf points of lines in xi and gamma.
    subroutine test_known(error)
       type(error_type), allocatable, intent(out) :: error
       type(hopf_on_line_type), allocatable :: across(:), found(:)

@@ -158,8 +158,8 @@ contains
       call expect_close(error, [history%values(:, 1, :)], [values([2, 3, 1], :)], 0.0_wp, "values")
       call expect_close(error, history%past(block, 1), [0.1_wp, -0.2_wp, log(1.5_wp)], 0.0_wp, &
                         "states")
-      call read_history("input.nml", block, ["w    ", "u    ", "theta"], [-2.0_wp, 3.0_wp, 4.0_wp], &
-                        history, failure)
+      call read_history("input.nml", block, ["w    ", "u    ", "theta"], &
+                        [-2.0_wp, 3.0_wp, 4.0_wp], history, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
       call expect_close(error, history%past(block, 1), [4.0_wp, 3.0_wp, -2.0_wp], 0.0_wp, &

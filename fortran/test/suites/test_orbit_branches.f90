@@ -23,6 +23,9 @@ module test_orbit_branches
    private
    public :: collect_orbit_branches
 
+   !> tau, epsilon, xi and gamma of a cycle.
+   real(wp), parameter :: place_of_cycle(4) = [10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp]
+
 contains
 
    subroutine collect_orbit_branches(testsuite)
@@ -105,7 +108,7 @@ contains
       type(branch_type) :: branch
       type(special_point_type) :: other, point
 
-      settings%family = family_type(block_at([10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp]), [by_epsilon], [1.0_wp])
+      settings%family = family_type(block_at(place_of_cycle), [by_epsilon], [1.0_wp])
       settings%window(:, 1) = [0.4_wp, 1.0_wp]
       settings%most_points = 18
       call find_point_twice(settings, fold, point, other, branch, error)
@@ -125,7 +128,7 @@ contains
       real(wp), allocatable :: maxima(:)
       integer :: i
 
-      settings%family = family_type(block_at([10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp]), [by_tau], [5.0_wp])
+      settings%family = family_type(block_at(place_of_cycle), [by_tau], [5.0_wp])
       settings%window(:, 1) = [10.0_wp, 12.4_wp]
       call find_point_twice(settings, torus_bifurcation, point, other, branch, error)
       if (allocated(error)) return
@@ -225,7 +228,7 @@ contains
       type(branch_type) :: branch
       type(special_point_type), allocatable :: special(:)
 
-      settings%family = family_type(block_at([10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp]), [by_epsilon], [1.0_wp])
+      settings%family = family_type(block_at(place_of_cycle), [by_epsilon], [1.0_wp])
       settings%window(:, 1) = [0.0_wp, 1.0_wp]
       settings%least_amplitude = 0.05_wp
       call branch_of_block(10.0_wp, 0.35_wp, settings, 5, gauss_points, -1, branch, special, error)

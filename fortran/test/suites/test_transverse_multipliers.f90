@@ -120,7 +120,8 @@ contains
                       failure)
       call expect_success(error, failure)
       if (allocated(error)) return
-      call find_transverse_cycle(chain_at(cycle_place), 2000.0_wp, at_tolerance(1.0e-8_wp), s, found)
+      call find_transverse_cycle(chain_at(cycle_place), 2000.0_wp, at_tolerance(1.0e-8_wp), s, &
+                                 found)
       call expect(error, found%reason == "", "a cycle: "//found%reason)
       if (allocated(error)) return
       call expect(error, abs(found%growth(1)%value) <= 0.0_wp, "the flow at s = 1")

@@ -16,7 +16,7 @@ module traced_planes
    !> Number of planes.
    integer, parameter :: planes = 7
    !> Cells of the grid on which unstable pairs are counted.
-   integer, parameter :: cells = 60
+   integer, parameter :: cells = 30
 
 contains
 
