@@ -8,10 +8,8 @@ module analytic_models
    private
    public :: analytic_model, h
 
-   !> A model at rest where all states are 0, or in the state `rest`.
+   !> A model at rest where all states are 0.
    type, abstract, extends(model_type) :: analytic_model
-      !> State at rest, if it is not 0
-      real(wp), allocatable :: rest(:)
    contains
       procedure(complex_slope), deferred :: slope
       procedure :: fill
@@ -98,7 +96,6 @@ contains
       real(wp) :: state(self%n)
 
       state = 0.0_wp
-      if (allocated(self%rest)) state = self%rest
    end function state_at_rest
 
    !> The form of order k from the homogeneous part P_k of the right-hand side, by polarisation: the
@@ -127,17 +124,14 @@ contains
       integer, intent(in) :: k
       complex(wp) :: part(size(x, 1))
       complex(wp) :: factor, z(size(x, 2) - 1)
-      real(wp) :: rest(size(x, 1))
       integer :: i, j
 
       part = 0.0_wp
       if (all(abs(x) <= 0.0_wp)) return
-      rest = model%steady_state()
       z = [(x(model%component(j), j + 1), j=1, size(z))]
       do i = 1, points
          factor = radius/maxval(abs(x))*exp(cmplx(0.0_wp, two_pi*i/points, kind=wp))
-         part = part + model%slope(rest + factor*x(:, 1), rest(model%component) + factor*z) &
-                /factor**k/points
+         part = part + model%slope(factor*x(:, 1), factor*z)/factor**k/points
       end do
    end function homogeneous_part
 end module analytic_models

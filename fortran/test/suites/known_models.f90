@@ -6,8 +6,7 @@ module known_models
    implicit none (type, external)
    private
    public :: block_by_values, delayed_cubic, delayed_sine, driven_growth, duffing, &
-             duffing_with_pair, known_model, layers, lienard, mackey_glass, neurons, quadratic, &
-             transformed
+             duffing_with_pair, known_model, layers, lienard, neurons, quadratic, transformed
 
    real(wp), parameter :: pi = acos(-1.0_wp)
 
@@ -24,8 +23,6 @@ module known_models
    !>                    a = -2 s^3, b = 3 s^2, a cusp at a = b = 0
    !>     driven_growth  (x1, x2) turns on the unit circle once in a unit of time,
    !>                    x3' = (a + b x1) x3(t - lag); a, b, lag
-   !>     mackey_glass   x' = beta z/(1 + z^10) - x/10, z = x(t - tau); tau, beta; at rest in 1
-   !>                    where beta = 0.2
    !>     duffing        delayed feedback, "minimal_demo" of DDE-BIFTOOL, in the state
    !>                    (x + bend v^2, v) with v = x': x'' + d x' + a x + x^3 + b [x - x(t - tau)]
    !>                    = 0; tau, a, b, d, bend
@@ -37,7 +34,7 @@ module known_models
    !>                    x1' = -x1/2 - tanh x1(t - tau_s) + tanh x2(t - 0.2), x2' = -x2/2
    !>                    - tanh x2(t - tau_s) + a21 tanh x1(t - 0.2)
    integer, parameter :: lienard = 1, quadratic = 2, delayed_sine = 3, delayed_cubic = 4, &
-                         driven_growth = 5, mackey_glass = 6, duffing = 7, layers = 8, neurons = 9
+                         driven_growth = 5, duffing = 6, layers = 7, neurons = 8
 
    !> One of these.
    type, extends(analytic_model) :: known_model
@@ -121,9 +118,6 @@ contains
             call self%fill([1.0_wp], [0.5_wp*pi], [1])
          case (driven_growth)
             call self%fill([1.0_wp, 0.0_wp, 0.0_wp], [p(3)], [3])
-         case (mackey_glass)
-            call self%fill([0.5_wp], [p(1)], [1])
-            self%rest = [1.0_wp]
          case (duffing)
             call self%fill([0.5_wp, 0.0_wp], [p(1), p(1)], [1, 2])
          case (layers)
@@ -157,8 +151,6 @@ contains
             slope(1) = -2.0_wp*pi*y(2) + y(1)*(1.0_wp - y(1)**2 - y(2)**2)
             slope(2) = 2.0_wp*pi*y(1) + y(2)*(1.0_wp - y(1)**2 - y(2)**2)
             slope(3) = (p(1) + p(2)*y(1))*z(1)
-         case (mackey_glass)
-            slope = p(2)*z/(1.0_wp + z**10) - 0.1_wp*y
          case (duffing)
             place = [y(1) - p(5)*y(2)**2, z(1) - p(5)*z(2)**2]
             slope(2) = -p(4)*y(2) - p(2)*place(1) - place(1)**3 - p(3)*(place(1) - place(2))

@@ -38,7 +38,7 @@ contains
       character(len=word_length), allocatable :: names(:)
 
       names = list_models("")
-      names = pack(names, index(names, "chain_") /= 1)
+      names = pack(names, index(names, "chain_") /= 1 .and. index(names, "made_") /= 1)
    end function law_names
 
    !> Delta(s) of each law is the determinant of s - A0 - A1 exp(-s tau). Its derivatives by s and

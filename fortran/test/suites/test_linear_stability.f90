@@ -5,20 +5,18 @@ module test_linear_stability
    use block_builder, only: block_at, by_epsilon, by_gamma, by_tau, by_xi
    use characteristic_function, only: characteristic_of
    use characteristic_roots, only: find_roots
-   use closed_form, only: block_with_pair, closed_tau
+   use closed_form, only: block_with_pair
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
-   use hopf_curves, only: curve_point_type
    use known_models, only: block_by_values, known_model, neurons
    use lapack, only: solve
    use linear_system, only: linear_part, linear_system_type
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use paper_equations, only: hopf_epsilon, hopf_tau, relative_residual
+   use paper_equations, only: relative_residual
    use normal_form, only: first_lyapunov_coefficient
    use pseudo_random, only: uniform
    use root_counts, only: pairs_beside, roots_right_of
-   use traced_planes, only: new_plane, trace
    implicit none (type, external)
    private
    public :: collect_linear_stability
@@ -37,8 +35,7 @@ contains
                    new_unittest("two neurons", test_neurons), &
                    new_unittest("coordinates do not matter", test_coordinates), &
                    new_unittest("roots in quadruple precision", test_quadruple), &
-                   new_unittest("l1 at infinite gamma", test_coefficient), &
-                   new_unittest("a narrow range of frequencies", test_narrow)]
+                   new_unittest("l1 at infinite gamma", test_coefficient)]
    end subroutine collect_linear_stability
 
    !> x' = -x(t - 1): the roots are the branches of W(-1), s = -exp(-s).
@@ -94,28 +91,34 @@ contains
       call expect(error, most > 6, "some blocks have many roots")
    end subroutine test_block_roots
 
-   !> On every branch the pair i omega is among the roots, and the pairs beside it are counted.
+   !> On every branch and for stiff faults the pair i omega is among the roots, and the pairs beside
+   !> it are counted; at the first delay there are none at gamma = 0.8.
    subroutine test_curve_roots(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
       complex(wp), allocatable :: roots(:)
+      real(wp), parameter :: gammas(3) = [0.8_wp, 1.0e8_wp, 1.0e12_wp]
       real(wp) :: omega, p(4)
-      integer :: counts(0:20), i, k, pairs
+      integer :: counts(0:20), i, j, k, pairs
 
       counts = 0
-      do i = 1, 10
-         omega = 0.2_wp + 0.1_wp*i
-         do k = merge(1, 0, omega > 0.5_wp), 2
-            p = block_with_pair(omega, 0.5_wp, 0.8_wp, k)
-            call find_roots(linear_part(block_at(p)), -0.01_wp, roots, failure)
-            call expect_success(error, failure)
-            if (allocated(error)) return
-            call expect_close(error, minval(abs(roots - cmplx(0.0_wp, omega, kind=wp))), 0.0_wp, &
-                              1.0e-12_wp, "distance of a root to i omega")
-            pairs = pairs_beside(characteristic_of(block_at(p)), [omega])
-            call expect(error, pairs == count(real(roots) > 1.0e-9_wp)/2, &
-                        "pairs beside omega = "//text(omega)//" on branch "//text(k))
-            counts(pairs) = counts(pairs) + 1
+      do j = 1, size(gammas)
+         do i = 1, 10
+            omega = 0.2_wp + 0.1_wp*i
+            do k = 0, 2
+               p = block_with_pair(omega, 0.5_wp, gammas(j), k)
+               if (p(by_tau) < 0.0_wp) cycle
+               call find_roots(linear_part(block_at(p)), -0.01_wp, roots, failure)
+               call expect_success(error, failure)
+               if (allocated(error)) return
+               call expect_close(error, minval(abs(roots - cmplx(0.0_wp, omega, kind=wp))), &
+                                 0.0_wp, 1.0e-12_wp, "distance of a root to i omega")
+               pairs = pairs_beside(characteristic_of(block_at(p)), [omega])
+               call expect(error, pairs == count(real(roots) > 1.0e-9_wp)/2, &
+                           "pairs beside omega = "//text(omega)//" on branch "//text(k))
+               if (j == 1 .and. k == 0) call expect(error, pairs == 0, "the first delay")
+               counts(pairs) = counts(pairs) + 1
+            end do
          end do
       end do
       call expect(error, all(counts(:1) > 0), "points with and without unstable pairs")
@@ -290,10 +293,8 @@ contains
          omega = 0.3_wp*i
          do k = 1, size(l1)
             associate (gamma => 10.0_wp**(3*k))
-               call first_lyapunov_coefficient( &
-                  block_at([hopf_tau(omega, 0.5_wp, gamma, 1), &
-                            hopf_epsilon(omega, 0.5_wp, gamma), 0.5_wp, gamma]), &
-                  omega, l1(k), failure)
+               call first_lyapunov_coefficient(block_at(block_with_pair(omega, 0.5_wp, gamma, 1)), &
+                                               omega, l1(k), failure)
             end associate
             call expect_success(error, failure)
          end do
@@ -301,25 +302,6 @@ contains
          call expect_close(error, l1(2:3), spread(l1(4), 1, 2), 1.0e-11_wp, "l1 at 1e6 and 1e9")
       end do
    end subroutine test_coefficient
-
-   !> At gamma = 0.01 all frequencies of the window lie within 0.01 of gamma; branch 0 goes from the
-   !> point without delay to the edge tau = 30.
-   subroutine test_narrow(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(curve_point_type), allocatable :: points(:)
-      real(wp), allocatable :: tau(:)
-      integer :: i
-
-      call trace(new_plane(by_tau, 0.01_wp, 0.5_wp, [0.0_wp, 1.5_wp, 0.0_wp, 30.0_wp]), points, &
-                 error)
-      if (allocated(error)) return
-      tau = [(points(i)%numbers(by_tau), i=1, size(points))]
-      call expect(error, maxval(points%branch) == 0, "one branch")
-      call expect_close(error, minval(tau), 0.0_wp, 1.0e-9_wp, "least delay")
-      call expect_close(error, maxval(tau), 30.0_wp, 1.0e-9_wp, "longest delay")
-      call expect_close(error, tau, closed_tau(points%at%omega, 0.5_wp, 0.01_wp, 0), 1.0e-9_wp, &
-                        "delays in closed form")
-   end subroutine test_narrow
 
    !> Roots to the right of a line, by the principle of the argument.
    integer function roots_right(p, bound) result(number)

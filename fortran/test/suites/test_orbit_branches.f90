@@ -8,9 +8,10 @@ module test_orbit_branches
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
-   use known_models, only: known_model, mackey_glass, neurons
+   use known_models, only: known_model, neurons
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use model_family, only: family_type
+   use model_library, only: open_model
    use model_problem, only: model_type
    use orbit_branch, only: branch_type
    use orbit_change, only: orbit_change_type
@@ -158,21 +159,26 @@ contains
       type(follow_settings_type) :: settings
       type(branch_type) :: branch, doubled
       type(failure_type), allocatable :: failure
+      type(model_type) :: model
       type(orbit_change_type) :: tangent
       type(periodic_orbit_type) :: orbit
       type(special_point_type), allocatable :: of_doubled(:), special(:)
       real(wp), allocatable :: maxima(:)
-      real(wp) :: hopf(2), omega, range(2), tau
+      real(wp) :: hopf, omega, range(2), tau
       integer :: i
 
       omega = sqrt(0.15_wp)
-      hopf = [acos(-0.25_wp)/omega, 0.2_wp]
-      settings%family = family_type(known_model(mackey_glass, hopf), [1], [10.0_wp])
+      hopf = acos(-0.25_wp)/omega
+      call open_model("made_mackey_glass", model, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call model%set([hopf], [1.2_wp])
+      settings%family = family_type(model, [1], [10.0_wp])
       settings%window(:, 1) = [4.0_wp, 14.5_wp]
-      call branch_from_hopf(settings, hopf, omega, 0.01_wp, branch, special, error)
+      call branch_from_hopf(settings, [hopf], omega, 0.01_wp, branch, special, error)
       if (allocated(error)) return
       call expect(error, branch%ending == "window", "the end of the window")
-      call expect(error, branch%orbits(2)%parameters(1) > hopf(1), "supercritical")
+      call expect(error, branch%orbits(2)%parameters(1) > hopf, "supercritical")
       call expect(error, branch%multipliers(2)%unstable() == 0, "stable at first")
       call expect(error, size(special) >= 1, "a special point")
       if (allocated(error)) return
@@ -211,12 +217,11 @@ contains
       subroutine simulate(delay, found)
          real(wp), intent(in) :: delay
          real(wp), allocatable, intent(out) :: found(:)
-         class(model_type), allocatable :: problem
          type(continuation_type) :: place
 
-         call settings%family%at([delay, 0.2_wp], problem)
-         call advance(problem, 0.0_wp, 10.0_wp, place, error)
-         call last_maxima(problem, 1, place, 8000.0_wp, 300.0_wp, found, error)
+         call model%put([delay])
+         call advance(model, 0.0_wp, 10.0_wp, place, error)
+         call last_maxima(model, 1, place, 8000.0_wp, 300.0_wp, found, error)
       end subroutine simulate
    end subroutine test_doubling
 

@@ -1,8 +1,6 @@
 !> Motions that approach rest, the exponents there, and the characteristic roots of the block.
 module test_rest
-   use block_builder, only: block_at, by_epsilon, by_tau
-   use characteristic_function, only: characteristic_of
-   use closed_form, only: block_with_pair
+   use block_builder, only: block_at
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_close, expect_failure, expect_success
@@ -12,7 +10,6 @@ module test_rest
    use model_problem, only: model_type
    use model_roots, only: find_model_roots
    use rest, only: exponents_at_rest, settles
-   use root_counts, only: pairs_beside
    implicit none (type, external)
    private
    public :: collect_rest
@@ -24,8 +21,7 @@ contains
 
       testsuite = [new_unittest("roots of the block", test_roots), &
                    new_unittest("decay, growth and neither", test_signals), &
-                   new_unittest("roots of the cubic", test_cubic), &
-                   new_unittest("Hopf points in closed form", test_hopf_points)]
+                   new_unittest("roots of the cubic", test_cubic)]
    end subroutine collect_rest
 
    !> The paper's torus has one unstable pair; a bound far away is refused.
@@ -119,38 +115,4 @@ contains
       call expect_success(error, failure)
       call expect(error, size(exponents) == 2, "the third root is below the last bound, -8")
    end subroutine test_cubic
-
-   !> On the Hopf set in closed form a pair of roots is imaginary. At the first delay and
-   !> gamma = 0.8 it is the rightmost.
-   subroutine test_hopf_points(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(exponent_type), allocatable :: exponents(:)
-      real(wp), parameter :: all_omega(3) = [0.3_wp, 0.45_wp, 0.56568542494923802_wp]
-      real(wp), parameter :: all_gamma(3) = [0.8_wp, 1.0e8_wp, 1.0e12_wp]
-      real(wp) :: p(4)
-      integer :: i, j, k
-
-      do j = 1, size(all_gamma)
-         do i = 1, size(all_omega)
-            do k = 0, 1
-               associate (omega => all_omega(i), gamma => all_gamma(j))
-                  p = block_with_pair(omega, 0.8_wp, gamma, k)
-                  call exponents_at_rest(block_at(p), 30, exponents, failure)
-                  call expect_success(error, failure)
-                  if (allocated(error)) return
-                  call expect(error, count(abs(exponents%value) <= 1.0e-9_wp) == 2, &
-                              "two zero exponents at tau = "//text(p(by_tau))//", epsilon = " &
-                              //text(p(by_epsilon))//", gamma = "//text(gamma))
-                  call expect(error, count(exponents%value > 1.0e-9_wp) &
-                              == 2*pairs_beside(characteristic_of(block_at(p)), [omega]), &
-                              "unstable pairs beside it at tau = "//text(p(by_tau)))
-                  if (j == 1 .and. k == 0) call expect(error, &
-                                                       all(exponents(3:)%value < -1.0e-3_wp), &
-                                                       "none at tau = "//text(p(by_tau)))
-               end associate
-            end do
-         end do
-      end do
-   end subroutine test_hopf_points
 end module test_rest
