@@ -10,7 +10,7 @@ module hopf_curves
    use hopf_planes, only: axis_point_type, curve_plane_type, turn
    implicit none (type, external)
    private
-   public :: curve_point_type, piece_type, trace_curves
+   public :: curve_point_type, trace_curves
 
    !> Farthest a chord may lie from the curve, and longest chord, in units of the window.
    real(wp), parameter :: chord_deviation = 1.0e-4_wp, chord_length = 0.02_wp
