@@ -37,6 +37,7 @@ contains
       testsuite = [new_unittest("curves in their windows", test_curves), &
                    new_unittest("special points of Figure 2", test_figure_2), &
                    new_unittest("special points of Figure 3", test_figure_3), &
+                   new_unittest("no special points without delay", test_no_delay), &
                    new_unittest("curves of other laws", test_laws)]
    end subroutine collect_hopf_curves
 
@@ -210,6 +211,14 @@ contains
 
       call check_figure(2, [5, 2, 0], found, error)
    end subroutine test_figure_3
+
+   !> Where no point of a plane has a delay, none is special for that.
+   subroutine test_no_delay(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(hopf_point_type), allocatable :: found(:)
+
+      call check_figure(planes, [0, 0, 0], found, error)
+   end subroutine test_no_delay
 
    !> The special points of a plane: their frequencies are roots of (5), the coefficient vanishes
    !> where it should, and nowhere else.

@@ -14,7 +14,7 @@ module traced_planes
    public :: find_points, known_numbers, known_place, new_plane, plane_number, planes, trace
 
    !> Number of planes.
-   integer, parameter :: planes = 8
+   integer, parameter :: planes = 9
    !> Cells of the grid on which unstable pairs are counted.
    integer, parameter :: cells = 30
 
@@ -22,21 +22,22 @@ contains
 
    !> Plane number i: Figures 2 and 3, loops that leave the window on their way, a short delay,
    !> pieces up to the largest omega there can be, branches up to the highest, a large gamma,
-   !> and a small one, near which all frequencies are.
+   !> a small one, near which all frequencies are, and no delay.
    type(curve_plane_type) function plane_number(i) result(plane)
       integer, intent(in) :: i
       integer, parameter :: along(planes) = [by_tau, by_xi, by_tau, by_xi, by_tau, by_tau, by_tau, &
-                                             by_tau]
+                                             by_tau, by_xi]
       ! gamma, and xi or tau
       real(wp), parameter :: fixed(2, planes) = reshape( &
          [0.8_wp, 0.5_wp, 0.8_wp, 12.0_wp, 0.8_wp, 0.5_wp, 2.0_wp, 3.0_wp, 0.75_wp, 0.5_wp, &
-          1.0_wp, 0.01_wp, 1.0e12_wp, 0.5_wp, 0.01_wp, 0.5_wp], [2, planes])
+          1.0_wp, 0.01_wp, 1.0e12_wp, 0.5_wp, 0.01_wp, 0.5_wp, 0.8_wp, 0.0_wp], [2, planes])
       ! of epsilon and of the ordinate
       real(wp), parameter :: windows(4, planes) = reshape( &
          [0.0_wp, 1.5_wp, 0.0_wp, 30.0_wp, 0.0_wp, 1.5_wp, 1.0e-3_wp, 2.0_wp, &
           0.3_wp, 1.2_wp, 2.0_wp, 28.0_wp, -0.5_wp, 2.0_wp, 0.1_wp, 3.0_wp, &
           0.0_wp, 0.25_wp, 0.0_wp, 30.0_wp, 0.0_wp, 1.5_wp, 0.0_wp, 30.0_wp, &
-          0.0_wp, 1.5_wp, 0.0_wp, 30.0_wp, 0.0_wp, 1.5_wp, 0.0_wp, 30.0_wp], [4, planes])
+          0.0_wp, 1.5_wp, 0.0_wp, 30.0_wp, 0.0_wp, 1.5_wp, 0.0_wp, 30.0_wp, &
+          0.0_wp, 1.5_wp, 0.01_wp, 5.0_wp], [4, planes])
 
       plane = new_plane(along(i), fixed(1, i), fixed(2, i), windows(:, i))
    end function plane_number
