@@ -326,7 +326,7 @@ contains
       call open_model("made_decay", model, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
-      call model%set([1.0_wp], [0.5_wp])
+      call model%set([1.0_wp, 1.0_wp, 0.0_wp], [0.5_wp])
       call find(model, after(100.0_wp, 100.0_wp), fixed_point, found, error)
       if (allocated(error)) return
       call expect_close(error, found%exponents%value, &

@@ -1,8 +1,9 @@
 !> Hopf curves of the block in their windows, those of the paper's Figures 2 and 3 and five more,
 !> against the closed form; special points on them, and what the normal forms predict beside them,
-!> against roots and points of the curves. Curves of other laws.
+!> against roots and points of the curves. Curves of other models.
 module test_hopf_curves
    use block_builder, only: block_at, by_epsilon, by_tau
+   use characteristic_function, only: characteristic_of, characteristic_type
    use characteristic_roots, only: find_roots
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
@@ -13,6 +14,8 @@ module test_hopf_curves
    use hopf_points, only: hopf_point_type
    use linear_system, only: linear_part
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use model_library, only: open_model
+   use model_problem, only: model_type
    use normal_form, only: first_lyapunov_coefficient
    use paper_equations, only: relative_residual
    use traced_planes, only: find_points, known_numbers, known_place, plane_number, planes, trace
@@ -38,7 +41,7 @@ contains
                    new_unittest("special points of Figure 2", test_figure_2), &
                    new_unittest("special points of Figure 3", test_figure_3), &
                    new_unittest("no special points without delay", test_no_delay), &
-                   new_unittest("curves of other laws", test_laws)]
+                   new_unittest("curves of other models", test_models)]
    end subroutine collect_hopf_curves
 
    !> All planes.
@@ -332,39 +335,56 @@ contains
       end associate
    end subroutine check_fold_direction
 
-   !> On lines across the planes of other laws, also of their own parameters, the curves are where
-   !> the number of unstable roots changes.
-   subroutine test_laws(error)
+   !> On lines across the planes of other models, also of a law's own parameters and of two delays,
+   !> the curves are where the number of unstable roots changes. Special points have their roots.
+   subroutine test_models(error)
       type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(model_type) :: model
 
-      call check_law("ageing_delayed_velocity", [0.0_wp, 0.0_wp, 0.5_wp, 0.8_wp], &
-                     [by_epsilon, by_tau], [0.0_wp, 1.5_wp, 0.0_wp, 20.0_wp], error)
+      call check_model(block_at([0.0_wp, 0.0_wp, 0.5_wp, 0.8_wp], "ageing_delayed_velocity"), &
+                       [by_epsilon, by_tau], [0.0_wp, 1.5_wp, 0.0_wp, 20.0_wp], error)
       ! c and zeta follow the parameters of all blocks
-      call check_law("quasistatic_slip_cut_off", &
-                     [0.0_wp, 1.5_wp, 0.5_wp, 0.8_wp, 0.5_wp, 0.0_wp], [6, by_tau], &
-                     [0.0_wp, 0.5_wp, 0.0_wp, 20.0_wp], error)
-   end subroutine test_laws
+      call check_model(block_at([0.0_wp, 1.5_wp, 0.5_wp, 0.8_wp, 0.5_wp, 0.0_wp], &
+                                "quasistatic_slip_cut_off"), &
+                       [6, by_tau], [0.0_wp, 0.5_wp, 0.0_wp, 20.0_wp], error)
+      call open_model("made_decay", model, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call model%set([1.0_wp, 1.0_wp, 0.0_wp], [0.0_wp], keep_delays=.true.)
+      call check_model(model, [3, 1], [0.0_wp, 2.4_wp, 0.0_wp, 6.0_wp], error)
+   end subroutine test_models
 
-   !> A plane of a law.
-   subroutine check_law(law, numbers, along, window, error)
-      character(len=*), intent(in) :: law
-      real(wp), intent(in) :: numbers(:), window(4)
+   !> A plane of a model.
+   subroutine check_model(model, along, window, error)
+      type(model_type), intent(in) :: model
       integer, intent(in) :: along(2)
+      real(wp), intent(in) :: window(4)
       type(error_type), allocatable, intent(inout) :: error
+      type(characteristic_type) :: c
       type(curve_plane_type) :: plane
       type(curve_point_type), allocatable :: points(:)
       type(failure_type), allocatable :: failure
       type(hopf_on_line_type), allocatable :: known(:)
+      type(hopf_point_type), allocatable :: special(:)
       real(wp), parameter :: columns(3) = [0.31_wp, 0.49_wp, 0.88_wp]
       real(wp) :: place(2)
       real(wp), allocatable :: found(:)
       integer :: i, j
 
       if (allocated(error)) return
-      plane%model = block_at(numbers, law)
+      plane%model = model
       plane%along = along
       plane%window = reshape(window, [2, 2])
-      call trace(plane, points, error)
+      call find_points(plane, points, special, error)
+      if (allocated(error)) return
+      do i = 1, size(special)
+         c = characteristic_of(plane%model_at(special(i)%numbers))
+         do j = 1, count(special(i)%omega > 0.0_wp)
+            call expect_close(error, c%relative_residual(cmplx(0.0_wp, special(i)%omega(j), wp)), &
+                              0.0_wp, 1.0e-12_wp, "residual of special point "//text(i))
+         end do
+      end do
       do i = 1, size(columns)
          if (allocated(error)) return
          associate (x => columns(i))
@@ -373,17 +393,17 @@ contains
             call expect_success(error, failure)
             found = ordinates_at(points, x)
          end associate
-         call expect(error, size(known) > 0, "Hopf points of "//law//" on the line")
+         call expect(error, size(known) > 0, "Hopf points on line "//text(i))
          call expect(error, size(found) == size(known), text(size(found))//" instead of " &
-                     //text(size(known))//" Hopf points of "//law)
+                     //text(size(known))//" Hopf points on line "//text(i))
          do j = 1, size(known)
             if (allocated(error)) return
             place = plane%place_of(known(j)%numbers)
             call expect_close(error, minval(abs(found - place(2))), 0.0_wp, 5.0e-4_wp, &
-                              "distance of a Hopf point of "//law)
+                              "distance of a Hopf point on line "//text(i))
          end do
       end do
-   end subroutine check_law
+   end subroutine check_model
 
    !> Ordinates at which the pieces pass an abscissa, in units of the window.
    function ordinates_at(points, x) result(ordinates)

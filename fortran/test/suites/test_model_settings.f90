@@ -120,6 +120,8 @@ contains
       ! a delay without a range of its own
       settings = model_settings_type(name="made_decay")
       call settings%put("lag", -1.0_wp)
+      call settings%put("a", 1.0_wp)
+      call settings%put("b", 1.0_wp)
       call refuse(settings, "delay 1 of the model = -1.0"//at_least_0)
 
    contains
