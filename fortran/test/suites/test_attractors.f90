@@ -318,6 +318,7 @@ contains
    !> since the passage before and the greatest value since.
    subroutine test_one_state(error)
       type(error_type), allocatable, intent(out) :: error
+      type(attractor_settings_type) :: settings
       type(attractor_type) :: found
       type(failure_type), allocatable :: failure
       type(model_type) :: model
@@ -336,7 +337,9 @@ contains
       call expect_success(error, failure)
       if (allocated(error)) return
       call model%set([6.0_wp], [1.2_wp])
-      call find(model, after(1000.0_wp, 1000.0_wp), cycle_motion, found, error)
+      settings = after(1000.0_wp, 1000.0_wp)
+      settings%t_path = 50.0_wp
+      call find(model, settings, cycle_motion, found, error)
       if (allocated(error)) return
       call expect(error, found%period == 1, "period 1")
       if (allocated(error)) return
@@ -344,6 +347,9 @@ contains
       call expect_close(error, found%motion%section(:, n), &
                         [1.0_wp/found%bases(1), found%motion%maxima(size(found%motion%maxima))], &
                         1.0e-6_wp, "the last point of the section")
+      call expect(error, allocated(found%path), "a path")
+      if (allocated(error)) return
+      call expect_close(error, found%path(2, :), found%path(3, :), 0.0_wp, "state and signal")
    end subroutine test_one_state
 
    !> A loose tolerance makes no maxima while v of a stuck block is 1e-6 and less. All maxima of

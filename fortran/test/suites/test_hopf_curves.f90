@@ -1,10 +1,8 @@
-!> Hopf curves of the block in their windows, those of the paper's Figures 2 and 3 and five more,
-!> against the closed form; special points on them, and what the normal forms predict beside them,
-!> against roots and points of the curves. Curves of other models.
+!> Hopf curves of the block in their windows, those of the paper's Figures 2 and 3 and seven more,
+!> against the closed form; curves of other models against numbers of roots.
 module test_hopf_curves
    use block_builder, only: block_at, by_epsilon, by_tau
    use characteristic_function, only: characteristic_of, characteristic_type
-   use characteristic_roots, only: find_roots
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close, expect_success
@@ -12,13 +10,11 @@ module test_hopf_curves
    use hopf_lines, only: find_hopf_on_line, hopf_on_line_type
    use hopf_planes, only: curve_plane_type
    use hopf_points, only: hopf_point_type
-   use linear_system, only: linear_part
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use model_library, only: open_model
    use model_problem, only: model_type
-   use normal_form, only: first_lyapunov_coefficient
    use paper_equations, only: relative_residual
-   use traced_planes, only: find_points, known_numbers, known_place, plane_number, planes, trace
+   use traced_planes, only: find_points, known_place, plane_number, planes, trace
    implicit none (type, external)
    private
    public :: collect_hopf_curves
@@ -38,9 +34,6 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("curves in their windows", test_curves), &
-                   new_unittest("special points of Figure 2", test_figure_2), &
-                   new_unittest("special points of Figure 3", test_figure_3), &
-                   new_unittest("no special points without delay", test_no_delay), &
                    new_unittest("curves of other models", test_models)]
    end subroutine collect_hopf_curves
 
@@ -191,149 +184,6 @@ contains
                  maxval(points%at%omega, points%piece == i)]
       end do
    end function ends_of_pieces
-
-   !> Figure 2 has nine double points, six generalised ones and the point without delay as by Routh
-   !> and Hurwitz.
-   subroutine test_figure_2(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(hopf_point_type), allocatable :: found(:)
-      integer :: i
-
-      call check_figure(1, [9, 6, 1], found, error)
-      if (allocated(error)) return
-      i = findloc(found%kind == "hopf_without_delay", .true., dim=1)
-      call expect_close(error, found(i)%numbers, [0.0_wp, 0.32_wp/1.14_wp, 0.5_wp, 0.8_wp], &
-                        1.0e-14_wp, "parameters without delay")
-      call expect_between(error, found(i)%l1(1), -1.0_wp, -0.01_wp, "l1")
-   end subroutine test_figure_2
-
-   !> Figure 3 has five double points and two generalised ones.
-   subroutine test_figure_3(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(hopf_point_type), allocatable :: found(:)
-
-      call check_figure(2, [5, 2, 0], found, error)
-   end subroutine test_figure_3
-
-   !> Where no point of a plane has a delay, none is special for that.
-   subroutine test_no_delay(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(hopf_point_type), allocatable :: found(:)
-
-      call check_figure(planes, [0, 0, 0], found, error)
-   end subroutine test_no_delay
-
-   !> The special points of a plane: their frequencies are roots of (5), the coefficient vanishes
-   !> where it should, and nowhere else.
-   subroutine check_figure(n, known, found, error)
-      integer, intent(in) :: n
-      !> Points of each kind
-      integer, intent(in) :: known(3)
-      type(hopf_point_type), allocatable, intent(out) :: found(:)
-      type(error_type), allocatable, intent(inout) :: error
-      character(len=*), parameter :: kinds(3) = ["double_hopf       ", "generalised_hopf  ", &
-                                                 "hopf_without_delay"]
-      type(curve_plane_type) :: plane
-      type(curve_point_type), allocatable :: points(:)
-      integer :: j, k
-
-      plane = plane_number(n)
-      call find_points(plane, points, found, error)
-      if (allocated(error)) return
-      do k = 1, size(kinds)
-         call expect(error, count(found%kind == kinds(k)) == known(k), text(known(k)) &
-                     //" points of kind "//trim(kinds(k))//", not " &
-                     //text(count(found%kind == kinds(k))))
-      end do
-      call expect(error, size(found) == sum(known), "no others")
-      do j = 1, size(found)
-         if (allocated(error)) return
-         associate (point => found(j), omega => found(j)%omega)
-            do k = 1, count(omega > 0.0_wp)
-               call expect_between(error, relative_residual(point%numbers, &
-                                                            cmplx(0.0_wp, omega(k), kind=wp)), &
-                                   0.0_wp, 1.0e-12_wp, "residual of point "//text(j))
-            end do
-            select case (point%kind)
-            case ("generalised_hopf")
-               call expect_close(error, point%l1(1), 0.0_wp, 1.0e-12_wp, "l1")
-               call check_fold_direction(plane, point, error)
-            case ("double_hopf")
-               call expect_between(error, omega(2) - omega(1), 0.01_wp, 10.0_wp, &
-                                   "distance of the frequencies")
-               call expect(error, point%branch(2) > point%branch(1), &
-                           "the higher frequency is on the higher branch")
-               call check_torus_directions(plane, point, error)
-            case default
-               call expect_close(error, point%numbers(by_tau), 0.0_wp, 1.0e-14_wp, "tau")
-            end select
-         end associate
-      end do
-      do j = 1, size(points) - 1
-         associate (p => points(j), q => points(j + 1))
-            if (p%piece /= q%piece .or. p%l1*q%l1 > 0.0_wp) cycle
-            call expect(error, any(found%kind == "generalised_hopf" &
-                                   .and. found%omega(1) > p%at%omega &
-                                   .and. found%omega(1) < q%at%omega &
-                                   .and. found%branch(1) == p%branch), &
-                        "l1 changes its sign at generalised points only")
-         end associate
-      end do
-   end subroutine check_figure
-
-   !> A small way from a double Hopf point along the start of a curve of tori, the growth rates of
-   !> both pairs have the ratio that the normal form gives, with p_jj and mu_j of different sign.
-   subroutine check_torus_directions(plane, point, error)
-      type(curve_plane_type), intent(in) :: plane
-      type(hopf_point_type), intent(in) :: point
-      type(error_type), allocatable, intent(inout) :: error
-      type(failure_type), allocatable :: failure
-      complex(wp), allocatable :: roots(:)
-      real(wp), parameter :: step = 1.0e-5_wp
-      real(wp) :: growth(2), numbers(4)
-      integer :: j, pair
-
-      do pair = 1, 2
-         numbers = point%numbers
-         numbers(plane%along) = numbers(plane%along) + step*point%unfolding%start(:, pair)
-         call find_roots(linear_part(block_at(numbers)), -0.05_wp, roots, failure)
-         call expect_success(error, failure)
-         if (allocated(error)) return
-         do j = 1, 2
-            growth(j) = real(roots(minloc(abs(roots - cmplx(0.0_wp, point%omega(j), kind=wp)), &
-                                          dim=1)))
-         end do
-         growth = growth/norm2(growth)
-         associate (form => point%unfolding%form)
-            call expect_close(error, growth, form%torus_rates(pair), 1.0e-2_wp, "growth rates")
-            call expect(error, growth(pair)*real(form%g(pair, pair)) < 0.0_wp, "the cycle exists")
-         end associate
-      end do
-   end subroutine check_torus_directions
-
-   !> Folds start along the curve towards that side of a generalised Hopf point on which l1 and l2
-   !> differ in sign, by l1 and places of points beside it in closed form.
-   subroutine check_fold_direction(plane, point, error)
-      type(curve_plane_type), intent(in) :: plane
-      type(hopf_point_type), intent(in) :: point
-      type(error_type), allocatable, intent(inout) :: error
-      type(failure_type), allocatable :: failure
-      real(wp) :: l1, omega, there(4), way(2)
-      integer :: side
-
-      associate (u => point%unfolding)
-         do side = -1, 1, 2
-            omega = point%omega(1)*(1.0_wp + 1.0e-5_wp*side)
-            there = known_numbers(plane, omega, point%branch(1))
-            call first_lyapunov_coefficient(block_at(there), omega, l1, failure)
-            call expect_success(error, failure)
-            if (l1*real(u%c2) > 0.0_wp) cycle
-            way = there(plane%along) - point%numbers(plane%along)
-            call expect_close(error, u%start(:, 1), way/norm2(way), 1.0e-3_wp, "start of the folds")
-         end do
-         call expect_close(error, real(u%c1), 0.0_wp, 1.0e-12_wp, "Re c1")
-      end associate
-   end subroutine check_fold_direction
 
    !> On lines across the planes of other models, also of a law's own parameters and of two delays,
    !> the curves are where the number of unstable roots changes. Special points have their roots.
