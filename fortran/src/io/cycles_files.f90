@@ -155,6 +155,7 @@ contains
       type(cycles_type), intent(in) :: found(:)
       real(wp), allocatable :: columns(:, :), imaginary(:, :), real_part(:, :)
       integer, allocatable :: branch(:), intervals(:), unstable(:)
+      character(len=:), allocatable :: signal
       character(len=letters) :: words(size(found), 2)
       integer :: all, i, j, k, row, rows, several
 
@@ -186,10 +187,9 @@ contains
       rows = file%dimension("orbit", all, coordinates=name//" branch")
       call file%column(rows, name, columns(:, 1), meaning)
       call file%column(rows, "period", columns(:, 2), "period")
-      associate (signal => signal_name(model))
-         call file%column(rows, signal//"_least", columns(:, 3), "least "//signal)
-         call file%column(rows, signal//"_most", columns(:, 4), "greatest "//signal)
-      end associate
+      signal = signal_name(model)
+      call file%column(rows, signal//"_least", columns(:, 3), "least "//signal)
+      call file%column(rows, signal//"_most", columns(:, 4), "greatest "//signal)
       call file%column(rows, "multiplier_error", columns(:, 5), &
                        "distance of the trivial multiplier from 1")
       call file%column(rows, "branch", branch, "number of the branch, from 1")
@@ -283,6 +283,7 @@ contains
       type(output_file_type), intent(inout) :: file
       type(cycle_settings_type), intent(in) :: settings
       type(cycle_curve_type), intent(in) :: curves(:)
+      character(len=:), allocatable :: name
       character(len=kind_length) :: words(size(curves), 3)
       real(wp), allocatable :: columns(:, :)
       integer, allocatable :: number(:)
@@ -313,9 +314,8 @@ contains
       rows = file%dimension("curve_point", all)
       if (allocated(settings%curve_along)) then
          do k = 1, 2
-            associate (name => trim(settings%line%model%names(settings%curve_along(k))))
-               call file%column(rows, "curve_"//name, columns(:, k), name//" of a point of a curve")
-            end associate
+            name = trim(settings%line%model%names(settings%curve_along(k)))
+            call file%column(rows, "curve_"//name, columns(:, k), name//" of a point of a curve")
          end do
       end if
       call file%column(rows, "curve_period", columns(:, 3), "its period")
