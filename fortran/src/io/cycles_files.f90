@@ -76,7 +76,7 @@ contains
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
       if (allocated(error)) return
-      call cycles%model%open(path, line%model, error)
+      call cycles%model%open(path, line%model, error, at_rest=.true.)
       call read_histories(path, line%model, history, error)
       if (allocated(error)) return
       call check_choice(error, path, "along", cycles%along, line%model%names)

@@ -123,17 +123,20 @@ contains
       call settings%put("a", 1.0_wp)
       call settings%put("b", 1.0_wp)
       call refuse(settings, "delay 1 of the model = -1.0"//at_least_0)
+      call refuse(model_settings_type(name="made_enzyme"), "the model made_enzyme has no state " &
+                  //"at rest; expected one with steady_state in its definition", at_rest=.true.)
 
    contains
 
       !> Settings are refused with these words.
-      subroutine refuse(refused, why)
+      subroutine refuse(refused, why, at_rest)
          type(model_settings_type), intent(in) :: refused
          character(len=*), intent(in) :: why
+         logical, intent(in), optional :: at_rest
          type(failure_type), allocatable :: met
          type(model_type) :: model
 
-         call refused%open("input.nml", model, met)
+         call refused%open("input.nml", model, met, at_rest=at_rest)
          call expect_failure(error, met, "input.nml: ")
          call expect_failure(error, met, why)
       end subroutine refuse
