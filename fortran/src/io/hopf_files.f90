@@ -53,7 +53,7 @@ contains
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
       if (allocated(error)) return
-      call hopf_curves%model%open(path, plane%model, error, keep_delays=.true.)
+      call hopf_curves%model%open(path, plane%model, error, keep_delays=.true., at_rest=.true.)
       call check_count(error, path, "cells", hopf_curves%cells, at_least=2)
       do i = 1, 2
          if (allocated(error)) return
