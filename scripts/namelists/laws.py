@@ -147,8 +147,8 @@ def with_values(law: str, **own: float) -> str:
 
 
 def law_of(place: Mapping) -> str:
-    """The law of a row, of attributes or of a place; the paper's if it has none."""
-    return str(place.get("law", PAPER))
+    """The law of a row, of a file's attributes or of a place; the paper's if it has none."""
+    return law_in_file(place) if "model" in place else str(place.get("law", PAPER))
 
 
 def is_on(scene: dict, place: Mapping, *axes: str) -> bool:

@@ -1,6 +1,6 @@
 """Results of scenes by their paths, and what figures mark of scenes, by the configuration."""
 
-from scripts.namelists.laws import law_in_words
+from scripts.namelists.laws import is_law, law_in_words
 from scripts.namelists.parameters import place_of
 
 
@@ -44,3 +44,10 @@ def scenes_in_plane(config: dict, settings: dict) -> dict[str, dict]:
         for name, place in marked_scenes(config).items()
         if plane_of(config, config["scenes"][name], axes) == plane_of(config, settings)
     }
+
+
+def curves_of(config: dict, line: dict) -> dict | None:
+    """Windows of two parameters in which curves of cycles on a line are followed: its own ones, or
+    those of the block."""
+    shared = config["cycles"].get("curves") if is_law(config, line["law"]) else None
+    return line.get("curves", shared)

@@ -7,6 +7,7 @@ module observed_motion
    use dde_kinds, only: wp
    use lyapunov_spectrum, only: interval_observer_type
    use model_description, only: observed_type
+   use model_levels, only: section_level
    use model_problem, only: model_type
    implicit none (type, external)
    private
@@ -74,7 +75,7 @@ contains
       real(wp), intent(in) :: sample_interval
 
       self%observed = model%sizes%observed
-      self%level = model%section_level()
+      self%level = section_level(model)
       self%sample_interval = sample_interval
       call self%clear()
    end subroutine begin

@@ -10,6 +10,7 @@ module orbit_runs
    use floquet_multipliers, only: find_multipliers, multipliers_type
    use mctc_env_testing, only: error_type
    use model_family, only: fixed_model
+   use model_modes, only: mode_of
    use model_problem, only: model_type
    use orbit_branch, only: branch_type, follow_branch
    use orbit_change, only: orbit_change_type
@@ -116,12 +117,12 @@ contains
       call orbit_of_block(block, t_end, degree, points, intervals, orbit, error)
       do i = 1, 2
          if (allocated(error)) return
-         call correct(block%mode(1), orbit, newton, failure)
+         call correct(mode_of(block, 1), orbit, newton, failure)
          call expect_success(error, failure)
          if (i == 1) orbit = orbit%on_mesh(adapted_mesh(orbit, intervals))
       end do
       if (allocated(error)) return
-      call find_multipliers(fixed_model(block%mode(1)), orbit, 6, multipliers, failure)
+      call find_multipliers(fixed_model(mode_of(block, 1)), orbit, 6, multipliers, failure)
       call expect_success(error, failure)
    end subroutine cycle_of_block
 
