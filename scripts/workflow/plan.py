@@ -4,6 +4,7 @@ import copy
 import json
 import re
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -231,18 +232,20 @@ def added(said: dict, whole: dict) -> dict[str, list[str]]:
 
 def restrict(config: dict, *groups: dict[str, list[str]]) -> dict:
     """The configuration with the entries of these names alone, and with those that they use."""
-    kept = with_names_alone(config, *groups)
-    used = [study.uses(kept) for study in studies.studies().values()]
-    kept = with_names_alone(config, *groups, *used)
-    for study in studies.studies().values():
+    every = studies.studies().values()
+    used = [study.uses(with_names_alone(config, study.entries, groups)) for study in every]
+    kept = with_names_alone(config, studies.entries(), [*groups, *used])
+    for study in every:
         study.of_user(kept)
     return kept
 
 
-def with_names_alone(config: dict, *groups: dict[str, list[str]]) -> dict:
-    """The configuration with the entries of these names alone."""
+def with_names_alone(
+    config: dict, sections: dict[str, tuple[str, ...]], groups: Sequence[dict[str, list[str]]]
+) -> dict:
+    """The configuration with the entries of these names alone in some sections."""
     kept = copy.deepcopy(config)
-    for kind, (*above, last) in studies.entries().items():
+    for kind, (*above, last) in sections.items():
         names = {name for group in groups for name in group.get(kind, [])}
         section = inside(kept, tuple(above))
         section[last] = {name: one for name, one in section[last].items() if name in names}

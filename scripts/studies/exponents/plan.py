@@ -36,7 +36,6 @@ STUDY = Study(
         Table(
             *("exponents_table", "tables/exponents.tsv"),
             lambda config: {"runs": runs_of_scenes(config)},
-            wanted=lambda config: bool(runs_of_scenes(config)),
         ),
     ),
     figures=(Figure("exponents", category="Supplement", place=110, **FIGURE),),
