@@ -20,13 +20,17 @@ def place_of(config: dict, settings: dict) -> dict:
 def with_model(config: dict, values: dict) -> dict:
     """Values of which the model with its parameters and its blocks becomes a group of its own."""
     own = own_parameters(config, values["law"])
-    names = [*PARAMETERS, *own, "kappa"]
+    # one block without springs to neighbours is no chain
+    is_chain = values.get("blocks", 1) > 1 or values.get("kappa", 0.0) > 0
+    names = [*PARAMETERS, *own, *["kappa"] * is_chain]
     there = {key: values[key] for key in names if key in values}
     rest = {
-        key: value for key, value in values.items() if key not in {*names, "law", "blocks", "ends"}
+        key: value
+        for key, value in values.items()
+        if key not in {*names, "law", "kappa", "blocks", "ends"}
     }
     model = {"name": values["law"]}
-    if "kappa" in values:
+    if is_chain:
         model |= {"name": CHAIN + values["law"], "blocks": values["blocks"], "ends": values["ends"]}
     # a namelist has no empty lists
     listed = {"parameters": list(there), "values": list(there.values())} if there else {}

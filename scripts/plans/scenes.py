@@ -26,9 +26,25 @@ def plane_of(config: dict, settings: dict, ordinate: str = "") -> dict:
     return {**{key: value for key, value in place.items() if key not in axes}, "ordinate": axes[1]}
 
 
+def is_chain(config: dict, scene: str) -> bool:
+    """Whether a scene has more than one block."""
+    return config["scenes"][scene]["blocks"] > 1
+
+
+def is_block(config: dict, scene: str) -> bool:
+    """Whether a scene has one block."""
+    return not is_chain(config, scene)
+
+
+def blocks_of(config: dict) -> list[str]:
+    """Scenes of one block."""
+    return [name for name in config["scenes"] if is_block(config, name)]
+
+
 def marked_scenes(config: dict) -> dict[str, dict]:
-    """Parameters of the scenes that figures mark: those whose attractors are looked for."""
-    scenes = {name: config["scenes"][name] for name in scenes_with(config, "attractors")}
+    """Parameters of the scenes that figures mark: of one block, with attractors looked for."""
+    names = [name for name in scenes_with(config, "attractors") if is_block(config, name)]
+    scenes = {name: config["scenes"][name] for name in names}
     return {
         name: {
             **{key: scene[key] for key in PARAMETERS},

@@ -1,16 +1,17 @@
 """Where the motions of scenes end: classes of attractors from the scene's own history and others."""
 
 from scripts.namelists.attractor_surveys import drawn_histories, survey_groups
+from scripts.namelists.chains import histories_of
 from scripts.plans.declare import PAPER, Run, Study, Table
-from scripts.plans.scenes import paths_of_scenes, scenes_with
+from scripts.plans.scenes import blocks_of, paths_of_scenes, scenes_with
 
 
 def groups(config: dict, scene: str) -> dict:
     """Namelist of a scene: its own history and others."""
     settings, study = config["scenes"][scene], config["attractors"]
     count = settings.get("attractors", {}).get("histories", study["count"])
-    others = drawn_histories(count - 1, study["histories"])
-    histories = [settings["history"], *others]
+    others = drawn_histories((count - 1) * settings["blocks"], study["histories"])
+    histories = [*histories_of(settings), *others]
     return survey_groups(config, "attractors", scene, place=settings, histories=histories)
 
 
@@ -20,9 +21,9 @@ def inputs(config: dict) -> dict:
 
 
 def of_user(config: dict) -> None:
-    """Look for the attractors of all scenes."""
-    for scene in config["scenes"].values():
-        scene.setdefault("attractors", {})
+    """Look for the attractors of all scenes of one block."""
+    for scene in blocks_of(config):
+        config["scenes"][scene].setdefault("attractors", {})
 
 
 STUDY = Study(
@@ -39,7 +40,7 @@ STUDY = Study(
             *("attractors_table", "tables/attractors.tsv", inputs),
             params={"of": lambda _config: "scenes"},
             script="tables/attractor_tables.py",
-            wanted=lambda config: bool(config["scenes"]),
+            wanted=lambda config: bool(scenes_with(config, "attractors")),
             priority=PAPER,
         ),
     ),

@@ -1,4 +1,4 @@
-"""The drawing of plans/chain.py, and the numbers of its caption."""
+"""The drawing of chains, and the numbers of its caption."""
 
 import numpy as np
 import xarray as xr
@@ -9,7 +9,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
 from scripts.drawing import parameters
-from scripts.drawing.wording import place_in_words, short
+from scripts.drawing.roots import roots_in_words
+from scripts.drawing.wording import as_formulas, place_in_words, short
 from scripts.tables.chain_motions import (
     ALIKE,
     first_mode,
@@ -25,7 +26,7 @@ FLAT = 1e-6
 """ln v that is as near to 0 has no colour."""
 
 
-def draw(chains: list[xr.Dataset]) -> Figure:
+def draw(chains: list[xr.Dataset], roots: list[xr.Dataset]) -> Figure:
     """Rows a, b, ...: ln v at the end, the spread over the blocks, the power of the modes."""
     figure, grid = plt.subplots(
         len(chains),
@@ -101,8 +102,8 @@ def motion_in_words(chain: xr.Dataset) -> str:
     )
 
 
-def numbers(chains: list[xr.Dataset]) -> dict:
-    """What each chain does."""
+def numbers(chains: list[xr.Dataset], roots: list[xr.Dataset]) -> dict:
+    """What each chain does, and whether it is stable at rest."""
     return {
         "chains": [
             {
@@ -110,8 +111,9 @@ def numbers(chains: list[xr.Dataset]) -> dict:
                 "blocks": int(chain.attrs["blocks"]),
                 "place": place_in_words(chain.attrs),
                 "motion": motion_in_words(chain),
+                "roots": as_formulas(roots_in_words(of_modes)),
             }
-            for chain in chains
+            for chain, of_modes in zip(chains, roots, strict=True)
         ],
         "shown": SHOWN,
     }

@@ -1,19 +1,19 @@
 """Linear stability of steady sliding: roots of (5) and changes of stability of every scene."""
 
-from scripts.namelists.parameters import place_of, with_model
+from scripts.namelists.parameters import with_model
 from scripts.plans.declare import Run, Study, Table
-from scripts.plans.scenes import paths_of_scenes
+from scripts.plans.scenes import blocks_of, paths_of_scenes
 
 
 def groups(config: dict, scene: str) -> dict[str, dict]:
     """The parameters of a scene, and the bounds of roots and changes of its linear stability."""
-    study, place = config["linear_stability"], place_of(config, config["scenes"][scene])
+    study, model = config["linear_stability"], with_model(config, config["scenes"][scene])["model"]
     changes = {
         "along": ["tau", "epsilon"],
         "windows": [0.0, study["tau_most"], -1.0, study["epsilon_most"]],
     }
     bound = {"root_bound": study["root_bound"]}
-    return {"linear_stability": {**with_model(config, place), **bound, **changes}}
+    return {"linear_stability": {"model": model, **bound, **changes}}
 
 
 STUDY = Study(
@@ -22,8 +22,8 @@ STUDY = Study(
     tables=(
         Table(
             *("linear_stability_table", "tables/linear-stability.tsv"),
-            lambda config: {"scenes": paths_of_scenes("linear_stability", config["scenes"])},
-            wanted=lambda config: bool(config["scenes"]),
+            lambda config: {"scenes": paths_of_scenes("linear_stability", blocks_of(config))},
+            wanted=lambda config: bool(blocks_of(config)),
         ),
     ),
 )

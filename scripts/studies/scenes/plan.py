@@ -1,7 +1,8 @@
-"""Scenes: parameter sets of the block with a trajectory and its spectrum each."""
+"""Scenes: parameter sets with a trajectory and its spectrum each."""
 
 from scripts.namelists.program_groups import scene_groups
 from scripts.plans.declare import PAPER, Figure, Run, Study
+from scripts.plans.scenes import is_block
 
 
 def spectrum_groups(config: dict, scene: str) -> dict:
@@ -30,7 +31,11 @@ STUDY = Study(
     reads=("attractors", "linear_stability"),
     entries={"scene": ("scenes",)},
     runs=(
-        Run("trajectory", "trajectory", "trajectories/{scene}.nc", scene_groups, priority=PAPER),
+        Run(
+            *("trajectory", "trajectory", "trajectories/{scene}.nc", scene_groups),
+            data="trajectories",
+            priority=PAPER,
+        ),
         Run(
             *("spectrum", "spectrum", "spectra/{scene}.nc", spectrum_groups),
             data="spectra",
@@ -48,6 +53,7 @@ STUDY = Study(
             params=params,
             variables=("u", "v"),
             shows=("scenes",),
+            shows_entry=is_block,
         ),
     ),
 )
