@@ -14,7 +14,7 @@ from scripts.workflow.script_imports import modules_of
 
 wildcard_constraints:
     **studies.wildcards(config),
-    law="|".join(config["laws"]),
+    defined="|".join(models.of_user(config)),
     built=r"build/(release|users/[\w-]+)",
     quad="|_quad",
     model=r"\w+",
@@ -64,10 +64,10 @@ def digest_of_program():
 
 @functools.cache
 def digest_of_model(model):
-    """A digest of what a model is made of; a user's law is in the configuration."""
-    law = models.law_of(model)
-    parts = [path for path in models.parts_of(model, {}, "") if Path(path).exists()]
-    return digest_of_files([*OF_MODELS, *parts]), config["laws"].get(law)
+    """A digest of what a model is made of; what a user defines is in the configuration."""
+    parts = [path for path in models.parts_of(model, config, BUILT) if not path.startswith(BUILT)]
+    own = models.of_user(config).get(models.law_of(model))
+    return digest_of_files([*OF_MODELS, *parts]), own
 
 
 def fill_in(value):
@@ -127,7 +127,7 @@ def objects_of(run):
 
     def find_objects(wildcards):
         return models.objects_of(
-            models_of(run)(wildcards), config["laws"], BUILT, run.quad
+            models_of(run)(wildcards), config, BUILT, run.quad
         )
 
     return find_objects

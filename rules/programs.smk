@@ -1,21 +1,21 @@
 # Programs, each built when a result needs it, and their runs: the plans in scripts/studies/ declare them.
 
 
-rule law:
-    """The definition of a user's law of friction."""
+rule definition:
+    """The definition of a user's law of friction, or of a user's model."""
     output:
-        f"{BUILT}/laws/{{law}}.yaml",
+        f"{BUILT}/definitions/{{defined}}.yaml",
     log:
-        "<results>/logs/laws/{law}.log",
+        "<results>/logs/definitions/{defined}.log",
     priority: BUILD
     localrule: True
     params:
         definition=lambda wildcards: laws.definition(
-            wildcards.law, config["laws"][wildcards.law]
+            wildcards.defined, models.of_user(config)[wildcards.defined]
         ),
-        code=code_of("namelists/write_law.py"),
+        code=code_of("namelists/write_definition.py"),
     script:
-        "../scripts/namelists/write_law.py"
+        "../scripts/namelists/write_definition.py"
 
 
 rule program:
@@ -45,7 +45,7 @@ rule model:
     """A model, compiled from its definition: the program opens it by name."""
     input:
         lambda wildcards: models.parts_of(
-            wildcards.model, config["laws"], wildcards.built
+            wildcards.model, config, wildcards.built
         ),
     output:
         "{built}/models{quad}/{model}.so",
@@ -87,6 +87,6 @@ for run in RUNS:
             sources=digest_of_program(),
             models=digests_of_models(run),
             command=run.command,
-            folders=":".join(models.folders_of(config["laws"], BUILT, run.quad)),
+            folders=":".join(models.folders_of(config, BUILT, run.quad)),
         script:
             "../scripts/workflow/run_program.sh"

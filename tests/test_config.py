@@ -151,7 +151,7 @@ REFUSED = [
     ((*ROUTE, "window"), [0.5, 0.5], "two ascending"),
     ((*ROUTE, "window"), [0.6, 0.5], "two ascending"),
     ((*ROUTE, "window"), [-1.0, 0.5], "> -1.0"),
-    (("hopf_curves", "xi_of_epsilon", "epsilon_window"), [-0.5, 0.0], "> 0"),
+    (("hopf_curves", "xi_of_epsilon", "abscissa_window"), [-0.5, 0.0], "> 0"),
     (("attractors", "histories", "theta"), [-1e308, 1e308], "two ascending numbers"),
     (("atlas", "planes", "xi_05", "ordinate_window"), [-0.1, 5.0], ">= 0.0"),
     # values that contradict others: the range is what the other value leaves
@@ -287,7 +287,7 @@ def test_all_problems_are_listed_at_once(config):
 
 def test_part_of_too_many_points_is_refused(config):
     """One run of the program takes a million of them."""
-    config["atlas"] |= {"epsilon_count": 100000, "ordinate_count": 80, "parts": 7, "refinements": 0}
+    config["atlas"] |= {"abscissa_count": 100000, "ordinate_count": 80, "parts": 7, "refinements": 0}
     words = "config atlas: parts = 7 of 1200000 points; expected at most 1000000 in each"
     assert words in refuse(config)
 

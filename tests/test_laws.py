@@ -64,7 +64,7 @@ AXES = {
     ("atlas", "planes", "mine"): {"ordinate": "speed", "ordinate_window": [0.5, 2.0]},
     ("hopf_curves", "mine"): {
         **{"ordinate": "speed", "ordinate_window": [0.5, 2.0]},
-        "epsilon_window": [0.0, 1.0],
+        "abscissa_window": [0.0, 1.0],
     },
 }
 """What may be along a law's own parameter."""

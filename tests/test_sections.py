@@ -24,12 +24,12 @@ SECTIONS = {
         "in_si": {"si": SLAB, "tau": "2.2 years", **SHORT, "sample_interval": "10 days"},
     },
     "hopf_curves": {
-        "p": {"ordinate": "tau", **PLANE, "epsilon_window": [0, 1], "ordinate_window": [0, 10]}
+        "p": {"ordinate": "tau", **PLANE, "abscissa_window": [0, 1], "ordinate_window": [0, 10]}
     },
     "routes": {**QUICK, "lines": {"r": {**LINE, "window": [1, 3], "count": 2}}},
     "cycles": {"most_orbits": 5, "lines": {"c": {**LINE, "window": [1.0, 2.5]}}},
     "atlas": {
-        **{**QUICK, "epsilon_count": 3, "ordinate_count": 3, "parts": 1},
+        **{**QUICK, "abscissa_count": 3, "ordinate_count": 3, "parts": 1},
         "planes": {"a": {**PLANE, "ordinate_window": [0, 10]}},
     },
     "claims": {
@@ -50,7 +50,7 @@ SECTIONS = {
 }
 NOTHING = {
     "scenes": {"s": {**AT_REST, **SHORT, "history": {"v": 1.0, "u": 0.0, "theta": 0.0}}},
-    "hopf_curves": {"p": {**SECTIONS["hopf_curves"]["p"], "epsilon_window": [0, 0.1]}},
+    "hopf_curves": {"p": {**SECTIONS["hopf_curves"]["p"], "abscissa_window": [0, 0.1]}},
     "cycles": {"lines": {"c": {**LINE, "epsilon": 0.1, "window": [0.1, 0.2]}}},
     "chains": {"n": {**AT_REST, **SHORT, "blocks": 3, "kappa": 0.1}},
     "event_sizes": {"chains": {"e": {**AT_REST, **SHORT, "blocks": 3, "kappa": 0.1}}},

@@ -44,7 +44,7 @@ cycles:
   lines:
     my_cycles: { along: tau, window: [1.0, 2.5], epsilon: 0.7, xi: 0.5, gamma: 0.8 }
 atlas:
-  epsilon_count: 3
+  abscissa_count: 3
   ordinate_count: 3
   parts: 1
   refinements: 0

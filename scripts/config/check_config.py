@@ -7,9 +7,10 @@ from difflib import get_close_matches
 
 import jsonschema
 
-from scripts.config import check_laws, si
-from scripts.config.checks import check_blocks, check_samples, wrong
+from scripts.config import check_models, si
+from scripts.config.checks import check_blocks, check_samples, place_of, wrong
 from scripts.files.read_config import ConfigError, parse
+from scripts.namelists.laws import history_of, is_law
 from scripts.plans import studies
 
 EQUATIONS = 3
@@ -27,9 +28,10 @@ def checked(config: dict) -> dict:
     """Return `config` with its defaults; raise ConfigError naming place, key, value and range."""
     texts: list[tuple[str, str, str]] = []
     problems = list(si.fill_in_parameters(config, texts))
-    schema = check_laws.with_own_parameters(studies.schema(), config)
+    problems += check_models.name_models(config)
+    schema = check_models.with_parameters(studies.schema(), config)
     problems = problems or [in_words(e) for e in validator_for(schema).iter_errors(config)]
-    problems = problems or list(check_laws.contradictions(config))
+    problems = problems or list(check_models.contradictions(config))
     if not problems:
         _fill_in_exponents(config)
         problems = list(_contradictions(config))
@@ -82,17 +84,17 @@ def in_words(error: jsonschema.ValidationError) -> str:
         unknown = sorted(set(error.instance) - set(known), key=str)
         meant = {near for key in unknown for near in get_close_matches(str(key), known, n=1)}
         hint = f" (is it meant to be {' and '.join(map(repr, sorted(meant)))}?)" if meant else ""
-        return f"{_place(path)}: unknown key {unknown}; allowed: {', '.join(known)}{hint}"
+        return f"{place_of(path)}: unknown key {unknown}; allowed: {', '.join(known)}{hint}"
     if error.validator == "required":
         missing = [key for key in error.validator_value if key not in error.instance]
-        return f"{_place(path)}: key {missing} is missing"
+        return f"{place_of(path)}: key {missing} is missing"
     value = error.instance
     known = filter(None, [error.schema.get("description"), range_in_words(error.schema)])
     expected = ", ".join(known) or "keys with values below it"
     if "propertyNames" in error.absolute_schema_path:
         expected = expected if isinstance(value, str) else "text (quote it)"
-        return f"{_place(path)}: name {value!r}; expected {expected}"
-    line = f"{_place(path[:-1])}: {path[-1] if path else 'value'} = {value!r}; expected {expected}"
+        return f"{place_of(path)}: name {value!r}; expected {expected}"
+    line = f"{place_of(path[:-1])}: {path[-1] if path else 'value'} = {value!r}; expected {expected}"
     if isinstance(value, str) and _is_number(value):
         line += f" (this is text; write {value} without quotes for the number)"
     return line
@@ -118,13 +120,6 @@ def _is_number(text: str) -> bool:
         return False
 
 
-def _place(path: list[str]) -> str:
-    """Where a key stands, for people."""
-    if len(path) >= 2 and path[0] == "scenes":
-        return " ".join([f"scene '{path[1]}'", *path[2:]])
-    return " ".join(["config", *path])
-
-
 def _fill_in_exponents(config: dict) -> None:
     """Exponents are measured up to the end of their scene, and of one block checked, where nothing
     else is given."""
@@ -141,7 +136,7 @@ def _contradictions(config: dict) -> Iterator[str]:
     """Problems that involve more than one key: of scenes, of rows of figures, and of studies."""
     scenes = config["scenes"]
     for name, scene in scenes.items():
-        yield from _contradictions_of_scene(f"scene '{name}'", scene)
+        yield from _contradictions_of_scene(config, f"scene '{name}'", scene)
     for figure, settings in config["figures"].items():
         for row, shown in settings["rows"].items():
             known = [name for name in scenes if (scenes[name]["blocks"] > 1) == (figure == CHAINS)]
@@ -152,17 +147,21 @@ def _contradictions(config: dict) -> Iterator[str]:
         yield from checks.contradictions(config)
 
 
-def _contradictions_of_scene(place: str, scene: dict):
+def _contradictions_of_scene(config: dict, place: str, scene: dict):
     """Problems of a scene and of its exponents."""
     transient, t_end, wanted = scene["t_transient"], scene["t_end"], scene.get("exponents")
+    stored = list(history_of(config, scene["law"]))
+    delay = scene["tau"] if is_law(config, scene["law"]) else math.nan
+    if not set(scene.get("variables", stored)) <= set(stored):
+        yield wrong(place, scene, "variables", f"some of: {', '.join(stored)}")
     if transient >= t_end:
         yield wrong(place, scene, "t_transient", f"a finite number >= 0 and < t_end = {t_end}")
     yield from check_samples(place, scene, scene["blocks"])
-    yield from check_blocks(place, scene)
+    yield from check_blocks(config, place, scene)
     most = EQUATIONS * scene["blocks"]
-    if wanted and scene["tau"] == 0 and wanted["count"] > most:
+    if wanted and delay == 0 and wanted["count"] > most:
         expected = f"a whole number >= 2 and <= {most} without delay"
         yield wrong(f"{place} exponents", wanted, "count", expected)
-    if wanted and wanted["t_end"] <= max(transient, scene["tau"]):
-        expected = f"a finite number > t_transient = {transient} and > tau = {scene['tau']}"
+    if wanted and (wanted["t_end"] <= transient or wanted["t_end"] <= delay):
+        expected = f"a finite number > t_transient = {transient} and > tau = {delay}"
         yield wrong(f"{place} exponents", wanted, "t_end", expected)

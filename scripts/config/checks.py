@@ -3,9 +3,8 @@
 import math
 from collections.abc import Iterable, Iterator
 
-from scripts.config.ranges import range_of
-from scripts.namelists.laws import PREFIX
-from scripts.namelists.parameters import PARAMETERS
+from scripts.config.ranges import expected_of, is_inside, range_of
+from scripts.namelists.laws import HISTORY, PREFIX, history_of, is_law, parameters_of
 
 LEAST_LN_V, LARGEST_LN_V = -700.0, 700.0
 """Between these exp(ln v) is a positive finite number."""
@@ -15,6 +14,13 @@ FEWEST_SAMPLES = 16
 """Samples of a segment of a spectrum."""
 LEAST_RING = 3
 """Blocks of the smallest ring."""
+
+
+def place_of(path: tuple[str, ...] | list[str]) -> str:
+    """Where a key stands, for people."""
+    if len(path) >= 2 and path[0] == "scenes":
+        return " ".join([f"scene '{path[1]}'", *path[2:]])
+    return " ".join(["config", *path])
 
 
 def wrong(place: str, values: dict, key: str, expected: str) -> str:
@@ -30,11 +36,44 @@ def check_samples(place: str, run: dict, series: int = 1, length: str = "t_end")
         yield wrong(place, run, "sample_interval", expected)
 
 
-def check_histories(place: str, ranges: dict) -> Iterator[str]:
-    """Ranges from which histories are drawn."""
-    for key in ("theta", "u"):
-        yield from window(place, key, ranges[key])
-    yield from window(place, "ln_v", ranges["ln_v"], least=LEAST_LN_V, most=LARGEST_LN_V)
+def check_values(place: str, values: dict, rules: dict[str, dict]) -> Iterator[str]:
+    """Values by name, each a number or a list of them; sets defaults and the order of the names."""
+    if unknown := sorted(set(values) - set(rules)):
+        yield f"{place}: unknown key {unknown}; allowed: {', '.join(rules)}"
+    for key, of_key in rules.items():
+        if key not in values and "default" in of_key:
+            values[key] = of_key["default"]
+        if key not in values:
+            yield f"{place}: key [{key!r}] is missing"
+        value = values.pop(key, [])
+        if value != []:
+            values[key] = value
+        for one in value if isinstance(value, list) else [value]:
+            if not is_inside(one, of_key):
+                yield wrong(place, {key: one}, key, expected_of(key, of_key))
+
+
+def check_own_history(config: dict, place: str, entry: dict, key: str = "history") -> Iterator[str]:
+    """A model of a user's own without its history: that of the section is the block's."""
+    if key not in entry and not is_law(config, entry["law"]):
+        states = ", ".join(history_of(config, entry["law"]))
+        yield f"{place}: key [{key!r}] is missing: {states} of the model {entry['law']}"
+
+
+def check_histories(place: str, ranges: dict, rules: dict[str, dict] = HISTORY) -> Iterator[str]:
+    """Ranges from which histories are drawn, of a value or of its logarithm."""
+    known = {*rules, *(f"ln_{key}" for key in rules)}
+    if unknown := sorted(set(ranges) - known - {"seed"}):
+        yield f"{place}: unknown key {unknown}; allowed: seed, {', '.join(sorted(known))}"
+    for key, of_key in rules.items():
+        given = [name for name in (key, f"ln_{key}") if name in ranges]
+        if not given:
+            yield f"{place}: key [{key!r}] is missing"
+        elif given[0] == key:
+            yield from window(place, key, ranges[key], **range_of(of_key))
+        else:
+            bounds = {"least": LEAST_LN_V, "most": LARGEST_LN_V}
+            yield from window(place, given[0], ranges[given[0]], **bounds)
 
 
 def check_observation(place: str, observation: dict, spectra: dict) -> Iterator[str]:
@@ -51,29 +90,32 @@ def check_observation(place: str, observation: dict, spectra: dict) -> Iterator[
     yield from problems
 
 
-def check_axis(
-    place: str, entry: dict, key: str, own: dict, abscissa: str = "", others: Iterable[str] = ()
-) -> Iterator[str]:
-    """A parameter, of the block or the law's own, that varies in a window; the rest are fixed.
-
-    Beside parameters it may be one of `others`. A plane has an abscissa, too.
-    """
-    along, name = entry[key], f"{key}_window" if abscissa else "window"
-    known = [one for one in (*PARAMETERS, *own, *others) if one != abscissa]
+def check_axis(place: str, entry: dict, key: str, known: dict[str, dict]) -> Iterator[str]:
+    """What varies in a window, of what is known by name: it has no value beside it."""
+    along, name = entry[key], "window" if key == "along" else f"{key}_window"
     if along not in known:
         yield wrong(place, entry, key, f"one of: {', '.join(known)}")
         return
-    yield from window(place, name, entry[name], **range_of(along, own))
+    if name in entry:
+        yield from window(place, name, entry[name], **range_of(known[along]))
     if along in entry:
         yield wrong(place, entry, along, f"no value, it is {key} {along}")
-    missing = [one for one in PARAMETERS if one not in {*entry, along, abscissa}]
-    if missing:
-        yield f"{place}: key {missing} is missing"
 
 
-def check_line(inside: str, line: dict, own: dict, others: Iterable[str] = ()) -> Iterator[str]:
-    """A line along one parameter; starts on it, of cycles."""
-    yield from check_axis(inside, line, "along", own, others=others)
+def check_plane(config: dict, place: str, plane: dict) -> Iterator[str]:
+    """The axes of a plane, two parameters of its model."""
+    known = parameters_of(config, plane["law"])
+    yield from check_axis(place, plane, "abscissa", known)
+    others = {name: rules for name, rules in known.items() if name != plane["abscissa"]}
+    yield from check_axis(place, plane, "ordinate", others)
+
+
+def check_line(config: dict, inside: str, line: dict, *, histories: bool = False) -> Iterator[str]:
+    """A line along a parameter, or a value of the history; starts on it, of cycles."""
+    known = parameters_of(config, line["law"])
+    more = history_of(config, line["law"]) if histories else {}
+    yield from check_axis(inside, line, "along", {**known, **more})
+    yield from check_own_history(config, inside, line)
     low, high = line["window"]
     for start in line.get("starts", []):
         if not low <= start <= high:
@@ -101,20 +143,24 @@ def window(
     yield f"{place}: {key} = {values}; expected two ascending numbers{' and'.join(bounds)}"
 
 
-def check_blocks(place: str, scene: dict) -> Iterator[str]:
-    """Keys of a scene that do not fit its number of blocks."""
+def check_blocks(config: dict, place: str, scene: dict) -> Iterator[str]:
+    """Keys of a scene that do not fit its model or its number of blocks."""
     yield from check_ends(place, scene)
-    blocks = scene["blocks"]
+    blocks, disturbance = scene["blocks"], scene["disturbance"]
+    known = [name for key in history_of(config, scene["law"]) for name in (key, f"ln_{key}")]
+    if unknown := sorted(set(disturbance) - {*known, "seed", "block"}):
+        yield f"{place} disturbance: unknown key {unknown}; allowed: seed, block, {', '.join(known)}"
     for key, value in scene["history"].items():
         if isinstance(value, list) and (blocks == 1 or len(value) != blocks):
             expected = "one number" + f", or {blocks}, one for each block" * (blocks > 1)
             yield f"{place} history: {key} has {len(value)} numbers; expected {expected}"
-    if scene["disturbance"]["block"] > blocks:
+    if disturbance["block"] > blocks:
         expected = f"a whole number >= 0 and <= blocks = {blocks}"
-        yield wrong(f"{place} disturbance", scene["disturbance"], "block", expected)
-    if blocks == 1 and scene["kappa"] != 0:
+        yield wrong(f"{place} disturbance", disturbance, "block", expected)
+    is_block = is_law(config, scene["law"])
+    if blocks == 1 and is_block and scene["kappa"] != 0:
         yield wrong(place, scene, "kappa", "0 with blocks = 1")
-    if blocks > 1 and scene["law"].startswith(PREFIX):
+    if blocks > 1 and (not is_block or scene["law"].startswith(PREFIX)):
         yield wrong(place, scene, "law", "a law with inertia, which chains have")
 
 

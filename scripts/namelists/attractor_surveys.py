@@ -1,20 +1,22 @@
 """Where attractors are looked for: the namelist of points and histories."""
 
 import math
+from collections.abc import Iterable
 
 import numpy as np
 
 from scripts.namelists.parameters import histories_group, with_model
 
 
-def drawn_histories(count: int, ranges: dict) -> list[dict]:
-    """Histories drawn evenly from the ranges, the same for the same seed."""
+def drawn_histories(count: int, ranges: dict, names: Iterable[str]) -> list[dict[str, float]]:
+    """Histories drawn evenly from ranges of values or of logarithms, the same for the same seed."""
     draw = np.random.default_rng(ranges["seed"]).uniform
     return [
         {
-            "theta": float(draw(*ranges["theta"])),
-            "u": float(draw(*ranges["u"])),
-            "v": math.exp(draw(*ranges["ln_v"])),
+            name: float(draw(*ranges[name]))
+            if name in ranges
+            else math.exp(draw(*ranges[f"ln_{name}"]))
+            for name in names
         }
         for _ in range(count)
     ]

@@ -5,7 +5,6 @@ import math
 import numpy as np
 
 
-
 def histories_of(scene: dict) -> list[dict[str, float]]:
     """Values for t <= 0 of each block: those of `history`, and the disturbance."""
     blocks, disturbance = scene["blocks"], scene["disturbance"]
@@ -14,14 +13,15 @@ def histories_of(scene: dict) -> list[dict[str, float]]:
         for key, value in scene["history"].items()
     }
     draw = np.random.default_rng(disturbance["seed"]).uniform
-    for key, size in (("theta", "theta"), ("u", "u"), ("v", "ln_v")):
+    for key, value in values.items():
         # drawn of each, so that one size does not change another's numbers
-        change = disturbance[size] * draw(-1.0, 1.0, blocks)
+        share = draw(-1.0, 1.0, blocks)
         if disturbance["block"] > 0:
-            change = disturbance[size] * (np.arange(1, blocks + 1) == disturbance["block"])
-        if change.any():
-            value = values[key]
-            values[key] = np.exp(np.log(value) + change) if key == "v" else value + change
+            share = 1.0 * (np.arange(1, blocks + 1) == disturbance["block"])
+        if key in disturbance:
+            values[key] = value + disturbance[key] * share
+        if f"ln_{key}" in disturbance:
+            values[key] = np.exp(np.log(value) + disturbance[f"ln_{key}"] * share)
     columns = [column.tolist() for column in values.values()]
     return [dict(zip(values, block, strict=True)) for block in zip(*columns, strict=True)]
 

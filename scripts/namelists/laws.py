@@ -1,10 +1,13 @@
-"""Laws of friction: those of the project, and a user's in the configuration under `laws`."""
+"""Definitions of models: the block with each law of friction, and a user's laws and models.
+
+An entry of the configuration names its model under `law`, also a model of its user's own.
+"""
 
 import contextlib
 import hashlib
 import json
 from collections.abc import Mapping
-from functools import cache
+from functools import cache, reduce
 from pathlib import Path
 
 from scripts.files.digests import digest_of_files
@@ -22,6 +25,12 @@ PREFIX = "quasistatic_"
 """What stands before the name of a law without inertia."""
 CHAIN = "chain_"
 """What stands before the name of the law of a chain of blocks."""
+HISTORY = {
+    "theta": {"meaning": "friction state before the start", "default": 0.0},
+    "u": {"meaning": "displacement before the start", "default": 0.0},
+    "v": {"meaning": "velocity before the start", "default": 1.1, "above": 0.0},
+}
+"""Values of the block before the initial time."""
 
 
 @cache
@@ -32,7 +41,9 @@ def built_in() -> dict[str, dict]:
 
 
 def definition(name: str, law: dict) -> dict:
-    """The definition of a user's law, as the generator reads it."""
+    """The definition of a user's law or model, as the generator reads it."""
+    if "equations" in law:
+        return {"name": name, **law}
     parts = {key: law[key] for key in ("evolution", "friction") if key in law}
     return {
         "name": name,
@@ -43,16 +54,53 @@ def definition(name: str, law: dict) -> dict:
 
 
 def definitions(config: dict) -> dict[str, dict]:
-    """Definitions of all laws by name, those without inertia last."""
+    """Definitions of all laws by name, those without inertia after the others."""
     users = config.get("laws", {})
     laws = {**built_in(), **{name: definition(name, law) for name, law in users.items()}}
     return laws | {f"{PREFIX}{name}": without_inertia(law) for name, law in laws.items()}
+
+
+def models_of_user(config: dict) -> dict[str, dict]:
+    """A user's models that are not the block, by name."""
+    return config.get("models", {})
+
+
+def is_law(config: dict, name: str) -> bool:
+    """Whether a model is the block with a law of friction."""
+    return name not in models_of_user(config)
+
+
+def names_of_models(config: dict) -> list[str]:
+    """Names of all models that entries may have."""
+    return [*definitions(config), *models_of_user(config)]
+
+
+def parameters_of(config: dict, model: str) -> dict[str, dict]:
+    """Meanings and ranges of all parameters of a model by name."""
+    if is_law(config, model):
+        return block_parameters() | own_parameters(config, model)
+    return {key: entry or {} for key, entry in models_of_user(config)[model]["parameters"].items()}
+
+
+def history_of(config: dict, model: str) -> dict[str, dict]:
+    """Meanings and ranges of the values of a model before the initial time, by name."""
+    if is_law(config, model):
+        return HISTORY
+    states = models_of_user(config)[model]["states"]
+    return {name: {"meaning": f"{meaning} before the start"} for name, meaning in states.items()}
 
 
 @cache
 def block_parameters() -> dict[str, dict]:
     """The parameters of the block by name, which every law has."""
     return read(BLOCK)["parameters"]
+
+
+@cache
+def chain_parameters() -> dict[str, dict]:
+    """The parameters by name that a chain has beside those of its blocks, 0 of one block."""
+    own = read(MODEL / "chain.yaml")["parameters"]
+    return {key: {**entry, "default": 0.0} for key, entry in own.items()}
 
 
 @cache
@@ -68,8 +116,11 @@ def without_inertia(law: dict) -> dict:
 
 
 def own_parameters(config: dict, law: str) -> dict[str, dict]:
-    """The parameters that a law has beside the block's."""
-    every = definitions(config)[law].get("parameters") or {}
+    """The parameters that a model has beside those that the block has by the same names."""
+    if not is_law(config, law):
+        every = parameters_of(config, law)
+    else:
+        every = definitions(config)[law].get("parameters") or {}
     return {key: entry or {} for key, entry in every.items() if key not in block_parameters()}
 
 
@@ -100,8 +151,8 @@ def is_on(scene: dict, place: Mapping, *axes: str) -> bool:
     own = {key: scene[key] for key in scene if key not in {*block_parameters(), "law"}}
     fixed = {key: value for key, value in own.items() if key not in axes}
     law = law_of(scene) if fixed == own else with_values(law_of(scene).split()[0], **fixed)
-    keys = [key for key in block_parameters() if key not in axes]
-    return law == law_of(place) and all(scene[key] == place[key] for key in keys)
+    keys = [key for key in block_parameters() if key not in axes and key in scene]
+    return law == law_of(place) and all(scene[key] == place.get(key) for key in keys)
 
 
 def spoken(law: str) -> str:
@@ -109,9 +160,8 @@ def spoken(law: str) -> str:
     return law.replace("_", " ")
 
 
-def check_law(name: str, law: dict) -> None:
-    """Refuse a law from which no model can be made; raise ConfigError saying why."""
-    place = f"config laws {name}"
+def check_model(place: str, name: str, parts: list[dict]) -> None:
+    """Refuse parts of a definition of which no model can be made; raise ConfigError saying why."""
     if name in built_in():
         raise ConfigError(f"{place}: the project has a law of this name; expected another name")
     if name.startswith((PREFIX, CHAIN)):
@@ -119,7 +169,7 @@ def check_law(name: str, law: dict) -> None:
             f"{place}: {PREFIX}NAME is the law NAME without inertia, {CHAIN}NAME that of a chain;"
             " expected another"
         )
-    checked = CHECKED / _digest_of(name, law)
+    checked = CHECKED / _digest_of(parts)
     if checked.exists():
         return
     # needs SymPy, which takes half a second to load
@@ -127,18 +177,29 @@ def check_law(name: str, law: dict) -> None:
     from generator.module import write_module
 
     try:
-        write_module(read_model(overlaid(read(BLOCK), definition(name, law))))
+        write_module(read_model(reduce(overlaid, parts)))
     except (ModelError, TypeError) as problem:
         reason = str(problem).removeprefix(f"model {name}: ")
         raise ConfigError(f"{place}: {reason}") from None
-    # where nothing can be written, the law is checked again
+    # where nothing can be written, the model is checked again
     with contextlib.suppress(OSError):
         CHECKED.mkdir(parents=True, exist_ok=True)
         checked.touch()
 
 
-def _digest_of(name: str, law: dict) -> str:
-    """A digest of a law and of all by which it is checked."""
-    sources = [BLOCK, *sorted(GENERATOR.glob("*.py")), *sorted(GENERATOR.glob("*.jinja"))]
-    said = json.dumps([definition(name, law), digest_of_files(sources)])
+def check_users_models(config: dict) -> None:
+    """Refuse the first of a user's laws and models of which none can be made; raise ConfigError."""
+    for name, law in config["laws"].items():
+        check_model(f"config laws {name}", name, [read(BLOCK), definition(name, law)])
+    for name, model in models_of_user(config).items():
+        place = f"config models {name}"
+        if name in config["laws"]:
+            raise ConfigError(f"{place}: a law has this name; expected another name")
+        check_model(place, name, [definition(name, model)])
+
+
+def _digest_of(parts: list[dict]) -> str:
+    """A digest of a definition and of all by which it is checked."""
+    sources = [*sorted(GENERATOR.glob("*.py")), *sorted(GENERATOR.glob("*.jinja"))]
+    said = json.dumps([parts, digest_of_files(sources)])
     return hashlib.sha256(said.encode()).hexdigest()

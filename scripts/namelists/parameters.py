@@ -1,34 +1,32 @@
-"""Parameters of the block, and how values of an entry are told from them."""
+"""Values of an entry as groups of namelists: its model with parameters, and histories."""
 
-from scripts.namelists.laws import CHAIN, block_parameters, own_parameters, own_place
+from scripts.namelists import laws
+from scripts.namelists.laws import CHAIN, block_parameters, chain_parameters, is_law, parameters_of
 
 PARAMETERS = list(block_parameters())
 """Names of the block's parameters."""
-HISTORY = ["theta", "u", "v"]
-"""Names of the values for t <= 0."""
-
-
-OF_PLANES = ("ordinate", "epsilon_window", "ordinate_window")
-"""Keys of a plane of Hopf curves beside those of its place."""
+HISTORY = list(laws.HISTORY)
+"""Names of the block's values for t <= 0."""
+OF_PLANES = ("abscissa", "ordinate", "abscissa_window", "ordinate_window")
+"""Keys of a plane beside those of its place."""
 
 
 def place_of(config: dict, settings: dict) -> dict:
-    """Parameters, law and the law's own parameters of an entry."""
-    return {key: settings[key] for key in PARAMETERS} | own_place(config, settings)
+    """Model and parameters of an entry, of the latter those that it gives: all but axes."""
+    names = [*parameters_of(config, settings["law"]), "law"]
+    return {key: settings[key] for key in names if key in settings}
 
 
 def with_model(config: dict, values: dict) -> dict:
     """Values of which the model with its parameters and its blocks becomes a group of its own."""
-    own = own_parameters(config, values["law"])
+    known = parameters_of(config, values["law"])
+    of_chain = chain_parameters() if is_law(config, values["law"]) else {}
     # one block without springs to neighbours is no chain
-    is_chain = values.get("blocks", 1) > 1 or values.get("kappa", 0.0) > 0
-    names = [*PARAMETERS, *own, *["kappa"] * is_chain]
+    is_chain = values.get("blocks", 1) > 1 or any(values.get(key, 0) > 0 for key in of_chain)
+    names = [*known, *(of_chain if is_chain else [])]
     there = {key: values[key] for key in names if key in values}
-    rest = {
-        key: value
-        for key, value in values.items()
-        if key not in {*names, "law", "kappa", "blocks", "ends"}
-    }
+    left_out = {*known, *of_chain, "law", "blocks", "ends"}
+    rest = {key: value for key, value in values.items() if key not in left_out}
     model = {"name": values["law"]}
     if is_chain:
         model |= {"name": CHAIN + values["law"], "blocks": values["blocks"], "ends": values["ends"]}
@@ -44,12 +42,12 @@ def histories_group(histories: list[dict[str, float]]) -> dict[str, list]:
 
 
 def plane_group(config: dict, plane: dict) -> dict:
-    """A plane of Hopf curves, of epsilon and its ordinate."""
+    """A plane of Hopf curves, of its abscissa and its ordinate."""
     settings = {key: value for key, value in plane.items() if key not in OF_PLANES}
     return {
         **with_model(config, settings),
-        "along": ["epsilon", plane["ordinate"]],
-        "windows": [*plane["epsilon_window"], *plane["ordinate_window"]],
+        "along": [plane["abscissa"], plane["ordinate"]],
+        "windows": [*plane["abscissa_window"], *plane["ordinate_window"]],
     }
 
 

@@ -6,7 +6,7 @@ in the program, and a group within a group a component of that variable.
 """
 
 from scripts.namelists.chains import histories_of
-from scripts.namelists.parameters import HISTORY, histories_group, with_model
+from scripts.namelists.parameters import histories_group, with_model
 
 REFERENCE_STEPS = 10_000_000
 """Most steps of a reference: far above what any needs."""
@@ -28,7 +28,7 @@ def case_groups(config: dict, cases: list[dict]) -> dict[str, list[dict]]:
     """The namelist group of cases, an element a case."""
     groups = []
     for case in cases:
-        own = {key: value for key, value in case.items() if key not in HISTORY}
-        history = {"history": HISTORY, "values": [case[key] for key in HISTORY]}
+        own = {key: value for key, value in case.items() if key != "history"}
+        history = {"history": [*case["history"]], "values": [*case["history"].values()]}
         groups.append(with_model(config, own) | history)
     return {"cases": groups}

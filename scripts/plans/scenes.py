@@ -1,7 +1,7 @@
 """Results of scenes by their paths, and what figures mark of scenes, by the configuration."""
 
-from scripts.namelists.laws import law_in_words, own_parameters, own_place
-from scripts.namelists.parameters import PARAMETERS
+from scripts.namelists.laws import law_in_words
+from scripts.namelists.parameters import place_of
 
 
 def scenes_of(config: dict, figure: str) -> list[str]:
@@ -19,11 +19,12 @@ def scenes_with(config: dict, key: str) -> list[str]:
     return [name for name, scene in config["scenes"].items() if key in scene]
 
 
-def plane_of(config: dict, settings: dict, ordinate: str = "") -> dict:
-    """What an entry has fixed in a plane of epsilon and an ordinate, by default its own."""
-    axes = ("epsilon", ordinate or settings["ordinate"])
-    place = {key: settings.get(key) for key in PARAMETERS} | own_place(config, settings)
-    return {**{key: value for key, value in place.items() if key not in axes}, "ordinate": axes[1]}
+def plane_of(config: dict, settings: dict, axes: tuple[str, str] = ()) -> dict:
+    """What an entry has fixed in a plane of two parameters, by default of its own axes."""
+    axes = axes or (settings["abscissa"], settings["ordinate"])
+    place = place_of(config, settings)
+    fixed = {key: value for key, value in place.items() if key not in axes}
+    return {**fixed, "abscissa": axes[0], "ordinate": axes[1]}
 
 
 def is_chain(config: dict, scene: str) -> bool:
@@ -46,20 +47,16 @@ def marked_scenes(config: dict) -> dict[str, dict]:
     names = [name for name in scenes_with(config, "attractors") if is_block(config, name)]
     scenes = {name: config["scenes"][name] for name in names}
     return {
-        name: {
-            **{key: scene[key] for key in PARAMETERS},
-            "law": law_in_words(config, scene),
-            **{key: scene[key] for key in own_parameters(config, scene["law"])},
-        }
+        name: place_of(config, scene) | {"law": law_in_words(config, scene)}
         for name, scene in scenes.items()
     }
 
 
 def scenes_in_plane(config: dict, settings: dict) -> dict[str, dict]:
-    """Parameters of the marked scenes that lie in a plane of epsilon and its ordinate."""
+    """Parameters of the marked scenes that lie in a plane."""
+    axes = (settings["abscissa"], settings["ordinate"])
     return {
         name: place
         for name, place in marked_scenes(config).items()
-        if plane_of(config, config["scenes"][name], settings["ordinate"])
-        == plane_of(config, settings)
+        if plane_of(config, config["scenes"][name], axes) == plane_of(config, settings)
     }

@@ -11,6 +11,7 @@ from scripts.claims.declare import OURS
 from scripts.claims.ledger import check_user_claims, names_in, paper_claims
 from scripts.config.check_config import checked
 from scripts.files.read_config import ConfigError, check_size, merge, read
+from scripts.namelists.laws import HISTORY, history_of, is_law
 from scripts.plans import studies
 from scripts.plans.declare import Figure
 from scripts.plans.studies import inside
@@ -159,7 +160,7 @@ def plan_of_user(whole: dict, names: dict[str, list[str]], folder: str) -> Plan:
     """What a user's file adds or changes, by the names of its entries."""
     config = checked(whole)
     figures = studies.user_figures(config, names)
-    config = set_variables(config, figures, least=VARIABLES)
+    config = set_variables(config, figures, least=list(HISTORY))
     claims = check_user_claims(config["claims"], config, {*studies.paper_figures(), *figures})
     if not figures and not claims and not any(names.values()):
         raise ConfigError(
@@ -187,16 +188,16 @@ def set_variables(config: dict, figures: dict[str, Figure], *, least: list[str])
     """
     for name, scene in config["scenes"].items():
         used = variables_used(config, name, figures)
-        default = [key for key in VARIABLES if key in used.union(least)] or VARIABLES
+        known = list(history_of(config, scene["law"]))
+        if used and not is_law(config, scene["law"]):
+            used = set(known)
+        default = [key for key in known if key in used.union(least)] or known
         lacking = sorted(used - set(scene.setdefault("variables", default)))
         if lacking:
             raise ConfigError(
                 f"scene '{name}': variables = {scene['variables']}; its figures also use {lacking}"
             )
     return config
-
-
-VARIABLES = ["theta", "u", "v"]
 
 
 def name_of(user_file: str) -> str:

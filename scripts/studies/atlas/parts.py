@@ -7,7 +7,7 @@ which it is known how many points get another class than if computed."""
 
 def refinements_of(atlas: dict) -> int:
     """The refinements of the file, or as many as leave enough distances of its first lines."""
-    fewest = min(atlas["epsilon_count"], atlas["ordinate_count"]) - 1
+    fewest = min(atlas["abscissa_count"], atlas["ordinate_count"]) - 1
     return min(atlas["refinements"], max(0, (fewest // LEAST_DISTANCES).bit_length() - 1))
 
 

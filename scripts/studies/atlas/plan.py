@@ -6,6 +6,7 @@ from scripts.namelists.attractor_surveys import survey_groups
 from scripts.plans.declare import LONG_RUN, Figure, Run, Study, Table
 from scripts.plans.scenes import marked_scenes, plane_of
 from scripts.studies.atlas.parts import part_of, refinements_of
+from scripts.studies.cycles.plan import curves_of
 
 
 def groups(config: dict, atlas_plane: str, part: str) -> dict:
@@ -17,11 +18,12 @@ def groups(config: dict, atlas_plane: str, part: str) -> dict:
     settings, refinements = atlas["planes"][atlas_plane], refinements_of(atlas)
     count = atlas["ordinate_count"]
     shown = part_of(count, atlas["parts"], int(part), 2**refinements)
-    columns = {"window": atlas["epsilon_window"], "count": atlas["epsilon_count"]}
+    window = settings.get("abscissa_window", atlas["abscissa_window"])
+    columns = {"window": window, "count": atlas["abscissa_count"]}
     lines = {"window": settings["ordinate_window"], "count": count, "part": shown}
     name = f"{atlas_plane} part {int(part)} of {atlas['parts']}"
-    place = {**settings, "epsilon": columns, settings["ordinate"]: lines}
-    histories = [atlas["history"]]
+    place = {**settings, settings["abscissa"]: columns, settings["ordinate"]: lines}
+    histories = [settings.get("history", atlas["history"])]
     return survey_groups(
         config, "atlas", name, place=place, histories=histories, refinements=refinements
     )
@@ -44,13 +46,13 @@ def table_of_atlas(config: dict) -> str:
     return f"<results>/tables/atlas{'/' + planes[0] if len(planes) == 1 else ''}.tsv"
 
 
-def within(config: dict, kind: str, entries: dict[str, dict], ordinate: str = "") -> list[str]:
+def within(config: dict, kind: str, entries: dict[str, dict]) -> list[str]:
     """Results of one kind about entries that lie in planes of the atlas."""
     planes = [plane_of(config, plane) for plane in config["atlas"]["planes"].values()]
     return [
         f"<results>/{kind}/{name}.nc"
         for name, entry in entries.items()
-        if plane_of(config, entry, ordinate) in planes
+        if plane_of(config, entry) in planes
     ]
 
 
@@ -59,12 +61,23 @@ def curves_of_atlas(config: dict) -> list[str]:
     return within(config, "hopf", config["hopf_curves"])
 
 
+def lines_with_curves(config: dict) -> dict[str, dict]:
+    """Lines of cycles with curves over two parameters, as planes of these."""
+    lines = config["cycles"]["lines"]
+    axes = {name: list(curves_of(config, line) or ()) for name, line in lines.items()}
+    return {
+        name: {**lines[name], "abscissa": two[0], "ordinate": two[1]}
+        for name, two in axes.items()
+        if lines[name]["along"] in two
+    }
+
+
 def inputs(config: dict) -> dict:
     """Classes of motion, and the Hopf curves and curves of cycles in the same planes."""
     return {
         "table": table_of_atlas(config),
         "curves": curves_of_atlas(config),
-        "cycles": within(config, "cycles", config["cycles"]["lines"], "tau"),
+        "cycles": within(config, "cycles", lines_with_curves(config)),
     }
 
 

@@ -28,8 +28,8 @@ def test_table_holds_all_points_of_each_plane(smoke, smoke_config):
     for plane in atlas["planes"].values():
         at = plane["xi"], plane["gamma"]
         places = [(row["epsilon"], row["tau"]) for row in rows if (row["xi"], row["gamma"]) == at]
-        assert len(places) == len(set(places)) == atlas["epsilon_count"] * atlas["ordinate_count"]
-        for axis, window in enumerate((atlas["epsilon_window"], plane["ordinate_window"])):
+        assert len(places) == len(set(places)) == atlas["abscissa_count"] * atlas["ordinate_count"]
+        for axis, window in enumerate((atlas["abscissa_window"], plane["ordinate_window"])):
             values = [place[axis] for place in places]
             assert [min(values), max(values)] == window
 
@@ -66,7 +66,7 @@ def test_number_of_parts_does_not_matter(programs, tiny):
 
 def test_points_not_computed_reach_table_figure_and_page(programs, tiny):
     """All of them, with class and without exponents; the page has words for the others."""
-    (path,) = made_parts(programs, tiny, 1, refinements=1, epsilon_count=13, ordinate_count=13)
+    (path,) = made_parts(programs, tiny, 1, refinements=1, abscissa_count=13, ordinate_count=13)
     table = programs.folder / "atlas.tsv"
     write_table(table, attractor_tables.atlas_rows(xr.load_dataset(path)))
     rows = read_table(table)

@@ -37,8 +37,8 @@ def test_parts_of_the_atlas_divide_its_delays(full):
         points = groups(full, "fault", str(part))["points"]
         columns, lines = points["axes"]
         assert (columns["along"], lines["along"]) == ("epsilon", "tau")
-        assert columns["part"] == [1, settings["epsilon_count"]]
-        assert columns["window"] == settings["epsilon_window"]
+        assert columns["part"] == [1, settings["abscissa_count"]]
+        assert columns["window"] == settings["abscissa_window"]
         assert lines["window"] == settings["planes"]["fault"]["ordinate_window"]
         assert points["refinements"] == settings["refinements"]
         assert points["parameters"] == {"xi": 0.5, "gamma": 1e8, "law": PAPER}
@@ -52,6 +52,6 @@ def test_parts_of_the_atlas_divide_its_delays(full):
 )
 def test_first_lines_of_a_small_atlas_are_not_too_far_apart(full, columns, lines, refinements):
     """At least six distances in each direction, and never more refinements than asked for."""
-    full["atlas"] |= {"epsilon_count": columns, "tau_count": lines, "parts": 1, "refinements": 2}
+    full["atlas"] |= {"abscissa_count": columns, "tau_count": lines, "parts": 1, "refinements": 2}
     points = groups(full, "fault", "1")["points"]
     assert points["refinements"] == refinements

@@ -2,7 +2,8 @@
 
 from collections.abc import Iterator
 
-from scripts.config.checks import check_histories, check_observation
+from scripts.config.checks import check_histories, check_observation, wrong
+from scripts.namelists.laws import is_law
 
 
 def contradictions(config: dict) -> Iterator[str]:
@@ -13,3 +14,7 @@ def contradictions(config: dict) -> Iterator[str]:
     yield from check_observation(place, study["observation"], config["spectra"])
     if study["observation"]["kept"] == 0:
         yield f"{place}: kept = 0; expected a whole number >= 1"
+    for name, scene in config["scenes"].items():
+        if scene.get("attractors", {}).get("histories", 1) > 1 and not is_law(config, scene["law"]):
+            expected = "1: ranges of histories are those of the block"
+            yield wrong(f"scene '{name}' attractors", scene["attractors"], "histories", expected)

@@ -2,6 +2,7 @@
 
 from scripts.namelists.attractor_surveys import drawn_histories, survey_groups
 from scripts.namelists.chains import histories_of
+from scripts.namelists.parameters import HISTORY
 from scripts.plans.declare import PAPER, Run, Study, Table
 from scripts.plans.scenes import blocks_of, paths_of_scenes, scenes_with
 
@@ -10,7 +11,7 @@ def groups(config: dict, scene: str) -> dict:
     """Namelist of a scene: its own history and others."""
     settings, study = config["scenes"][scene], config["attractors"]
     count = settings.get("attractors", {}).get("histories", study["count"])
-    others = drawn_histories((count - 1) * settings["blocks"], study["histories"])
+    others = drawn_histories((count - 1) * settings["blocks"], study["histories"], HISTORY)
     histories = [*histories_of(settings), *others]
     return survey_groups(config, "attractors", scene, place=settings, histories=histories)
 

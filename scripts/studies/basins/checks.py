@@ -2,7 +2,8 @@
 
 from collections.abc import Iterator
 
-from scripts.config.checks import check_histories, check_observation
+from scripts.config.checks import check_histories, check_observation, check_own_history
+from scripts.namelists.laws import history_of
 
 
 def contradictions(config: dict) -> Iterator[str]:
@@ -12,3 +13,9 @@ def contradictions(config: dict) -> Iterator[str]:
     yield from check_observation(
         "config basins observation", study["observation"], config["spectra"]
     )
+    for name, place in study["places"].items():
+        where = f"config basins places {name}"
+        yield from check_own_history(config, where, place, "histories")
+        if "histories" in place:
+            rules = history_of(config, place["law"])
+            yield from check_histories(f"{where} histories", place["histories"], rules)

@@ -1,16 +1,17 @@
 """Basins: the share of random histories that reaches each motion where several coexist."""
 
 from scripts.namelists.attractor_surveys import drawn_histories, survey_groups
+from scripts.namelists.laws import history_of
 from scripts.plans.declare import LONG_RUN, Run, Study, Table
 
 
 def groups(config: dict, place: str) -> dict:
     """Namelist of a place where motions coexist: random histories."""
     basins = config["basins"]
-    histories = drawn_histories(basins["count"], basins["histories"])
-    return survey_groups(
-        config, "basins", place, place=basins["places"][place], histories=histories
-    )
+    settings = basins["places"][place]
+    ranges = settings.get("histories", basins["histories"])
+    histories = drawn_histories(basins["count"], ranges, history_of(config, settings["law"]))
+    return survey_groups(config, "basins", place, place=settings, histories=histories)
 
 
 def inputs(config: dict) -> dict:

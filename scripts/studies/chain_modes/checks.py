@@ -3,16 +3,17 @@
 from collections.abc import Iterator
 
 from scripts.config.checks import check_ends, window, wrong
-from scripts.namelists.laws import PREFIX
+from scripts.config.ranges import range_of
+from scripts.namelists.laws import PREFIX, block_parameters, is_law
 
 
 def contradictions(config: dict) -> Iterator[str]:
     """Problems of the chain and of the planes."""
-    modes = config["chain_modes"]
+    modes, known = config["chain_modes"], block_parameters()
     yield from check_ends("config chain_modes", modes)
     for name, plane in modes["planes"].items():
         place = f"config chain_modes planes {name}"
-        yield from window(place, "epsilon_window", plane["epsilon_window"], above=-1.0)
-        yield from window(place, "tau_window", plane["tau_window"], least=0.0)
-        if plane["law"].startswith(PREFIX):
+        yield from window(place, "epsilon_window", plane["epsilon_window"], **range_of(known["epsilon"]))
+        yield from window(place, "tau_window", plane["tau_window"], **range_of(known["tau"]))
+        if plane["law"].startswith(PREFIX) or not is_law(config, plane["law"]):
             yield wrong(place, plane, "law", "a law with inertia, which chains have")

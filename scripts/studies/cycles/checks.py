@@ -4,16 +4,23 @@ from collections.abc import Iterator
 
 from scripts.config.checks import check_line, window
 from scripts.config.ranges import range_of
-from scripts.namelists.laws import own_parameters
+from scripts.namelists.laws import block_parameters, parameters_of
 
 
 def contradictions(config: dict) -> Iterator[str]:
-    """Problems of the lines, and of the window of curves."""
+    """Problems of the lines, and of the windows of curves."""
     study = config["cycles"]
+    yield from check_curves("config cycles curves", study.get("curves", {}), block_parameters())
     for name, line in study["lines"].items():
-        yield from check_line(
-            f"config cycles lines {name}", line, own_parameters(config, line["law"])
-        )
-    for key in ("epsilon", "tau") if "curves" in study else ():
-        values = study["curves"][f"{key}_window"]
-        yield from window("config cycles curves", f"{key}_window", values, **range_of(key))
+        place, known = f"config cycles lines {name}", parameters_of(config, line["law"])
+        yield from check_line(config, place, line)
+        yield from check_curves(f"{place} curves", line.get("curves", {}), known)
+
+
+def check_curves(place: str, curves: dict, known: dict[str, dict]) -> Iterator[str]:
+    """Problems of two parameters and their windows."""
+    for name, values in curves.items():
+        if name not in known:
+            yield f"{place}: unknown key [{name!r}]; allowed: {', '.join(known)}"
+        else:
+            yield from window(place, name, values, **range_of(known[name]))

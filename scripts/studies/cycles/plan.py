@@ -1,9 +1,10 @@
 """Cycles followed along a parameter, stable or not, and their special points."""
 
+from itertools import chain
 from pathlib import PurePath
 
-from scripts.namelists.laws import own_place
-from scripts.namelists.parameters import PARAMETERS, histories_group, with_model
+from scripts.namelists.laws import is_law
+from scripts.namelists.parameters import histories_group, place_of, with_model
 from scripts.plans.declare import LONGEST, Figure, Run, Study, Table
 from scripts.plans.scenes import marked_scenes
 
@@ -12,15 +13,22 @@ def groups(config: dict, cycle_line: str) -> dict[str, dict]:
     """The line on which cycles are followed, and how."""
     cycles = config["cycles"]
     how = {key: value for key, value in cycles.items() if key not in ("lines", "curves", "v")}
-    if curves := cycles.get("curves"):
-        windows = [*curves["epsilon_window"], *curves["tau_window"]]
-        how |= {"curves_along": ["epsilon", "tau"], "curves_windows": windows}
+    line = dict(cycles["lines"][cycle_line])
+    history = line.pop("history", {"theta": 0.0, "u": 0.0, "v": cycles["v"]})
+    if curves := curves_of(config, line):
+        how |= {"curves_along": list(curves), "curves_windows": [*chain(*curves.values())]}
     # a namelist has no empty lists
-    own = {key: value for key, value in cycles["lines"][cycle_line].items() if value != []}
+    own = {key: value for key, value in line.items() if key != "curves" and value != []}
     return {
         "cycles": with_model(config, {**how, **own}),
-        "histories": histories_group([{"theta": 0.0, "u": 0.0, "v": cycles["v"]}]),
+        "histories": histories_group([history]),
     }
+
+
+def curves_of(config: dict, line: dict) -> dict | None:
+    """Windows of two parameters in which curves of a line are followed: its own, or the block's."""
+    shared = config["cycles"].get("curves") if is_law(config, line["law"]) else None
+    return line.get("curves", shared)
 
 
 def cycles_of_lines(config: dict) -> list[str]:
@@ -32,8 +40,7 @@ def sweeps_on_lines(config: dict) -> list[list[str]]:
     """Sweeps on each line of cycles: those of the route with the widest window."""
 
     def place(settings: dict) -> dict:
-        keys = ("along", *PARAMETERS)
-        return {key: settings.get(key) for key in keys} | own_place(config, settings)
+        return {"along": settings["along"], **place_of(config, settings)}
 
     found = []
     for settings in config["cycles"]["lines"].values():

@@ -2,20 +2,23 @@
 
 from collections.abc import Iterator
 
-from scripts.config.checks import check_observation, check_scenes, window
+from scripts.config.checks import check_observation, check_scenes, check_values, window
 from scripts.config.ranges import range_of
-from scripts.namelists.laws import definitions, own_parameters
+from scripts.namelists.laws import HISTORY, block_parameters, definitions, own_parameters
 
 
 def contradictions(config: dict) -> Iterator[str]:
     """Laws without parameters of their own; planes and scenes by different names."""
     place, study = "config friction_laws", config["friction_laws"]
+    known = block_parameters()
+    yield from check_values(f"{place} history", study["history"], HISTORY)
     yield from check_observation(f"{place} observation", study["observation"], config["spectra"])
-    yield from window(place, "epsilon_window", study["epsilon_window"], **range_of("epsilon"))
+    yield from window(place, "epsilon_window", study["epsilon_window"], **range_of(known["epsilon"]))
     for name, plane in study["planes"].items():
-        yield from window(
-            f"{place} planes {name}", "tau_window", plane["tau_window"], **range_of("tau")
-        )
+        inside, fixed = f"{place} planes {name}", plane.keys() - {"tau_window"}
+        yield from window(inside, "tau_window", plane["tau_window"], **range_of(known["tau"]))
+        others = {key: known[key] for key in known.keys() - {"tau", "epsilon"}}
+        yield from check_values(inside, {key: plane[key] for key in fixed}, others)
     bare = [law for law in definitions(config) if not own_parameters(config, law)]
     for law in study["laws"]:
         if law not in bare:

@@ -2,17 +2,14 @@
 
 from collections.abc import Iterator
 
-from scripts.config.checks import check_axis, window, wrong
-from scripts.config.ranges import range_of
-from scripts.namelists.laws import own_parameters
+from scripts.config.checks import check_plane, wrong
 
 
 def contradictions(config: dict) -> Iterator[str]:
     """Problems of the axes."""
     for name, plane in config["hopf_curves"].items():
         place = f"config hopf_curves {name}"
-        values, own = plane["epsilon_window"], own_parameters(config, plane["law"])
-        yield from window(place, "epsilon_window", values, **range_of("epsilon"))
-        yield from check_axis(place, plane, "ordinate", own, "epsilon")
-        if plane["epsilon_window"][1] <= 0:
-            yield wrong(place, plane, "epsilon_window", "an end > 0")
+        yield from check_plane(config, place, plane)
+        # below epsilon = 0 steady sliding of the block is stable
+        if plane["abscissa"] == "epsilon" and plane["abscissa_window"][1] <= 0:
+            yield wrong(place, plane, "abscissa_window", "an end > 0")

@@ -60,7 +60,7 @@ def test_printed_formula_does_not_solve_the_equation(curves):
 def test_window_without_a_curve_makes_an_empty_file(programs, filled_config):
     """Below epsilon = 0.1 nothing oscillates by itself at small delays."""
     plane = filled_config["hopf_curves"]["tau_of_epsilon"] | {"cells": 20}
-    plane |= {"epsilon_window": [0.0, 0.05], "ordinate_window": [0.0, 1.0]}
+    plane |= {"abscissa_window": [0.0, 0.05], "ordinate_window": [0.0, 1.0]}
     curves = programs.made_by("hopf", plane)
     assert curves.sizes["point"] == curves.sizes["special"] == 0
     assert rows_of("empty", curves) == []
@@ -105,7 +105,7 @@ def test_any_parameter_is_an_ordinate(programs, along):
     law = {"gamma": PAPER, "c": "slip_cut_off"}[along]
     fixed = {"tau": 7.0, "xi": 0.5, "gamma": 0.8, "law": law}
     fixed.pop(along, None)
-    plane = {"ordinate": along, "epsilon_window": [0.0, 1.2], "ordinate_window": window}
+    plane = {"ordinate": along, "abscissa_window": [0.0, 1.2], "ordinate_window": window}
     curves = programs.made_by("hopf", {**plane, **fixed, "cells": 16})
     key = {"c": "law_c"}.get(along, along)
     assert (curves.attrs["ordinate"], key in curves.attrs) == (key, False)

@@ -1,5 +1,6 @@
 """Linear stability of steady sliding: roots of (5) and changes of stability of every scene."""
 
+from scripts.namelists.laws import is_law
 from scripts.namelists.parameters import with_model
 from scripts.plans.declare import Run, Study, Table
 from scripts.plans.scenes import blocks_of, paths_of_scenes
@@ -7,13 +8,12 @@ from scripts.plans.scenes import blocks_of, paths_of_scenes
 
 def groups(config: dict, scene: str) -> dict[str, dict]:
     """The parameters of a scene, and the bounds of roots and changes of its linear stability."""
-    study, model = config["linear_stability"], with_model(config, config["scenes"][scene])["model"]
-    changes = {
-        "along": ["tau", "epsilon"],
-        "windows": [0.0, study["tau_most"], -1.0, study["epsilon_most"]],
-    }
-    bound = {"root_bound": study["root_bound"]}
-    return {"linear_stability": {"model": model, **bound, **changes}}
+    study, settings = config["linear_stability"], config["scenes"][scene]
+    group = {"model": with_model(config, settings)["model"], "root_bound": study["root_bound"]}
+    if is_law(config, settings["law"]):
+        windows = [0.0, study["tau_most"], -1.0, study["epsilon_most"]]
+        group |= {"along": ["tau", "epsilon"], "windows": windows}
+    return {"linear_stability": group}
 
 
 STUDY = Study(

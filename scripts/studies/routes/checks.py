@@ -2,9 +2,8 @@
 
 from collections.abc import Iterator
 
-from scripts.config.checks import check_line, check_observation
-from scripts.namelists.laws import own_parameters
-from scripts.namelists.parameters import HISTORY
+from scripts.config.checks import check_line, check_observation, check_values
+from scripts.namelists.laws import HISTORY
 
 
 def contradictions(config: dict) -> Iterator[str]:
@@ -18,6 +17,7 @@ def contradictions(config: dict) -> Iterator[str]:
         yield (
             f"config routes histories: name {name!r}; expected another, this is the name of a sweep"
         )
+    for name, history in study["histories"].items():
+        yield from check_values(f"config routes histories {name}", history, HISTORY)
     for name, line in study["lines"].items():
-        own = own_parameters(config, line["law"])
-        yield from check_line(f"config routes lines {name}", line, own, HISTORY)
+        yield from check_line(config, f"config routes lines {name}", line, histories=True)

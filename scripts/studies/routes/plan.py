@@ -3,7 +3,6 @@
 import numpy as np
 
 from scripts.namelists.attractor_surveys import survey_groups
-from scripts.namelists.parameters import HISTORY
 from scripts.plans.declare import LONG_RUN, Figure, Run, Study, Table
 from scripts.plans.scenes import marked_scenes
 
@@ -16,12 +15,14 @@ def groups(config: dict, route: str, run: str) -> dict:
     routes = config["routes"]
     settings = routes["lines"][route]
     along, window, count = (settings[key] for key in ("along", "window", "count"))
-    first = next(iter(routes["histories"]))
-    histories = [routes["histories"].get(run, routes["histories"][first])]
-    if along in HISTORY:
+    by_run = histories_of(config, route)
+    first = next(iter(by_run))
+    histories = [by_run.get(run, by_run[first])]
+    of_history = along in histories[0]
+    if of_history:
         values = np.linspace(*window, count).tolist()
         histories = [{**histories[0], along: value} for value in values]
-    varied = {} if along in HISTORY else {along: {"window": window, "count": count}}
+    varied = {} if of_history else {along: {"window": window, "count": count}}
     place = {**settings, **varied}
     sweep = run if run in routes["sweeps"] else "none"
     return survey_groups(
@@ -29,11 +30,18 @@ def groups(config: dict, route: str, run: str) -> dict:
     )
 
 
+def histories_of(config: dict, route: str) -> dict[str, dict]:
+    """Histories of a route by the names of its runs: its own one, or those of all routes."""
+    routes = config["routes"]
+    own = routes["lines"][route].get("history")
+    return {"own": own} if own else routes["histories"]
+
+
 def runs_of_route(config: dict, route: str) -> list[str]:
     """Runs along a route: from each history, and sweeps of a parameter."""
-    routes = config["routes"]
-    swept = [] if routes["lines"][route]["along"] in HISTORY else routes["sweeps"]
-    runs = [*routes["histories"], *swept]
+    routes, histories = config["routes"], histories_of(config, route)
+    varies_history = routes["lines"][route]["along"] in next(iter(histories.values()))
+    runs = [*histories, *([] if varies_history else routes["sweeps"])]
     return [f"<results>/attractors/routes/{route}/{run}.nc" for run in runs]
 
 

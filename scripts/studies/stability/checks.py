@@ -23,7 +23,7 @@ def contradictions(config: dict) -> Iterator[str]:
 
 def check_family(config: dict, name: str, family: dict) -> Iterator[str]:
     """Problems of the cases of a family."""
-    place, count = f"config stability families {name}", number_of_cases(family)
+    place, count = f"config stability families {name}", number_of_cases(config, name)
     if count > MOST_CASES:
         yield f"{place}: {count} combinations; expected at most {MOST_CASES}"
         return

@@ -24,8 +24,7 @@ def measured_study(config: dict) -> dict:
 
 def case_of(name: str, settings: dict) -> dict:
     """One case up to its t_end."""
-    own = {key: value for key, value in settings.items() if key != "history"}
-    return {"name": name, **settings["history"], **own}
+    return {"name": name, **settings}
 
 
 def groups_of(config: dict, case: str) -> dict[str, list[dict]]:

@@ -1,4 +1,4 @@
-"""Write the definition of a user's law of friction."""
+"""Write the definition of a user's law of friction, or of a user's model."""
 
 import json
 from pathlib import Path
@@ -6,7 +6,7 @@ from pathlib import Path
 from scripts.files.outputs import logged, written
 
 
-def write_law(path: Path, definition: dict) -> None:
+def write_definition(path: Path, definition: dict) -> None:
     """Write a definition as JSON, which is YAML, too; the file is complete or absent."""
     with written(path) as unfinished:
         unfinished.write_text(json.dumps(definition, indent=2) + "\n", encoding="utf-8")
@@ -14,4 +14,4 @@ def write_law(path: Path, definition: dict) -> None:
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        write_law(Path(snakemake.output[0]), snakemake.params.definition)
+        write_definition(Path(snakemake.output[0]), snakemake.params.definition)

@@ -1,0 +1,154 @@
+"""Check what has a model: its parameters and histories, whose names the schema does not have."""
+
+import copy
+from collections.abc import Iterator
+
+from scripts.config.checks import check_values, place_of
+from scripts.config.ranges import expected_of, is_inside
+from scripts.files.read_config import ConfigError
+from scripts.namelists.laws import (
+    block_parameters,
+    chain_parameters,
+    check_users_models,
+    definitions,
+    history_of,
+    is_law,
+    names_of_models,
+    own_parameters,
+    parameters_of,
+)
+
+OUTSIDE = ("laws", "models", "claims")
+"""Sections whose parts have no model."""
+
+
+def name_models(config: dict) -> Iterator[str]:
+    """Put `model` of entries, a name under models, in the place of their law; problems."""
+    models = config.get("models")
+    known = list(models) if isinstance(models, dict) else []
+    for path, entry in _parts(config):
+        if "model" not in entry:
+            continue
+        name, place = entry.pop("model"), place_of(path)
+        if "law" in entry:
+            yield f"{place}: law = {entry['law']!r}; expected none beside model = {name!r}"
+        if name not in known:
+            expected = f"one of: {', '.join(known)}" if known else "a name under models"
+            yield f"{place}: model = {name!r}; expected {expected}"
+        entry["law"] = name
+
+
+def with_parameters(schema: dict, config: dict) -> dict:
+    """The schema in which whatever has a model may have the parameters of any model."""
+    users = {kind: config.get(kind) for kind in ("laws", "models")}
+    users = {kind: part for kind, part in users.items() if isinstance(part, dict)}
+    own = {
+        (kind, str(name)): dict(_entries(entry))
+        for kind, part in users.items()
+        for name, entry in part.items()
+    }
+    known = [block_parameters(), chain_parameters(), *(dict(_entries(law)) for law in definitions({}).values())]
+    every = {
+        name: str((entry or {}).get("meaning", name))
+        for parameters in [*own.values(), *reversed(known)]
+        for name, entry in parameters.items()
+    }
+    whole = copy.deepcopy(schema)
+    taken = {key for place in _with_law(whole) for key in place}
+    for (kind, name), parameters in own.items():
+        not_own = taken.union(*[block_parameters(), chain_parameters()] * (kind == "laws"))
+        if meant := not_own & set(parameters):
+            raise ConfigError(
+                f"config {kind} {name}: parameters {', '.join(sorted(meant))}: keys of all that has"
+                f" a model have these names; expected none of {', '.join(sorted(not_own))}"
+            )
+    for place in _with_law(whole):
+        lists = place["law"].get("lists")
+        for name, meaning in every.items():
+            rules = {"$ref": "#/$defs/numbers"} if lists else {"type": "number"}
+            place[name] = {**rules, "description": meaning}
+    return whole
+
+
+def _entries(model):
+    """Parameters of a definition that may not be one."""
+    parameters = model.get("parameters") if isinstance(model, dict) else None
+    for name, entry in parameters.items() if isinstance(parameters, dict) else ():
+        yield str(name), entry if isinstance(entry, dict) else {}
+
+
+def _with_law(schema):
+    """The properties of all that has a law."""
+    if isinstance(schema, dict):
+        properties = schema.get("properties")
+        if isinstance(properties, dict) and "law" in properties:
+            yield properties
+        for value in schema.values():
+            yield from _with_law(value)
+    elif isinstance(schema, list):
+        for value in schema:
+            yield from _with_law(value)
+
+
+def contradictions(config: dict) -> Iterator[str]:
+    """Definitions of which no model can be made, entries that do not fit theirs; sets defaults."""
+    try:
+        check_users_models(config)
+    except ConfigError as problem:
+        yield str(problem)
+        return
+    models = names_of_models(config)
+    every = {name for model in models for name in parameters_of(config, model)}
+    every |= set(chain_parameters())
+    for path, entry in _parts(config):
+        if "law" not in entry:
+            continue
+        place = place_of(path)
+        if entry["law"] not in models:
+            yield f"{place}: law = {entry['law']!r}; expected one of: {', '.join(models)}"
+            continue
+        yield from _parameters(config, place, entry, every)
+        if "history" in entry:
+            rules = history_of(config, entry["law"])
+            yield from check_values(f"{place} history", entry["history"], rules)
+
+
+def _parameters(config: dict, place: str, entry: dict, every: set[str]) -> Iterator[str]:
+    """Problems of the parameters of an entry."""
+    model = entry["law"]
+    known, own = parameters_of(config, model), own_parameters(config, model)
+    kind = "law" if is_law(config, model) else "model"
+    if "blocks" in entry and kind == "law":
+        known = known | chain_parameters()
+    shown = own if kind == "law" else known
+    for key in sorted((every - set(known)) & set(entry)):
+        has = f"it has {', '.join(shown)}" if shown else "it has none of its own"
+        yield f"{place}: {key} is no parameter of the {kind} {model}; {has}"
+    axes = {entry.get(key) for key in ("along", "abscissa", "ordinate")} - {None}
+    axes |= {key.removesuffix("_window") for key in entry if key.endswith("_window")}
+    # without an axis that is known, nothing says which value is left out
+    varied = axes - {"abscissa", "ordinate"}
+    if not varied <= {*known, *history_of(config, model)}:
+        return
+    for key, rules in known.items():
+        if key not in entry and key not in axes and "default" in rules:
+            entry[key] = rules["default"]
+        if key not in entry and key not in axes:
+            of_model = f": a parameter of the {kind} {model}" if key in own else ""
+            yield f"{place}: key [{key!r}] is missing{of_model}"
+        for value in _as_list(entry.get(key, [])):
+            if not is_inside(value, rules):
+                yield f"{place}: {key} = {value!r}; expected {expected_of(key, rules)}"
+
+
+def _as_list(value) -> list:
+    return value if isinstance(value, list) else [value]
+
+
+def _parts(value, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], dict]]:
+    """All parts of a configuration that may have a model, and where they stand."""
+    if isinstance(value, dict):
+        if path and path[0] not in OUTSIDE:
+            yield path, value
+        for key, part in value.items():
+            yield from _parts(part, (*path, str(key)))
