@@ -1,6 +1,5 @@
 """Chains of blocks by this project's program and by JiTCDDE (benchmarks/run chains)."""
 
-import json
 import math
 import resource
 import statistics
@@ -8,21 +7,18 @@ import subprocess
 import sys
 import tempfile
 import time
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import xarray as xr
-from measuring import BUILD, HERE, configuration, describe_machine, options_of, write_table
-from solvers import SolverError, TimeLimitError, Worker, peak_memory_of
+from measuring import add_limits, describe_machine, options_of, write_table
+from project import PROGRAM, TABLES, configuration
+from workers import SOLVERS, Scene, SolverError, TimeLimitError, Worker, peak_memory_of
 
 from scripts.config.check_config import checked
 from scripts.namelists.chains import groups_of_chain, histories_of
 from scripts.namelists.write_namelist import write_namelist
 
-SOLVERS = ("ours", "jitcdde")
-PROGRAM = [BUILD / "bin" / "spring_block", "trajectory"]
-JITCDDE = [str(HERE / ".venv" / "bin" / "python"), "-Es", str(HERE / "jitcdde_chain_worker.py")]
 PLACES = {
     0.8: {"tau": 10.0, "epsilon": 0.5, "xi": 0.8, "kappa": 1.0},
     1e8: {"tau": 12.0, "epsilon": 0.62, "xi": 0.5, "kappa": 1.0},
@@ -48,34 +44,29 @@ THEIR_TOLERANCE = 1e-11
 """Tolerance of JiTCDDE in comparisons."""
 
 
-@dataclass(frozen=True)
-class Chain:
-    """A chain with all keys, and the end of JiTCDDE's runs."""
-
-    settings: dict
-    their_t_end: float = T_SAMPLED
-
-    def line(self) -> str:
-        """The chain as JiTCDDE's worker reads it."""
-        histories = histories_of(self.settings)
-        histories["ln_v"] = np.log(histories.pop("v")).tolist()
-        past = np.array([histories[key] for key in ("theta", "u", "ln_v")]).T.ravel()
-        times = {"t_end": self.their_t_end, "t_sampled": T_SAMPLED}
-        return json.dumps({**self.settings, **times, "past": past.tolist()})
-
-    def groups(self, tolerance: float, **times: float) -> dict[str, dict]:
-        """The namelist groups of the program."""
-        settings = {**self.settings, "tolerance": tolerance, **times}
-        return groups_of_chain(configuration(), "chain", settings)
-
-
-def chain_of(blocks: int, gamma: float, their_t_end: float = T_SAMPLED, **given) -> Chain:
+def settings_of(blocks: int, gamma: float, **given) -> dict:
     """A chain with the defaults of the configuration; one block alone is one, too."""
     own = {"t_end": T_SAMPLED, "sample_interval": SAMPLE_INTERVAL, "blocks": max(blocks, 2)}
     config = configuration()
     config["chains"]["chain"] = {**PLACES[gamma], "gamma": gamma, **own, **given}
-    settings = checked(config)["chains"]["chain"]
-    return Chain({**settings, "blocks": blocks}, their_t_end)
+    return {**checked(config)["chains"]["chain"], "blocks": blocks}
+
+
+def groups_of(chain: dict, tolerance: float, **times: float) -> dict[str, dict]:
+    """The namelist groups of the program."""
+    return groups_of_chain(configuration(), "chain", {**chain, "tolerance": tolerance, **times})
+
+
+def jitcdde_worker(chain: dict, t_end: float = T_SAMPLED) -> Worker:
+    """JiTCDDE on a chain."""
+    past = np.array([[one["theta"], one["u"], np.log(one["v"])] for one in histories_of(chain)])
+    scene = Scene(
+        **{key: chain[key] for key in ("tau", "epsilon", "xi", "gamma", "sample_interval")},
+        past=tuple(past.ravel()),
+        t_end=t_end,
+    )
+    beside = [str(chain["kappa"]), chain["ends"], str(T_SAMPLED)]
+    return Worker([*SOLVERS["jitcdde"].command, *beside], scene)
 
 
 def run_program(groups: dict[str, dict], folder: Path) -> tuple[float, float]:
@@ -85,28 +76,30 @@ def run_program(groups: dict[str, dict], folder: Path) -> tuple[float, float]:
     output.unlink(missing_ok=True)
     before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     memory = 0.0
-    with subprocess.Popen([*PROGRAM, namelist, output], stderr=subprocess.DEVNULL) as process:
+    with subprocess.Popen(
+        [PROGRAM, "trajectory", namelist, output], stderr=subprocess.DEVNULL
+    ) as process:
         while process.poll() is None:
             memory = max(memory, peak_memory_of(process))
             time.sleep(0.002)
     if process.returncode != 0:
-        raise SolverError(f"{PROGRAM[0].name} ended with status {process.returncode}")
+        raise SolverError(f"{PROGRAM.name} ended with status {process.returncode}")
     return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before, memory
 
 
-def our_cost(chain: Chain, tolerance: float, folder: Path) -> tuple[float, float]:
+def our_cost(chain: dict, tolerance: float, folder: Path) -> tuple[float, float]:
     """CPU seconds per unit of time and block, without start and output, and memory."""
-    blocks = chain.settings["blocks"]
-    t_end = T_ENDS[blocks]
-    long, memory = run_program(chain.groups(tolerance, t_end=t_end, sample_interval=t_end), folder)
-    ends = {"t_end": T_SAMPLED, "sample_interval": T_SAMPLED}
-    short, _ = run_program(chain.groups(tolerance, **ends), folder)
-    return (long - short) / (t_end - T_SAMPLED) / blocks, memory
+    t_end = T_ENDS[chain["blocks"]]
+    (long, memory), (short, _) = (
+        run_program(groups_of(chain, tolerance, t_end=end, sample_interval=end), folder)
+        for end in (t_end, T_SAMPLED)
+    )
+    return (long - short) / (t_end - T_SAMPLED) / chain["blocks"], memory
 
 
-def our_samples(chain: Chain, tolerance: float, folder: Path) -> np.ndarray:
+def our_samples(chain: dict, tolerance: float, folder: Path) -> np.ndarray:
     """Samples up to T_SAMPLED: an array (t, quantity, block)."""
-    run_program(chain.groups(tolerance), folder)
+    run_program(groups_of(chain, tolerance), folder)
     times = SAMPLE_INTERVAL * np.arange(round(T_SAMPLED / SAMPLE_INTERVAL) + 1)
     # the program adds samples where v varies fast
     found = xr.load_dataset(folder / "chain.nc").sel(t=times)
@@ -114,11 +107,9 @@ def our_samples(chain: Chain, tolerance: float, folder: Path) -> np.ndarray:
     return np.stack(values, axis=1).reshape(len(found.t), 3, -1)
 
 
-def their_samples(worker: Worker, tolerance: float, folder: Path, limit: float) -> np.ndarray:
+def their_samples(worker: Worker, tolerance: float, limit: float) -> np.ndarray:
     """The same by JiTCDDE."""
-    path = folder / "samples.tsv"
-    worker.sample(tolerance, path, limit)
-    samples = np.loadtxt(path)[:, 1:]
+    samples = worker.samples(tolerance, limit)[:, 1:]
     return samples.reshape(len(samples), -1, 3).transpose(0, 2, 1)
 
 
@@ -135,20 +126,22 @@ def cost_rows(blocks: int, gamma: float, repeats: int, limit: float, folder: Pat
 
     After a run of JiTCDDE that took too long no tighter tolerance is tried.
     """
-    chain = chain_of(blocks, gamma, THEIR_T_ENDS[blocks], disturbance=APART)
+    chain = settings_of(blocks, gamma, disturbance=APART)
     reference = our_samples(chain, REFERENCE_TOLERANCE, folder)
     rows, too_long = [], ""
-    with Worker(JITCDDE, chain) as worker:
+    with jitcdde_worker(chain, THEIR_T_ENDS[blocks]) as worker:
         for tolerance in TOLERANCES:
             print(f"benchmarks: {blocks} blocks, {gamma:g}, {tolerance:g}", file=sys.stderr)
             place = {"blocks": blocks, "gamma": gamma, "tolerance": tolerance}
-            ours, theirs = ({**place, "solver": name, "status": "ok"} for name in SOLVERS)
+            ours, theirs = (
+                {**place, "solver": name, "status": "ok"} for name in ("ours", "jitcdde")
+            )
             ours["error_max"] = difference(our_samples(chain, tolerance, folder), reference)
             theirs["error_max"] = None
             try:
                 if too_long:
                     raise SolverError(too_long)
-                found = their_samples(worker, tolerance, folder, limit)
+                found = their_samples(worker, tolerance, limit)
                 theirs["error_max"] = difference(found, reference)
             except SolverError as failure:
                 theirs["status"] = str(failure)
@@ -160,7 +153,7 @@ def cost_rows(blocks: int, gamma: float, repeats: int, limit: float, folder: Pat
 
 
 def measure_costs(
-    chain: Chain,
+    chain: dict,
     ours: dict,
     theirs: dict,
     worker: Worker,
@@ -184,19 +177,19 @@ def measure_costs(
         "peak_memory_mb": memory,
     }
     done = theirs["status"] == "ok"
-    scale = chain.their_t_end * chain.settings["blocks"]
+    scale = worker.scene.t_end * chain["blocks"]
     theirs |= {
         "seconds_per_time_and_block": statistics.median(their_seconds) / scale if done else None,
-        "set_up_seconds": float(worker.version.split()[1]) if worker.version else None,
+        "set_up_seconds": worker.set_up_seconds,
         "peak_memory_mb": worker.peak_memory() if done else None,
     }
 
 
 def difference_row(ends: str, blocks: int, limit: float, folder: Path) -> dict:
     """Differences of trajectories from the one by JiTCDDE at its tightest tolerance."""
-    chain = chain_of(blocks, 0.8, ends=ends, disturbance=COMPARED_APART)
-    with Worker(JITCDDE, chain) as worker:
-        others = their_samples(worker, THEIR_TOLERANCE, folder, limit)
+    chain = settings_of(blocks, 0.8, ends=ends, disturbance=COMPARED_APART)
+    with jitcdde_worker(chain) as worker:
+        others = their_samples(worker, THEIR_TOLERANCE, limit)
     differences = {
         f"at {tolerance:g}": difference(our_samples(chain, tolerance, folder), others)
         for tolerance in COMPARED_TOLERANCES
@@ -206,10 +199,9 @@ def difference_row(ends: str, blocks: int, limit: float, folder: Path) -> dict:
 
 def main() -> None:
     """Measure, compare and write the tables."""
-    parser = options_of("chains")
+    parser = options_of("benchmarks/run chains", TABLES)
     parser.add_argument("--blocks", nargs="+", type=int, choices=list(T_ENDS), default=list(T_ENDS))
-    parser.add_argument("--time-limit", type=float, default=100.0)
-    parser.add_argument("--repeats", type=int, default=5)
+    add_limits(parser, time_limit=100.0)
     options = parser.parse_args()
     machine = describe_machine()
     try:

@@ -4,16 +4,8 @@ import tempfile
 from pathlib import Path
 
 import xarray as xr
-from measuring import (
-    BUILD,
-    HERE,
-    configuration,
-    describe_machine,
-    first_line,
-    measure_command,
-    options_of,
-    write_table,
-)
+from measuring import describe_machine, first_line, measure_command, options_of, write_table
+from project import HERE, PROGRAM, TABLES, configuration
 
 from scripts.namelists.parameters import PARAMETERS
 from scripts.namelists.write_namelist import write_namelist
@@ -38,7 +30,7 @@ def follow_here(config: dict, line: str) -> tuple[dict, list[tuple[str, float]]]
     with tempfile.TemporaryDirectory() as folder:
         namelist, output = Path(folder) / "line.nml", Path(folder) / "line.nc"
         write_namelist(namelist, groups(config, line))
-        seconds, _ = measure_command([BUILD / "bin" / "cycles", namelist, output])
+        seconds, _ = measure_command([PROGRAM, "cycles", namelist, output])
         found = xr.load_dataset(output)
     columns = (found[name].values.tolist() for name in ("special_kind", f"special_{along}"))
     error = float(found["multiplier_error"].max())
@@ -106,7 +98,7 @@ def row_of(line: str, kind: str, ours: float | None, theirs: float | None) -> di
 
 def main() -> None:
     """Measure, compare and write the tables."""
-    parser = options_of("cycles")
+    parser = options_of("benchmarks/run cycles", TABLES)
     parser.add_argument("--biftool", type=Path, required=True, help="folder of DDE-BIFTOOL")
     options = parser.parse_args()
     if not (options.biftool / "ddebiftool" / "br_contn.m").exists():

@@ -3,14 +3,8 @@
 import math
 
 import numpy as np
-from measuring import (
-    BUILD,
-    configuration,
-    describe_machine,
-    measure_command,
-    options_of,
-    write_table,
-)
+from measuring import describe_machine, measure_command, options_of, write_table
+from project import PROGRAM, TABLES, configuration
 
 PAST = (0.0, 0.0, math.log(1.1))
 GAMMA = 0.8
@@ -41,7 +35,7 @@ def measure_pieces(motion: str, lists: list[int]) -> tuple[float, dict[int, np.n
         *MOTIONS[motion], GAMMA, *PAST, TOLERANCE, T_TRANSIENT, 2 * T_COVERED, interval,
         EXPONENTS, len(lists), *lists,
     )  # fmt: skip
-    _, answer = measure_command([BUILD / "exponents_worker"], " ".join(map(str, words)))
+    _, answer = measure_command([PROGRAM.with_name("exponents_worker")], " ".join(map(str, words)))
     passed, *rest = answer.splitlines()
     table = np.array([[float(word) for word in row.split()] for row in rest])
     pieces = {
@@ -84,7 +78,7 @@ def rms(values: np.ndarray) -> float:
 
 def main() -> None:
     """Measure and write the tables."""
-    options = options_of("exponents").parse_args()
+    options = options_of("benchmarks/run exponents", TABLES).parse_args()
     header = describe_machine()[:2]
     meaning = "within: share of runs whose value is at most three of their errors from `value`"
     rows = [row for motion in MOTIONS for row in coverage_rows(motion)]

@@ -1,22 +1,20 @@
 """The benchmarks where they need no other solver: ratios, scenes, workers, tables."""
 
-import json
 import math
 import subprocess
 import sys
 
 import chains
-import compare
 import cycles
 import dense
+import measuring
 import numpy as np
+import peers
 import pytest
-import solvers
+import work_precision
+import workers
 
-from scripts.tables.accuracy import Reference
-
-SCENE = solvers.Scene(
-    name="torus",
+SCENE = workers.Scene(
     tau=10.0,
     epsilon=0.5,
     xi=0.8,
@@ -25,24 +23,6 @@ SCENE = solvers.Scene(
     t_end=1.0,
     sample_interval=0.5,
 )
-
-
-@pytest.fixture
-def reference() -> Reference:
-    """Zero but for a large theta at the end, and longer than the scene."""
-    state = np.zeros((3, 4))
-    state[0, 2] = -10.0
-    return Reference(
-        status="ok",
-        time=0.5 * np.arange(4.0),
-        state=state,
-        uncertainty=np.zeros(4),
-        amplification=np.ones(4),
-    )
-
-
-def samples_of(reference: Reference) -> np.ndarray:
-    return np.column_stack([reference.time, reference.state.T])[:3]
 
 
 def stand_in(script: str) -> list[str]:
@@ -69,7 +49,7 @@ POINTS = [(1e-4, 1.0), (1e-6, 4.0)]
     ],
 )
 def test_time_at_an_error(level, points, expected):
-    assert compare.seconds_at(level, points) == (expected and pytest.approx(expected))
+    assert work_precision.seconds_at(level, points) == (expected and pytest.approx(expected))
 
 
 def test_ratios_are_of_runs_that_ended_well():
@@ -82,42 +62,40 @@ def test_ratios_are_of_runs_that_ended_well():
         ("bad", "stopped", 1e-9, 1.0),
     ]
     names = ("solver", "status", "error_max", "seconds")
-    rows = [{"scene": "torus", **dict(zip(names, run, strict=True))} for run in runs]
-    found = compare.ratio_rows(rows, ["slow", "bad"])
-    assert [row["error"] for row in found] == pytest.approx([10.0**-k for k in range(4, 13)])
-    assert (found[0]["our_seconds"], found[0]["slow"]) == (1.0, 20.0)
-    assert found[4]["slow"] == pytest.approx(30.0)
-    assert [row["slow"] for row in found[5:]] == [None] * 4
-    assert {row["bad"] for row in found} == {None}
+    rows = [dict(zip(names, run, strict=True)) for run in runs]
+    assert work_precision.ratios(rows, 1e-4) == {"our_seconds": 1.0, "slow": 20.0, "bad": None}
+    found = work_precision.ratios(rows, 1e-8)
+    assert (found["slow"], found["bad"]) == (pytest.approx(30.0), None)
+    assert work_precision.ratios(rows, 1e-9)["slow"] is None
 
 
-def test_error_is_the_largest_of_all_samples(reference):
+def test_error_is_the_largest_of_all_samples():
     """Relative where the reference is above 1; samples that are missing or late have none."""
-    samples = samples_of(reference)
-    assert solvers.error_max(samples, SCENE, reference) == 0.0
+    reference = np.array([[0.0, 0.0, 0.0, 0.0], [0.5, 0.0, 0.0, 0.0], [1.0, -10.0, 0.0, 0.0]])
+    samples = reference.copy()
+    assert work_precision.error_max(samples, reference) == 0.0
     samples[1, 3] = 0.125
-    assert solvers.error_max(samples, SCENE, reference) == 0.125
+    assert work_precision.error_max(samples, reference) == 0.125
     samples[2, 1] += 5.0
-    reference.state[:, 3] = 9.0
-    assert solvers.error_max(samples, SCENE, reference) == 0.5
-    assert math.isnan(solvers.error_max(samples[:2], SCENE, reference))
+    assert work_precision.error_max(samples, reference) == 0.5
+    assert math.isnan(work_precision.error_max(samples[:2], reference))
     for value in (math.nan, 0.6):
         samples[1, 0] = value
-        assert math.isnan(solvers.error_max(samples, SCENE, reference))
+        assert math.isnan(work_precision.error_max(samples, reference))
 
 
 def test_worker_answers_and_says_why_not():
     """Other output is left out; after an answer that took too long it starts again."""
-    script = "print('hello')\nprint('answer: 1.2')\nfor line in sys.stdin:\n"
+    script = "print('hello')\nprint('answer: 1.2 3.5')\nfor line in sys.stdin:\n"
     script += "    time.sleep(60 if line.split()[1] == '9' else 0)\n    print('answer: '"
     script += " + ('0.5 ok' if line.split()[1] == '7' else '0 too stiff for me'))"
-    with solvers.Worker(stand_in(script), SCENE) as worker:
+    with workers.Worker(stand_in(script), SCENE) as worker:
         assert worker.seconds(1e-3, 7, 30.0) == 0.5
-        assert worker.version == "1.2"
+        assert (worker.version, worker.set_up_seconds) == ("1.2", 3.5)
         assert 1 < worker.peak_memory() < 1000
-        with pytest.raises(solvers.SolverError, match="too stiff for me"):
+        with pytest.raises(workers.SolverError, match="too stiff for me"):
             worker.seconds(1e-3, 8, 30.0)
-        with pytest.raises(solvers.TimeLimitError, match=r"longer than 0\.2 s"):
+        with pytest.raises(workers.TimeLimitError, match=r"longer than 0\.2 s"):
             worker.seconds(1e-3, 9, 0.2)
         assert worker.seconds(1e-3, 7, 30.0) == 0.5
 
@@ -126,14 +104,42 @@ def test_worker_answers_and_says_why_not():
 def test_chain_is_the_same_for_both_solvers(blocks):
     """For JiTCDDE theta, u and ln v of one block after another."""
     apart = {"theta": 0.1, "u": 0.2, "ln_v": 0.3}
-    chain = chains.chain_of(blocks, 0.8, disturbance=apart)
-    groups, line = chain.groups(1e-6), json.loads(chain.line())
-    assert groups["scene"]["parameters"]["blocks"] == line["blocks"] == blocks
-    past = np.reshape(line["past"], (blocks, 3))
+    chain = chains.settings_of(blocks, 0.8, disturbance=apart)
+    groups, worker = chains.groups_of(chain, 1e-6), chains.jitcdde_worker(chain, 50.0)
+    assert groups["scene"]["parameters"]["blocks"] == blocks
+    assert worker.command[-3:] == ["1.0", "free", "40.0"]
+    *parameters, t_end, interval = map(float, worker.scene.line().split())
+    assert (*parameters[:4], t_end, interval) == (10.0, 0.5, 0.8, 0.8, 50.0, 0.5)
+    past = np.reshape(parameters[4:], (blocks, 3))
     histories = groups["blocks"]
     np.testing.assert_array_equal(past[:, :2].T, [histories["theta"], histories["u"]])
     np.testing.assert_allclose(np.exp(past[:, 2]), histories["v"])
     assert np.unique(past).size == 3 * blocks
+
+
+def test_solver_that_is_missing_says_what_it_needs(monkeypatch):
+    monkeypatch.setitem(workers.SOLVERS, "radar5", workers.Solver(["none"], "--hairer FOLDER"))
+    monkeypatch.setitem(workers.SOLVERS, workers.OURS, workers.Solver([sys.executable]))
+    with pytest.raises(SystemExit, match="radar5 is missing; it needs --hairer FOLDER"):
+        workers.chosen_solvers(["radar5"])
+
+
+def test_solver_is_compared_on_cases_of_its_kind(monkeypatch):
+    """With f only, this solver gets a word more."""
+    asked = []
+
+    def measure(pair, *_):
+        asked.append([worker.command for worker in pair.values()])
+        return [{"solver": name, "status": "failed"} for name in pair]
+
+    monkeypatch.setattr(peers, "measure", measure)
+    monkeypatch.setattr(workers.Worker, "samples", lambda *_: np.zeros((1, 4)))
+    solvers = {name: workers.SOLVERS[name] for name in (workers.OURS, "radar5")}
+    assert peers.ratio_rows("torus", solvers, 1, 30.0) == []
+    rows = peers.ratio_rows("gamma 1e4, f only", solvers, 1, 30.0)
+    assert [row["solver"] for row in rows] == ["radar5"] * len(peers.LEVELS)
+    [(ours, others)] = asked
+    assert (ours[1:], others) == (["auto", "rhs"], workers.SOLVERS["radar5"].command)
 
 
 def test_error_of_dense_output_counts_by_the_run_where_it_is_worst():
@@ -190,7 +196,7 @@ def test_folder_without_a_source_of_radar5_is_refused(tmp_path):
     """In one line, before anything is set up."""
     for name in ("radar5", "contr5", "decsol", "retard"):
         (tmp_path / f"{name}.f").touch()
-    command = [solvers.HERE / "run", "peers", "--hairer", tmp_path]
+    command = [measuring.HERE / "run", "peers", "--hairer", tmp_path]
     run = subprocess.run(command, capture_output=True, text=True)
     assert run.returncode == 1
     assert run.stderr == f"benchmarks: {tmp_path}/dc_decdel.f is missing\n"

@@ -33,13 +33,13 @@ def test_dense_oscillations_are_drawn_as_their_envelope():
     size = 1 + t / t[-1]
     run = a_trajectory(1 + size * np.cos(t), 0 * t)
     _, axes = plt.subplots()
-    assert trajectories.draw_velocity(axes, run, 0.0, 4000.0)
+    assert trajectories.draw_signal(axes, run, 0.0, 4000.0)
     least, most = axes.lines
     at = most.get_xdata()
     np.testing.assert_allclose(most.get_ydata(), 2 + at / t[-1], atol=0.02)
     np.testing.assert_allclose(least.get_ydata(), -at / t[-1], atol=0.02)
     assert len(at) <= trajectories.MOST_TURNS
-    assert not trajectories.draw_velocity(axes, run, 0.0, 400.0)
+    assert not trajectories.draw_signal(axes, run, 0.0, 400.0)
     np.testing.assert_allclose(axes.lines[-1].get_ydata(), run.v[:4001])
 
 

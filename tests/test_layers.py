@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from conftest import ROOT
+from conftest import ROOT, project_files
 
 FORTRAN = ROOT / "fortran"
 GENERATOR = ROOT / "generator"
@@ -125,6 +125,19 @@ def test_no_import_from_a_higher_layer():
 def test_violation_is_caught(layer, line, wrong):
     """The checker itself, on made-up lines; comments, texts and other names are no violations."""
     assert len(violations(layer, line, layers())) == wrong
+
+
+def test_package_of_the_solver_uses_nothing_outside_of_it():
+    """Its sources, tests, example and benchmarks."""
+    files = [Path(name) for name in project_files() if name.startswith("fortran/dde/")]
+    texts = {path: (ROOT / path).read_text() for path in files if path.suffix in (".f90", ".py")}
+    modules = r"^ *module (?!procedure)(\w+)$"
+    inside = {name for text in texts.values() for name in re.findall(modules, text, re.MULTILINE)}
+    used = {name for path in texts if path.suffix == ".f90" for name in uses_of(texts[path])}
+    assert used - inside == {"ieee_arithmetic", "iso_c_binding", "iso_fortran_env"}
+    imports = r"^ *(?:from|import) (\w+)"
+    imported = {name for text in texts.values() for name in re.findall(imports, text, re.MULTILINE)}
+    assert imported & {"benchmarks", "project", "scripts"} == set()
 
 
 def output_statements(text: str) -> list[str]:

@@ -9,9 +9,13 @@ from conftest import ROOT, project_files
 from scripts.files.read_config import read
 
 SCRIPTS = [
-    *("reproduce", "test", "setup/setup.sh", ".ci/run", "benchmarks/run", "compilers/run"),
+    *("reproduce", "test", "setup/setup.sh", ".ci/run", "compilers/run"),
+    *("benchmarks/run", "fortran/dde/benchmarks/run"),
 ]
-LOCKS = [*(".", "setup", "benchmarks", "docs", "tests/browser", "tests/formats", "profiles/slurm")]
+LOCKS = [
+    *(".", "setup", "docs", "fortran/dde/benchmarks", "profiles/slurm"),
+    *("tests/browser", "tests/formats"),
+]
 """Folders with a lock of Python packages."""
 
 

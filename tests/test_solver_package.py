@@ -21,15 +21,30 @@ def run(*command, **settings) -> str:
     return done.stdout
 
 
+def copy_of_package(folder: Path) -> Path:
+    """Its sources; the benchmarks may hold packages and builds."""
+    return shutil.copytree(PACKAGE, folder, ignore=shutil.ignore_patterns("benchmarks"))
+
+
 def largest_error(printed: str) -> float:
     return float(re.search(r"largest error +(\S+)", printed)[1])
+
+
+def test_version_stands_once(installed):
+    """In fpm.toml; what is installed and the change log follow."""
+    version = re.search(r'^version = "(.*)"$', (PACKAGE / "fpm.toml").read_text(), re.MULTILINE)[1]
+    assert version not in (PACKAGE / "CMakeLists.txt").read_text()
+    [found] = installed.rglob("dde-config-version.cmake")
+    assert f'PACKAGE_VERSION "{version}"' in found.read_text()
+    changes = (PACKAGE / "CHANGELOG.md").read_text()
+    assert re.search(r"^## (\S+?),? ", changes, re.MULTILINE)[1] == version
 
 
 @pytest.fixture(scope="module")
 def installed(tmp_path_factory) -> Path:
     """Folder of an installed copy; its sources and its build are gone."""
     folder = tmp_path_factory.mktemp("solver")
-    source = shutil.copytree(PACKAGE, folder / "source")
+    source = copy_of_package(folder / "source")
     prefix = folder / "prefix"
     run("cmake", "-D", "DDE_TESTS=OFF", "-S", source, "-B", folder / "build")
     run("cmake", "--build", folder / "build")
@@ -76,7 +91,7 @@ def test_pkg_config_finds_it(installed, tmp_path):
 
 def test_fpm_builds_it(tmp_path):
     """From a copy of its folder alone."""
-    shutil.copytree(PACKAGE, tmp_path / "dde")
+    copy_of_package(tmp_path / "dde")
     shutil.copytree(OUTSIDE / "by_fpm", tmp_path / "mine")
     printed = run("fpm", "run", cwd=tmp_path / "mine")
     assert largest_error(printed) < 100 * TOLERANCE

@@ -1,5 +1,6 @@
 """What verdicts rest on: files in results/, and how a finding is put in words."""
 
+import math
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -143,7 +144,8 @@ def short(value: float, digits: int = 4) -> str:
 
 def equations(values: Mapping[str, float], names: Iterable[str]) -> str:
     """Values of variables in a sentence."""
-    return ", ".join(f"${name} = {short(values[name])}$" for name in names)
+    known = {name: values.get(name, math.nan) for name in names}
+    return ", ".join(f"${key} = {short(one)}$" for key, one in known.items() if not math.isnan(one))
 
 
 def join(words: list[str]) -> str:

@@ -6,7 +6,6 @@ from matplotlib.axes import Axes
 
 from scripts.drawing.style import FAINT
 from scripts.namelists.laws import is_on
-from scripts.namelists.parameters import HISTORY
 
 
 def mark_scenes(axes: Axes, scenes: dict[str, dict], place: dict, along: str) -> None:
@@ -30,7 +29,7 @@ def mark_scenes(axes: Axes, scenes: dict[str, dict], place: dict, along: str) ->
 
 def maxima_of(run: xr.Dataset, along: str) -> tuple[np.ndarray, np.ndarray]:
     """Places and values of all maxima of v that a run has kept."""
-    varied = run[f"history_{along}" if along in HISTORY else along]
+    varied = run[along if along in run else f"history_{along}"]
     places = np.broadcast_to(varied.values[:, None], run.maximum.shape)
     there = run.maximum.values > 0
     return places[there], run.maximum.values[there]

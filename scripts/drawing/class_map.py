@@ -30,20 +30,21 @@ def edges_of(centres: list[float]) -> np.ndarray:
     return np.array([centres[0], *middles, centres[-1]])
 
 
-def table_of(rows: list[dict], ordinate: str, value) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Edges along epsilon and along the ordinate, and a value of each row on the grid."""
-    columns, lines = (sorted({row[key] for row in rows}) for key in ("epsilon", ordinate))
+def table_of(rows: list[dict], axes: tuple[str, str], value) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Edges along abscissa and ordinate, and a value of each row on the grid."""
+    x, y = axes
+    columns, lines = (sorted({row[key] for row in rows}) for key in axes)
     values = np.full((len(lines), len(columns)), np.nan)
     for row in rows:
-        values[lines.index(row[ordinate]), columns.index(row["epsilon"])] = value(row)
+        values[lines.index(row[y]), columns.index(row[x])] = value(row)
     return edges_of(columns), edges_of(lines), values
 
 
-def draw_classes(axes: Axes, rows: list[dict], ordinate: str) -> None:
+def draw_classes(axes: Axes, rows: list[dict], along: tuple[str, str]) -> None:
     """A cell for each row, hatched where undecided, a cross on it where the run failed."""
-    x, y, numbers = table_of(rows, ordinate, lambda row: KINDS.index(kind_of(row)))
+    x, y, numbers = table_of(rows, along, lambda row: KINDS.index(kind_of(row)))
     draw_cells(axes, x, y, numbers)
-    mark_failures(axes, rows, ordinate)
+    mark_failures(axes, rows, along)
 
 
 def draw_strips(axes: Axes, runs: dict[str, list[dict]], along: str) -> None:
@@ -72,10 +73,10 @@ def draw_cells(axes: Axes, x: np.ndarray, y: np.ndarray, numbers: np.ndarray) ->
     axes.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
 
 
-def mark_failures(axes: Axes, rows: list[dict], ordinate: str) -> None:
+def mark_failures(axes: Axes, rows: list[dict], along: tuple[str, str]) -> None:
     """A cross where the run failed."""
     for row in filter(has_problem, rows):
-        axes.plot(row["epsilon"], row[ordinate], clip_on=False, **NO_RESULT)
+        axes.plot(*(row[key] for key in along), clip_on=False, **NO_RESULT)
 
 
 def legend_of(rows: list[dict]) -> list[Artist]:

@@ -1,4 +1,4 @@
-"""Hopf curves and scenes in a plane of epsilon and another parameter."""
+"""Hopf curves and scenes in a plane of two parameters."""
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -22,13 +22,16 @@ def draw_piece(axes: Axes, x: np.ndarray, y: np.ndarray, l1: np.ndarray, colour:
         axes.plot(x[part], y[part], color=colour, ls=style)
 
 
-def mark_scenes(axes: Axes, scenes: dict[str, dict], ordinate: str, named: bool = True) -> None:
+def mark_scenes(
+    axes: Axes, scenes: dict[str, dict], along: tuple[str, str], named: bool = True
+) -> None:
     """A dot for each scene of a plane, its name beside it where no other scene is in the way."""
     near = NEAR * np.ptp(axes.get_xlim())
     close = 0.05 * np.ptp(axes.get_ylim())
     places: dict[tuple[float, float], list[str]] = {}
     for name, scene in scenes.items():
-        places.setdefault((scene["epsilon"], scene[ordinate]), []).append(name.replace("_", " "))
+        x, y = (scene[key] for key in along)
+        places.setdefault((x, y), []).append(name.replace("_", " "))
     for place, names in places.items():
         axes.plot(*place, clip_on=False, zorder=5, **SCENE)
         if not named:

@@ -1,22 +1,16 @@
 """Parameters and numbers as figures write them, with true minus signs."""
 
-from scripts.namelists.laws import PAPER, law_of, spoken
+import math
+from collections.abc import Mapping
+
+from scripts.namelists.laws import HISTORY, PAPER, block_parameters, is_of_block, law_of, spoken
 from scripts.namelists.parameters import PARAMETERS
 
-SYMBOLS = {
-    **{"tau": r"\tau", "epsilon": r"\varepsilon", "xi": r"\xi", "gamma": r"\gamma"},
-    **{"theta": r"\theta", "u": "u", "v": "v"},
-}
-"""Of the block's parameters, and of the values before the start."""
-NAMES = {
-    "tau": "delay",
-    "epsilon": "sensitivity of the velocity relaxation",
-    "xi": "spring constant",
-    "gamma": "frequency",
-    "theta": "friction state before the start",
-    "u": "displacement before the start",
-    "v": "velocity before the start",
-}
+GREEK = (
+    *("alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "kappa", "lambda"),
+    *("mu", "nu", "xi", "pi", "rho", "sigma", "tau", "phi", "chi", "psi", "omega"),
+)
+"""Letters that are symbols by their names."""
 LEAST_PLAIN, LEAST_POWER = 1e-3, 1e4
 """Numbers between these are written plainly, others with a power of ten."""
 
@@ -36,18 +30,21 @@ def true_minus(text: str) -> str:
     return text.replace("-", "\N{MINUS SIGN}")
 
 
-def in_words(place: dict, *left_out: str) -> str:
+def in_words(place: Mapping, *left_out: str) -> str:
     """The parameters of a place as formulas, without some of them, and a law not the paper's."""
-    words = [equation(key, place[key]) for key in PARAMETERS if key not in left_out]
+    there = [key for key in PARAMETERS if not math.isnan(place.get(key, math.nan))]
+    words = [equation(key, place[key]) for key in there if key not in left_out]
     if law_of(place) != PAPER:
-        words.append(f"law {spoken(law_of(place))}")
+        words.append("law " * is_of_block(place) + spoken(law_of(place)))
     return ", ".join(words)
 
 
 def symbol_of(parameter: str) -> str:
-    """The symbol of a parameter, of a law's own one its name."""
+    """The symbol of a parameter: a letter, or its name."""
+    if parameter in GREEK:
+        return r"\varepsilon" if parameter == "epsilon" else rf"\{parameter}"
     name = parameter.replace("_", r"\_")
-    return SYMBOLS.get(parameter, rf"\mathrm{{{name}}}")
+    return name if len(name) == 1 else rf"\mathrm{{{name}}}"
 
 
 def equation(parameter: str, value: float) -> str:
@@ -55,8 +52,14 @@ def equation(parameter: str, value: float) -> str:
     return f"${symbol_of(parameter)} = {number(value)}$"
 
 
-def axis_of(parameter: str, meaning: str = "") -> str:
-    """Name and symbol of a parameter, the delay with its unit; a law's own one has its meaning."""
-    unit = " (units of $L/v_0$)" if parameter == "tau" else ""
-    meaning = "" if meaning == parameter else meaning
-    return f"{NAMES.get(parameter, meaning)} ${symbol_of(parameter)}${unit}".strip()
+def axis_of(parameter: str, meaning: str = "", place: Mapping | None = None) -> str:
+    """Name and symbol of a parameter of the model of a place, by default of the block.
+
+    The delay of the block has its unit.
+    """
+    of_block = place is None or is_of_block(place)
+    known = {**block_parameters(), **HISTORY} if of_block else {}
+    unit = " (units of $L/v_0$)" if of_block and parameter == "tau" else ""
+    meaning = known.get(parameter, {}).get("meaning", meaning).split(",")[0]
+    said = "" if meaning == parameter else meaning
+    return f"{said} ${symbol_of(parameter)}${unit}".strip()

@@ -2,9 +2,10 @@
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from scripts.drawing import parameters
+from scripts.namelists.laws import is_of_block
 
 COUNTS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
 MOST_LISTED = 8
@@ -54,9 +55,14 @@ def as_formulas(words: str) -> str:
     return re.sub(r"\$([^$]*)\$", r":math:`\1`", words)
 
 
-def place_in_words(place: dict, *left_out: str) -> str:
+def place_in_words(place: Mapping, *left_out: str) -> str:
     """The parameters of a place as formulas of a caption, without some of them."""
     return as_formulas(parameters.in_words(place, *left_out))
+
+
+def words_of_state(place: Mapping) -> str:
+    """What the steady state of the model of a place is called."""
+    return "steady sliding" if is_of_block(place) else "the steady state"
 
 
 def capitalised(words: str) -> str:

@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 from scripts.files.outputs import FileError
-from scripts.namelists.laws import CHAIN, block_parameters, with_values
+from scripts.namelists.laws import law_in_file
 
 # takes half a second to load, and planning knows functions of data by name alone
 if TYPE_CHECKING:
@@ -17,10 +17,7 @@ DataArray: TypeAlias = "xarray.DataArray"
 def with_law_in_words(data: Dataset) -> Dataset:
     """The data with the law of its model, and the values of parameters that are the law's own."""
     if "model" in data.attrs:
-        known = {*block_parameters(), "kappa"}
-        own = [name for name in data.attrs["parameters"].split() if name not in known]
-        values = {name: data.attrs[name] for name in own if name in data.attrs}
-        data.attrs["law"] = with_values(data.attrs["model"].removeprefix(CHAIN), **values)
+        data.attrs["law"] = law_in_file(data.attrs)
     return data
 
 

@@ -23,6 +23,8 @@ PAPER = "slip_delayed_logarithm"
 """The law of equation (4)."""
 PREFIX = "quasistatic_"
 """What stands before the name of a law without inertia."""
+OF_USER = "model "
+"""What stands before the name of a model that is not the block, in words."""
 CHAIN = "chain_"
 """What stands before the name of the law of a chain of blocks."""
 HISTORY = {
@@ -132,7 +134,17 @@ def own_place(config: dict, settings: dict) -> dict:
 
 def law_in_words(config: dict, settings: dict) -> str:
     """Name of the law of an entry, with the values of its own parameters, as results have it."""
-    return with_values(**own_place(config, settings))
+    kind = "" if is_law(config, settings["law"]) else OF_USER
+    return kind + with_values(**own_place(config, settings))
+
+
+def law_in_file(attributes: Mapping, *axes: str) -> str:
+    """The same by the attributes of a file of results, without the parameters of axes."""
+    names = attributes["parameters"].split()
+    known = {*block_parameters(), "kappa", *axes}
+    own = {key: attributes[key] for key in names if key not in known and key in attributes}
+    kind = "" if set(block_parameters()) <= set(names) else OF_USER
+    return kind + with_values(attributes["model"].removeprefix(CHAIN), **own)
 
 
 def with_values(law: str, **own: float) -> str:
@@ -150,9 +162,14 @@ def is_on(scene: dict, place: Mapping, *axes: str) -> bool:
     """Whether a scene has the law and parameters of a place, those of axes aside."""
     own = {key: scene[key] for key in scene if key not in {*block_parameters(), "law"}}
     fixed = {key: value for key, value in own.items() if key not in axes}
-    law = law_of(scene) if fixed == own else with_values(law_of(scene).split()[0], **fixed)
+    law = law_of(scene) if fixed == own else with_values(law_of(scene).split(" (")[0], **fixed)
     keys = [key for key in block_parameters() if key not in axes and key in scene]
     return law == law_of(place) and all(scene[key] == place.get(key) for key in keys)
+
+
+def is_of_block(place: Mapping) -> bool:
+    """Whether a row, attributes or a place are those of the block."""
+    return not law_of(place).startswith(OF_USER)
 
 
 def spoken(law: str) -> str:

@@ -7,9 +7,12 @@ import numpy as np
 
 from scripts.files.inputs import read
 from scripts.files.tsv import read_table
+from scripts.namelists.laws import law_in_file
 
-STATE = ["theta", "u", "ln_v"]
-WORDS = ["case", "method", "status", "reason", "law"]
+BEFORE, BEHIND = "time", "uncertainty"
+"""Columns of a reference beside those of the state."""
+ENDS = ("least", "most")
+WORDS = ["case", "method", "status", "reason", "model"]
 
 
 @dataclass(kw_only=True)
@@ -33,7 +36,7 @@ def read_references(paths: list[str] | list[Path]) -> dict[str, Reference]:
         case: Reference(
             status=rows[0]["status"],
             time=np.array([row["time"] for row in rows]),
-            state=np.array([[row[name] for row in rows] for name in STATE]),
+            state=np.array([[row[name] for row in rows] for name in states_of(rows[0])]),
             uncertainty=np.array([row["uncertainty"] for row in rows]),
             amplification=np.array([row["amplification"] for row in rows]),
         )
@@ -41,9 +44,16 @@ def read_references(paths: list[str] | list[Path]) -> dict[str, Reference]:
     }
 
 
+def states_of(row: dict) -> list[str]:
+    """Names of the states in a row of a reference."""
+    names = list(row)
+    return names[names.index(BEFORE) + 1 : names.index(BEHIND)]
+
+
 def read_runs(path: str | Path) -> list[dict]:
-    """Runs of a file: words, numbers, and samples as `time` and `state` (shape (3, samples))."""
+    """Runs of a file: words, numbers, and samples as `time` and `state`, shape (states, samples)."""
     data = read(path)
+    states = [name for name in data.data_vars if data[name].dims == data.time.dims]
     numbers = {name for name, values in data.variables.items() if values.dims == ("run",)}
     runs = []
     for i in range(data.sizes["run"]):
@@ -53,8 +63,11 @@ def read_runs(path: str | Path) -> list[dict]:
             {name: str(row[name].values) for name in WORDS}
             | {name: float(row[name]) for name in numbers - set(WORDS)}
             | {"time": row.time.values[reached]}
-            | {"state": np.array([row[name].values[reached] for name in STATE])}
+            | {"state": np.array([row[name].values[reached] for name in states])}
         )
+    for run in runs:
+        run["law"] = law_in_file({**data.attrs, **run})
+        run["least"], run["most"] = (run[f"{end}_{data.attrs['signal']}"] for end in ENDS)
     return runs
 
 
@@ -67,7 +80,7 @@ def read_runs_with_references(
 
 
 def distances(state: np.ndarray, reference: np.ndarray) -> np.ndarray:
-    """Largest error of theta, u, ln v at each sample, relative to the component where above 1."""
+    """Largest error of a state at each sample, relative to the state where above 1."""
     return np.max(np.abs(state - reference) / np.maximum(1.0, np.abs(reference)), axis=0)
 
 

@@ -5,7 +5,7 @@ import xarray as xr
 
 def amplitude_death(stability: xr.Dataset) -> list[tuple[float, float]]:
     """Delays between which a state that is unstable without delay is stable."""
-    if stability.attrs["unstable_pairs_without_delay"] == 0:
+    if "tau_of_change" not in stability or stability.attrs["unstable_pairs_without_delay"] == 0:
         return []
     places = stability.tau_of_change.values
     ends = [*places[1:], float(stability.attrs["tau_most"])]

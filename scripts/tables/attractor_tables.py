@@ -8,7 +8,7 @@ from scripts.files.inputs import DataArray, Dataset, read
 from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
 from scripts.namelists.laws import law_of
-from scripts.namelists.parameters import HISTORY, PARAMETERS
+from scripts.namelists.parameters import PARAMETERS
 from scripts.tables.exponent_signs import SIGNS
 from scripts.tables.motion_rows import AXES_FIRST, has_problem
 
@@ -22,18 +22,19 @@ OF_MOTION = (
     *("recurrence_time", "recurrence_variation", "roughness"),
 )
 """Numbers of a motion as they stand in its file."""
-NOT_COMPUTED = {*PARAMETERS, "law", "ordinate", *HISTORY, "computed", "class", "period"}
-"""Columns of points of the atlas that were not computed; the others but axes are empty."""
+NOT_COMPUTED = {*PARAMETERS, "law", "abscissa", "ordinate", "computed", "class", "period"}
+"""Columns of points of the atlas that were not computed; the others but axes and histories are
+empty."""
 
 
 def rows_of(run: Dataset, **flags: list[str]) -> list[dict]:
     """Rows of a file, with columns of further flags before the class; values not found are NaN."""
     measured = run.sign.notnull().any("exponent")
     columns = {
-        **{key: numbers(run[key]) for key in AXES_FIRST},
+        **{key: numbers(run[key]) for key in AXES_FIRST if key in run},
         "law": [law_of(run.attrs)] * run.sizes["point"],
         **{key: numbers(run[key]) for key in axes_of(run) if key not in PARAMETERS},
-        **{key: numbers(run[f"history_{key}"]) for key in HISTORY},
+        **{key: numbers(run[f"history_{key}"]) for key in histories_of(run)},
         **flags,
         "class": words(run["class"]),
         "reason": ["" if word == "none" else word for word in words(run.reason)],
@@ -63,13 +64,21 @@ def rows_of(run: Dataset, **flags: list[str]) -> list[dict]:
 def atlas_rows(run: Dataset) -> list[dict]:
     """Rows of a part of the atlas, with the column `computed` before the class."""
     axes = axes_of(run)
-    # the ordinate is tau where there is no such column
-    other = {"ordinate": axes[1:] * run.sizes["point"]} if axes[1:] != ["tau"] else {}
+    # these are epsilon and tau where there are no such columns
+    named = zip(("abscissa", "ordinate"), ("epsilon", "tau"), axes, strict=True)
+    other = {key: [axis] * run.sizes["point"] for key, default, axis in named if axis != default}
     rows = rows_of(run, **other, computed=words(run.computed))
+    kept = NOT_COMPUTED | {*axes, *histories_of(run)}
     for row in rows:
         if row["computed"] == "no":
-            row |= dict.fromkeys(row.keys() - NOT_COMPUTED - set(axes), np.nan)
+            row |= dict.fromkeys(row.keys() - kept, np.nan)
     return rows
+
+
+def histories_of(run: Dataset) -> list[str]:
+    """Names of the values before the initial time."""
+    names = [str(name) for name in run.data_vars if str(name).startswith("history_")]
+    return [name.removeprefix("history_") for name in names]
 
 
 def axes_of(run: Dataset) -> list[str]:
@@ -102,7 +111,8 @@ def scene_rows(scene: str, run: Dataset) -> list[dict]:
     rows = rows_of(run)
     maxima = [row["largest_maximum"] for row in rows]
     largest = max((value for value in maxima if not np.isnan(value)), default=0.0)
-    tame = "yes" if max(row["v"] for row in rows) <= largest else "no"
+    signal = run.attrs["signal"]
+    tame = "yes" if max(row.get(signal, np.nan) for row in rows) <= largest else "no"
     found: list[dict] = []
     numbered = []
     for history, row in enumerate(rows, start=1):
@@ -130,7 +140,8 @@ def same_attractor(one: dict, other: dict) -> bool:
     if one["class"] in ("cycle", "torus", "3-torus"):
         keys = ["smallest_maximum", "largest_maximum"]
         near = all(np.isclose(one[key], other[key], rtol=SAME_MAXIMUM, atol=0) for key in keys)
-        return near and (one["class"] != "cycle" or one["period"] == other["period"])
+        periods = np.array_equal(one["period"], other["period"], equal_nan=True)
+        return near and (one["class"] != "cycle" or periods)
     apart = abs(one["exponent_1"] - other["exponent_1"])
     return bool(apart <= ERROR_BARS * np.hypot(one["error_1"], other["error_1"]))
 

@@ -1,15 +1,18 @@
 """What rows of attractors, of the atlas and of routes say."""
 
+import math
 from collections.abc import Mapping
 
 import numpy as np
 
-from scripts.namelists.laws import law_of
+from scripts.namelists.laws import law_in_file, law_of
 from scripts.namelists.parameters import HISTORY, PARAMETERS
 
 UNDECIDED = "undecided"
 AXES_FIRST = ("epsilon", "tau", "xi", "gamma")
 """PARAMETERS in the order of tables of planes: the axes of the atlas first."""
+FIXED = AXES_FIRST[::-1]
+"""Planes are in the order of these."""
 COLOURS = {
     "fixed point": "#d9d9d9",
     "cycle": "#56b4e9",
@@ -61,18 +64,21 @@ def nearest_alike(kinds: np.ndarray, computed: np.ndarray) -> np.ndarray:
     return nearest
 
 
-def ordinate_of(place: Mapping) -> str:
-    """The parameter over epsilon in the plane of a row or of curves."""
-    ordinate = place.get("ordinate")
+def axes_of(place: Mapping) -> tuple[str, str]:
+    """Abscissa and ordinate of the plane of a row or of curves, by default epsilon and tau."""
+    named = (place.get("abscissa"), place.get("ordinate"))
     # an empty cell of a table is not a text
-    return ordinate if isinstance(ordinate, str) else "tau"
+    x, y = (name if isinstance(name, str) else "" for name in named)
+    return x or "epsilon", y or "tau"
 
 
-def plane_of(place: Mapping) -> tuple:
-    """The plane of a row or of curves: its gamma, xi and law; what another ordinate has fixed."""
-    ordinate = ordinate_of(place)
-    one, two, *third = (place[key] for key in ("gamma", "xi", "tau") if key != ordinate)
-    return one, two, law_of(place), *([] if ordinate == "tau" else [ordinate, *third])
+def plane_of(place: Mapping, axes: tuple[str, str] | None = None) -> tuple:
+    """The plane of a row or of curves: what is fixed of the block, its law and axes."""
+    axes = axes or axes_of(place)
+    values = [math.nan if key in axes else place.get(key, math.nan) for key in FIXED]
+    law = law_in_file(place, *axes) if "parameters" in place else law_of(place)
+    # NaN is not equal to itself
+    return *(-2.0 if math.isnan(value) else value for value in values), law, *axes
 
 
 def planes_of(rows: list[dict]) -> dict[tuple, list[dict]]:
@@ -85,10 +91,9 @@ def parameter_of(rows: list[dict]) -> str:
     """The parameter that varies along a route, or the value of the history."""
     # runs differ in their histories
     of_run = [row for row in rows if row.get("run") == rows[0].get("run")]
-    known = list(rows[0])
-    own = known[known.index("law") + 1 : known.index(HISTORY[0])]
-    keys = (*PARAMETERS, *own, *HISTORY)
-    return next(key for key in keys if len({row[key] for row in of_run}) > 1)
+    places = list(rows[0])[: list(rows[0]).index("class")]
+    numbers = [key for key in places if isinstance(rows[0][key], float)]
+    return next(key for key in numbers if len({row[key] for row in of_run}) > 1)
 
 
 def count_in_words(rows: list[dict]) -> str:

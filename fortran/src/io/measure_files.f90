@@ -7,7 +7,7 @@ module measure_files
    use dde_kinds, only: int64, wp
    use measured_case, only: case_type
    use measured_run, only: baseline_methods, run_type
-   use model_attributes, only: put_places
+   use model_attributes, only: joined, put_places
    use model_description, only: description_type, model_length => word_length
    use model_history, only: shown_name
    use namelist_input, only: element_length, elements, namelist_file_type
@@ -135,6 +135,7 @@ contains
             numbers(:, i) = cases(i)%model%numbers
             past(:, i) = cases(i)%history%values(:, 1, 1)
          end do
+         call file%attribute("parameters", joined(model%names))
          call put_places(file, run, model, numbers, "")
          do i = 1, size(history%names)
             call file%column(run, "history_"//trim(history%names(i)), past(i, :), &
@@ -153,6 +154,7 @@ contains
                        "matrices factorised")
       call file%column(run, "switches", real(runs%outcome%switches, wp), "changes of method")
       name = shown_name(cases(1)%model, cases(1)%model%sizes%observed%component)
+      call file%attribute("signal", name)
       call file%column(run, "least_"//name, runs%least, &
                        "smallest "//name//" on a grid 8 times that of samples")
       call file%column(run, "most_"//name, runs%most, &

@@ -8,7 +8,7 @@ module model_attributes
    use netcdf_output, only: output_file_type
    implicit none (type, external)
    private
-   public :: put_history, put_model, put_places
+   public :: joined, put_history, put_model, put_places
 
 contains
 

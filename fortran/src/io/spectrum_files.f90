@@ -215,6 +215,7 @@ contains
       call file%column(base, "base_frequency", pack(bases%frequency, bases%frequency > 0.0_wp), &
                        "fundamental frequencies of the peaks")
       call file%attribute("scene", scene)
+      call file%attribute("signal", trim(signal))
       call file%attribute("window", trim(settings%window))
       call file%attribute("segments", int(settings%segments, int64))
       call file%attribute("overlap", settings%overlap)

@@ -103,7 +103,7 @@ contains
       end do
       do i = 1, size(points) - 1
          if (points(i)%piece /= points(i + 1)%piece) cycle
-         if (points(i)%l1 < 0.0_wp .neqv. points(i + 1)%l1 < 0.0_wp) then
+         if (points(i)%l1*points(i + 1)%l1 < 0.0_wp) then
             coefficient%ends = points(i:i + 1)%at
             call find_root(coefficient, 0.0_wp, 1.0_wp, share, error)
             if (allocated(error)) return

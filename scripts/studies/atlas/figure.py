@@ -19,13 +19,13 @@ from scripts.drawing.hopf_plane import SCENE, SUBCRITICAL, draw_piece, mark_scen
 from scripts.drawing.special_points import STYLES, in_words, words_of
 from scripts.drawing.style import INK
 from scripts.drawing.wording import as_formulas, place_in_words, short, with_error
-from scripts.namelists.laws import is_on
+from scripts.namelists.laws import is_of_block, is_on
 from scripts.tables.motion_rows import (
+    axes_of,
     count_in_words,
     is_computed,
     kind_of,
     nearest_alike,
-    ordinate_of,
     plane_of,
     planes_of,
 )
@@ -57,33 +57,35 @@ def draw(
     letters = iter(ascii_lowercase)
     drawn: set[str] = set()
     for (at, shown), (left, right) in zip(planes.items(), panels, strict=True):
-        ordinate = ordinate_of(shown[0])
+        along = axes_of(shown[0])
         inside = {
             name: scene
             for name, scene in scenes.items()
-            if ordinate in scene and is_on(scene, shown[0], "epsilon", ordinate)
+            if {*along} <= scene.keys() and is_on(scene, shown[0], *along)
         }
-        draw_classes(left, shown, ordinate)
-        mesh = draw_exponents(right, shown, ordinate)
+        draw_classes(left, shown, along)
+        mesh = draw_exponents(right, shown, along)
         for axes in (left, right):
             for plane in curves:
                 if plane_of(plane.attrs) == at:
                     draw_curves(axes, plane)
-            mark_scenes(axes, inside, ordinate, named=axes is left)
+            mark_scenes(axes, inside, along, named=axes is left)
         for line in cycles:
-            if plane_of(line.attrs) == at:
-                drawn |= draw_curves_of_cycles(left, line)
-        symbols = parameters.in_words(shown[0], ordinate, "epsilon")
+            if plane_of(line.attrs, along) == at:
+                drawn |= draw_curves_of_cycles(left, line, along)
+        symbols = parameters.in_words(shown[0], *along)
         left.set_title(f"$\\bf{{{next(letters)}}}$  {symbols}\n{count_in_words(shown)}")
         right.set_title(f"$\\bf{{{next(letters)}}}$  the same: largest Lyapunov exponent")
-        left.set_ylabel(parameters.axis_of(ordinate))
-    for axes in panels[-1]:
-        axes.set_xlabel(parameters.axis_of("epsilon"))
+        left.set_ylabel(parameters.axis_of(along[1], along[1], shown[0]))
+        for axes in (left, right):
+            axes.set_xlabel(parameters.axis_of(along[0], along[0], shown[0]))
+            axes.label_outer()
+    unit = "units of $v_0/L$" if all(map(is_of_block, table)) else "per unit of time"
     ticks = [-LARGEST, -0.01, -LINEAR, 0, LINEAR, 0.01, LARGEST]
     figure.colorbar(
         mesh,
         ax=list(panels[:, 1]),
-        label=r"largest Lyapunov exponent $\lambda_1$ (units of $v_0/L$)",
+        label=rf"largest Lyapunov exponent $\lambda_1$ ({unit})",
         extend="both",
         pad=0.02,
         aspect=40,
@@ -105,18 +107,18 @@ def draw(
     return figure
 
 
-def draw_exponents(axes: Axes, rows: list[dict], ordinate: str):
+def draw_exponents(axes: Axes, rows: list[dict], along: tuple[str, str]):
     """The largest exponent of each row, white at zero.
 
     A point that was not computed has that of the nearest computed one of its class.
     """
-    x, y, values = table_of(rows, ordinate, lambda row: row["exponent_1"])
-    _, _, kinds = table_of(rows, ordinate, lambda row: KINDS.index(kind_of(row)))
-    _, _, computed = table_of(rows, ordinate, is_computed)
+    x, y, values = table_of(rows, along, lambda row: row["exponent_1"])
+    _, _, kinds = table_of(rows, along, lambda row: KINDS.index(kind_of(row)))
+    _, _, computed = table_of(rows, along, is_computed)
     values = values[tuple(nearest_alike(kinds, computed == 1))]
     norm = SymLogNorm(LINEAR, vmin=-LARGEST, vmax=LARGEST)
     mesh = axes.pcolormesh(x, y, values, cmap="PuOr_r", norm=norm, **CELLS)
-    mark_failures(axes, rows, ordinate)
+    mark_failures(axes, rows, along)
     return mesh
 
 
@@ -124,19 +126,18 @@ def draw_curves(axes: Axes, curves: xr.Dataset) -> None:
     """Hopf curves, dashed where subcritical."""
     for piece in np.unique(curves.piece):
         line = curves.isel(point=curves.piece.values == piece)
-        draw_piece(axes, line.epsilon, line[ordinate_of(curves.attrs)], line.l1, INK)
+        draw_piece(axes, *(line[key] for key in axes_of(curves.attrs)), line.l1, INK)
 
 
-def draw_curves_of_cycles(axes: Axes, cycles: xr.Dataset) -> set[str]:
+def draw_curves_of_cycles(axes: Axes, cycles: xr.Dataset, along: tuple[str, str]) -> set[str]:
     """Curves of special points of cycles, with a white edge; their kinds."""
     drawn = set()
     for number, kind in enumerate(words_of(cycles.curve_kind), start=1):
         line = cycles.isel(curve_point=cycles.curve.values == number)
         # a curve that could not be followed has one point
         if line.sizes["curve_point"] > 1:
-            axes.plot(
-                line.curve_epsilon, line.curve_tau, path_effects=EDGE, zorder=3, **CURVES[kind]
-            )
+            places = (line[f"curve_{key}"] for key in along)
+            axes.plot(*places, path_effects=EDGE, zorder=3, **CURVES[kind])
             drawn.add(kind)
     return drawn
 
@@ -145,7 +146,7 @@ def numbers(table: list[dict]) -> dict:
     """Shares of the classes and the largest exponent in each plane."""
     planes = []
     for number, rows in enumerate(planes_of(table).values()):
-        axes = ("epsilon", ordinate_of(rows[0]))
+        axes = axes_of(rows[0])
         counts = Counter(row["class"] for row in rows).most_common()
         shares = [(kind, 100 * count / len(rows)) for kind, count in counts]
         computed = [row for row in rows if not math.isnan(row["exponent_1"])]
@@ -161,7 +162,10 @@ def numbers(table: list[dict]) -> dict:
                 else "",
             }
         )
-    ordinates = dict.fromkeys(ordinate_of(row) for row in table)
-    symbols = [f":math:`{parameters.symbol_of(key)}`" for key in ordinates]
     taken = sum(not is_computed(row) for row in table)
-    return {"planes": planes, "ordinates": symbols, "taken": taken}
+    named = zip(("abscissas", "ordinates"), zip(*map(axes_of, table), strict=True), strict=True)
+    symbols = {
+        name: [f":math:`{parameters.symbol_of(key)}`" for key in dict.fromkeys(keys)]
+        for name, keys in named
+    }
+    return {"planes": planes, "taken": taken, **symbols}

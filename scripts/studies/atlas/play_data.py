@@ -14,14 +14,14 @@ import xarray as xr
 from scripts.files.inputs import read
 from scripts.files.outputs import logged, written
 from scripts.files.tsv import read_table
-from scripts.namelists.laws import PAPER, law_of
+from scripts.namelists.laws import PAPER, is_of_block, law_of
 from scripts.page.page_views import exponents, motion
 from scripts.tables.motion_rows import (
     COLOURS,
+    axes_of,
     is_computed,
     kind_of,
     nearest_alike,
-    ordinate_of,
     plane_of,
 )
 
@@ -42,9 +42,13 @@ def list_planes(
 
     There is one row, one path and one length of the path in time for each point.
     """
-    # the view moves epsilon and tau
+    # the view moves epsilon and tau of the block
     every = zip(rows, paths, times, strict=True)
-    points = [point for point in every if ordinate_of(point[0]) == "tau"]
+    points = [
+        point
+        for point in every
+        if axes_of(point[0]) == ("epsilon", "tau") and is_of_block(point[0])
+    ]
     places = dict.fromkeys(plane_of(row) for row, _, _ in points)
     return [
         describe_plane([point for point in points if plane_of(point[0]) == place])
@@ -105,7 +109,7 @@ def frequencies(row: dict) -> str:
 
 def paths_of(run: xr.Dataset) -> list[np.ndarray | None]:
     """The path of each point, shape (3, its length): time, u and ln v; None where there is none."""
-    if "path_time" not in run:
+    if "path_u" not in run:
         return [None] * run.sizes["point"]
     columns = np.array([run[key].values for key in ("path_time", "path_u", "path_ln_v")])
     ends = np.cumsum(run.path_length.values)

@@ -38,7 +38,7 @@ def basin_rows(place: str, run: xr.Dataset, on_routes: list[dict]) -> list[dict]
     return [
         {
             "place": place,
-            **{key: rows[0][key] for key in PARAMETERS},
+            **{key: rows[0][key] for key in PARAMETERS if key in rows[0]},
             "law": law_of(rows[0]),
             "motion": motion,
             **{key: one[key] for key in MOTION_KEYS},
@@ -55,7 +55,8 @@ def motions_beside(known: list[dict], place: dict, on_routes: list[dict]) -> lis
     """Motions of routes at the parameters of a place that are not among the known ones."""
     others: list[dict] = []
     for row in on_routes:
-        here = all(np.isclose(row[key], place[key], rtol=1e-6, atol=0) for key in PARAMETERS)
+        values = ([one.get(key, math.nan) for key in PARAMETERS] for one in (row, place))
+        here = np.allclose(*values, rtol=1e-6, atol=0, equal_nan=True)
         alike = any(same_attractor(row, other) for other in [*known, *others])
         here = here and law_of(row) == law_of(place)
         if here and row["class"] != UNDECIDED and not alike:

@@ -20,6 +20,11 @@ class CycleThere:
     """The largest of a multiplier but 1, that of the nearest orbit"""
 
 
+def most_of(cycles: Dataset) -> str:
+    """Name of the greatest value of the signal: v_most of the block."""
+    return f"{cycles.attrs['signal']}_most"
+
+
 def cycles_there(cycles: Dataset, place: float) -> list[CycleThere]:
     """All cycles at a value of the parameter, each between two points of its branch."""
     along = cycles.attrs["along"]
@@ -40,7 +45,7 @@ def cycles_there(cycles: Dataset, place: float) -> list[CycleThere]:
 def modulus_at(orbits: Dataset, place: float, most: float) -> float:
     """Modulus of the largest multiplier but 1, between the nearest orbit and the next."""
     away = orbits[orbits.attrs["along"]].values - place
-    nearest = int(np.hypot(away, orbits.v_most.values - most).argmin())
+    nearest = int(np.hypot(away, orbits[most_of(orbits)].values - most).argmin())
     moduli = np.hypot(orbits.multiplier_real[:, 0], orbits.multiplier_imaginary[:, 0]).values
     for other in (nearest - 1, nearest + 1):
         if 0 <= other < away.size and away[nearest] * away[other] < 0:
@@ -57,7 +62,7 @@ def branch_of(cycles: Dataset, number: int, along: str) -> tuple[np.ndarray, ...
     """
     orbits = cycles.isel(orbit=cycles.branch.values == number)
     points = cycles.isel(special=cycles.special_branch.values == number)
-    x, y = orbits[along].values, orbits.v_most.values
+    x, y = orbits[along].values, orbits[most_of(orbits)].values
     unstable = orbits.unstable.values
     if cycles.branch_ending.values[number - 1] == "closed":
         x, y, unstable = (np.append(values, values[0]) for values in (x, y, unstable))
@@ -70,7 +75,7 @@ def branch_of(cycles: Dataset, number: int, along: str) -> tuple[np.ndarray, ...
             & (unstable[1:] == int(here.special_unstable_behind))
         )
         if changes.size:
-            place = float(here[f"special_{along}"]), float(here.special_v_most)
+            place = float(here[f"special_{along}"]), float(here[f"special_{most_of(cycles)}"])
             away = np.hypot(
                 (x[changes] - place[0]) / np.ptp(x), (y[changes] - place[1]) / np.ptp(y)
             )

@@ -14,8 +14,9 @@ from scripts.drawing import parameters
 from scripts.drawing.along_parameter import mark_scenes, maxima_of
 from scripts.drawing.special_points import STYLES, in_words, words_of
 from scripts.drawing.style import FAINT, INK
-from scripts.drawing.wording import count, counted_at, place_in_words, short
-from scripts.studies.cycles.branches import branch_of
+from scripts.drawing.wording import count, counted_at, place_in_words, short, words_of_state
+from scripts.namelists.laws import is_of_block
+from scripts.studies.cycles.branches import branch_of, most_of
 
 HEIGHT = 1.7
 """Of a line, in inches."""
@@ -54,17 +55,21 @@ def draw(
     following = iter(sweeps)
     for i, (axes, line, on_line) in enumerate(zip(panels[:, 0], cycles, directions, strict=True)):
         along = line.attrs["along"]
-        axes.axhline(1, **SLIDING)
+        if is_of_block(line.attrs):
+            axes.axhline(1, **SLIDING)
         for direction in on_line:
             draw_sweep(axes, direction, next(following), along)
         draw_branches(axes, line, along)
         draw_points(axes, line, along)
         drawn |= {str(artist.get_label()): artist for artist in axes.lines}
-        abscissa = parameters.axis_of(along, line[along].attrs.get("long_name", ""))
-        axes.set(xlabel=abscissa, ylabel="maxima of $v$ (units of $v_0$)")
+        abscissa = parameters.axis_of(along, line[along].attrs.get("long_name", ""), line.attrs)
+        unit = " (units of $v_0$)" * is_of_block(line.attrs)
+        axes.set(xlabel=abscissa, ylabel=f"maxima of ${line.attrs['signal']}${unit}")
         # the names of scenes stand above the dots
         axes.margins(x=0.01, y=0.18)
-        axes.set_ylim(0, min(axes.get_ylim()[1], CUT * max(line.v_most.values, default=np.inf)))
+        axes.set_ylim(top=min(axes.get_ylim()[1], CUT * max(line[most_of(line)], default=np.inf)))
+        if is_of_block(line.attrs):
+            axes.set_ylim(bottom=0)
         mark_scenes(axes, scenes, line.attrs, along)
         words = f"{parameters.in_words(line.attrs, along)}: {count_in_words(line)}"
         axes.set_title(f"$\\bf{{{'abcdefgh'[i % 8]}}}$  {words}")
@@ -116,7 +121,7 @@ def draw_points(axes: Axes, cycles: xr.Dataset, along: str) -> None:
         if these.sizes["special"]:
             axes.plot(
                 these[f"special_{along}"],
-                these.special_v_most,
+                these[f"special_{most_of(cycles)}"],
                 ls="",
                 marker=marker,
                 ms=3.6,
@@ -126,7 +131,8 @@ def draw_points(axes: Axes, cycles: xr.Dataset, along: str) -> None:
                 label=in_words(kind),
                 zorder=5,
             )
-    if cycles.sizes["hopf"]:
+    # of the block they lie at v = 1
+    if cycles.sizes["hopf"] and is_of_block(cycles.attrs):
         places = cycles[f"hopf_{along}"]
         axes.plot(places, np.ones(places.size), clip_on=False, zorder=4, **HOPF)
 
@@ -160,11 +166,13 @@ def numbers(cycles: list[xr.Dataset]) -> dict:
                 "branches": line.sizes["branches"],
                 "points": [count(len(places), name) for name, places in at.items()],
                 "points_at": [counted_at(name, places) for name, places in at.items()],
+                "signal": line.attrs["signal"],
+                "state": words_of_state(line.attrs),
                 "hopf": [short(x, 4) for x in np.sort(line[f"hopf_{along}"].values)],
                 "stable": stable_stretches(line, along),
             }
         )
-    return {"lines": lines}
+    return {"lines": lines, "signal": cycles[0].attrs["signal"]}
 
 
 def stable_stretches(cycles: xr.Dataset, along: str) -> list[str]:

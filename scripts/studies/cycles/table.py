@@ -9,16 +9,15 @@ from scripts.files.outputs import logged
 from scripts.files.tsv import as_digits, read_table, write_table
 from scripts.namelists.laws import law_of
 from scripts.namelists.parameters import PARAMETERS
-from scripts.studies.cycles.branches import cycles_there
+from scripts.studies.cycles.branches import cycles_there, most_of
 from scripts.tables.attractor_tables import SAME_MAXIMUM
 from scripts.tables.motion_rows import UNDECIDED
 
-NUMBERS = [*PARAMETERS, "period", "v_most"]
-"""Columns with all digits."""
 ERRORS = ["multiplier_error", "mesh_error"]
 """Columns with two digits."""
 COLUMNS = [
-    *("of", "law", "branch", "origin", "kind", *NUMBERS, "angle", "resonance"),
+    *("of", "law", "branch", "origin", "kind", *PARAMETERS, "period", "v_most"),
+    *("angle", "resonance"),
     *("unstable_before", "unstable_behind", "criticality", "coefficient", "amplitude"),
     *("confirmed", *ERRORS, "coefficient_error"),
 ]
@@ -33,10 +32,6 @@ def rows_of(line: str, cycles: xr.Dataset, swept: list[dict]) -> list[dict]:
     """
     points = [cycles.isel(special=i) for i in range(cycles.sizes["special"])]
     rows = [{**row_of(point), "confirmed": confirmed(point, cycles, swept)} for point in points]
-    along = cycles.attrs["along"]
-    if along not in PARAMETERS:
-        for row, point in zip(rows, points, strict=True):
-            row[along] = as_digits(point[f"special_{along}"], 12)
     for i in range(cycles.sizes["cusp"]):
         cusp = place(cycles.isel(cusp=i), "cusp")
         rows.append({"kind": "cusp", **cusp, "confirmed": "not simulated"})
@@ -45,8 +40,11 @@ def rows_of(line: str, cycles: xr.Dataset, swept: list[dict]) -> list[dict]:
 
 def place(point: xr.Dataset, name: str) -> dict:
     """Where a point lies, with its error; its variables begin with `name`."""
+    axis = point.attrs["along"]
+    numbers = [*dict.fromkeys([*PARAMETERS, axis]), "period", most_of(point)]
+    known = [key for key in numbers if f"{name}_{key}" in point]
     return {
-        **{key: as_digits(point[f"{name}_{key}"], 12) for key in NUMBERS},
+        **{key: as_digits(point[f"{name}_{key}"], 12) for key in known},
         **{key: as_digits(point[f"{name}_{key}"], 2, zero=0) for key in ERRORS},
     }
 
@@ -75,7 +73,7 @@ def row_of(point: xr.Dataset) -> dict:
 def confirmed(point: xr.Dataset, cycles: xr.Dataset, swept: list[dict]) -> str:
     """Whether a sweep that follows the stable cycle up to the point leaves it there."""
     along = cycles.attrs["along"]
-    at, most = float(point[f"special_{along}"]), float(point.special_v_most)
+    at, most = float(point[f"special_{along}"]), float(point[f"special_{most_of(point)}"])
     places = sorted({row[along] for row in swept})
     beside = [x for x in places if x <= at][-1:] + [x for x in places if x > at][:1]
     stable_on_no_side = min(int(point.special_unstable_before), int(point.special_unstable_behind))
@@ -116,7 +114,7 @@ def sweeps_over(cycles: xr.Dataset, routes: list[dict]) -> list[dict]:
         row
         for row in routes
         if row["run"] in ("up", "down")
-        and all(row[key] == cycles.attrs[key] for key in fixed)
+        and all(row[key] == cycles.attrs[key] for key in fixed if key in cycles.attrs)
         and law_of(row) == law_of(cycles.attrs)
     ]
 

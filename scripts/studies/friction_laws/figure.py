@@ -40,7 +40,7 @@ def draw(table: list[dict], natural_fault: dict, laboratory: dict) -> Figure:
     for law, line in zip(laws, maps, strict=True):
         for (gamma, xi), axes in zip(planes, line, strict=True):
             here = shown[gamma, xi, law]
-            draw_classes(axes, here, "tau")
+            draw_classes(axes, here, ("epsilon", "tau"))
             draw_scenes(axes, table, law, (gamma, xi))
             chaotic = sum(row["class"] == "chaos" for row in here)
             words = f"{spoken(law)}\nchaos at {chaotic} of {len(here)}"

@@ -12,7 +12,8 @@ from scripts.drawing.hopf_plane import SCENE, SUBCRITICAL, draw_piece, mark_scen
 from scripts.drawing.parameters import axis_of, in_words, symbol_of
 from scripts.drawing.special_points import words_of
 from scripts.drawing.style import INK
-from scripts.drawing.wording import counted_at, place_in_words, short
+from scripts.drawing.wording import counted_at, place_in_words, short, words_of_state
+from scripts.tables.motion_rows import axes_of
 
 DARKEST = 0.3
 """How much darker than white the most unstable pairs are."""
@@ -25,7 +26,7 @@ MARKERS = {
 
 def draw(curves: xr.Dataset, scenes: dict[str, dict[str, float]]) -> Figure:
     """Curves by branch, solid where supercritical, over unstable pairs; scenes of this plane."""
-    ordinate = curves.attrs["ordinate"]
+    along = axes_of(curves.attrs)
     figure, axes = plt.subplots(figsize=(3.6, 4.6))
     axes.set(xlim=window_of(curves.map_abscissa.values), ylim=window_of(curves.map_ordinate.values))
     shades = shade(axes, curves)
@@ -34,16 +35,17 @@ def draw(curves: xr.Dataset, scenes: dict[str, dict[str, float]]) -> Figure:
         line = curves.isel(point=curves.piece.values == piece)
         branch = int(line.branch[0])
         colour = f"C{branch % 8}"
-        x, y = line.epsilon.values, line[ordinate].values
+        x, y = (line[key].values for key in along)
         draw_piece(axes, x, y, line.l1.values, colour)
         last = x.argmax() if x.max() > 0.99 * axes.get_xlim()[1] else y.argmax()
         ends.append((float(y[last]), float(x[last]), branch, colour))
     points = mark_special_points(axes, curves)
     label_branches(axes, ends)
-    mark_scenes(axes, scenes, ordinate)
-    axes.set_title(in_words(curves.attrs, "epsilon", ordinate), pad=14)
-    meaning = curves[ordinate].attrs.get("long_name", "")
-    axes.set(xlabel=axis_of("epsilon"), ylabel=axis_of(ordinate, meaning))
+    mark_scenes(axes, scenes, along)
+    axes.set_title(in_words(curves.attrs, *along), pad=14)
+    meanings = [curves[key].attrs.get("long_name", "") for key in along]
+    x, y = (axis_of(*each, curves.attrs) for each in zip(along, meanings, strict=True))
+    axes.set(xlabel=x, ylabel=y)
     kinds = {"supercritical": "-", "subcritical": SUBCRITICAL} if ends else {}
     handles = [Line2D([], [], color=INK, ls=ls, label=kind) for kind, ls in kinds.items()]
     marked = [Line2D([], [], label="scene", **SCENE)] if scenes else []
@@ -79,13 +81,13 @@ def mark_special_points(axes: Axes, curves: xr.Dataset) -> list[Line2D]:
     """Points where the kind of the bifurcation changes, and their names for the legend."""
     handles = []
     kinds = curves.special_kind.values.astype(str)
-    ordinate = curves[f"special_{curves.attrs['ordinate']}"].values
+    x, y = (curves[f"special_{key}"].values for key in axes_of(curves.attrs))
     for kind, (marker, name) in MARKERS.items():
         these = kinds == kind
         if not these.any():
             continue
         style = {"ls": "", "marker": marker, "color": INK, "mfc": "white", "ms": 4}
-        axes.plot(curves.special_epsilon.values[these], ordinate[these], clip_on=False, **style)
+        axes.plot(x[these], y[these], clip_on=False, **style)
         handles.append(Line2D([], [], label=name, **style))
     return handles
 
@@ -114,26 +116,27 @@ def label_branches(axes: Axes, ends: list[tuple[float, float, int, str]]) -> Non
 
 def numbers(curves: xr.Dataset, scenes: dict[str, dict]) -> dict:
     """Counts along the curves, the boundary of stability, special points, scenes in the plane."""
-    ordinate = curves.attrs["ordinate"]
+    along = axes_of(curves.attrs)
     boundary = curves.isel(point=curves.unstable_pairs.values == 0)
     kinds = words_of(curves.special_kind)
-    epsilons = curves.special_epsilon.values.tolist()
-    ordinates = curves[f"special_{ordinate}"].values.tolist()
-    points = sorted(zip(kinds, epsilons, ordinates, strict=True))
+    places = (curves[f"special_{key}"].values.tolist() for key in along)
+    points = sorted(zip(kinds, *places, strict=True))
     places = {
         kind: [f"({short(x)}, {short(y)})" for its_kind, x, y in points if its_kind == kind]
         for kind in MARKERS
     }
     return {
-        "place": place_in_words(curves.attrs, "epsilon", ordinate),
-        "ordinate": f":math:`{symbol_of(ordinate)}`",
+        "place": place_in_words(curves.attrs, *along),
+        "state": words_of_state(curves.attrs),
+        "abscissa": f":math:`{symbol_of(along[0])}`",
+        "ordinate": f":math:`{symbol_of(along[1])}`",
         "branches": np.unique(curves.branch).size,
         "points": curves.sizes["point"],
         "subcritical": int((curves.l1 > 0).sum()),
         "stabilising": int((curves.crossing < 0).sum()),
         "stable": short(100 * float((curves.map_unstable_pairs == 0).mean()), 3),
-        "boundary": ends_of(boundary.epsilon),
-        "ordinates": ends_of(boundary[ordinate]),
+        "boundary": ends_of(boundary[along[0]]),
+        "ordinates": ends_of(boundary[along[1]]),
         "without_delay": [x for kind, x, _ in points if kind == "hopf_without_delay"],
         "generalised": len(places["generalised_hopf"]),
         "double": len(places["double_hopf"]),

@@ -31,20 +31,18 @@ def rows_of(plane: str, curves: xr.Dataset) -> list[dict]:
     """The special points of one plane; a row has the columns that its kind of points fills."""
     points = [curves.isel(special=i) for i in range(curves.sizes["special"])]
     fixed = {key: as_digits(curves.attrs[key]) for key in AXES_FIRST if key in curves.attrs}
-    law, ordinate = law_of(curves.attrs), curves.attrs["ordinate"]
     return [
-        {"of": plane, "law": law, **row_of(point), **fixed}
-        | {ordinate: as_digits(point[f"special_{ordinate}"])}
+        {"of": plane, "law": law_of(curves.attrs), **row_of(point, curves), **fixed}
         for point in points
     ]
 
 
-def row_of(point: xr.Dataset) -> dict:
+def row_of(point: xr.Dataset, curves: xr.Dataset) -> dict:
     """One special point: its place, the pairs on the axis, the normal form, curves that start."""
-    kind = str(point.special_kind.values)
+    kind, names = str(point.special_kind.values), curves.attrs["parameters"].split()
     row = {
         "kind": kind,
-        **{key: as_digits(point[f"special_{key}"]) for key in ("epsilon", "tau", "xi")},
+        **{key: as_digits(point[f"special_{key}"]) for key in names if f"special_{key}" in point},
         "unstable_pairs": int(point.special_unstable_pairs),
         **{key: as_digits(point[f"special_{key}"], 6) for key in COEFFICIENTS.get(kind, [])},
         "unfolding": str(point.special_unfolding.values),
@@ -57,9 +55,10 @@ def row_of(point: xr.Dataset) -> dict:
         for key in (f"criticality_{i}", f"torus_{i}"):
             row[key] = str(point[f"special_{key}"].values)
     for i in CURVES.get(kind, []):
-        # the parameter that is fixed in the plane has no direction
-        for key in (f"start_epsilon_{i}", f"start_tau_{i}", f"start_xi_{i}"):
-            row[key] = as_digits(point.get(f"special_{key}", 0.0), 6)
+        # parameters that are fixed in the plane have no direction
+        for key in (f"start_{name}_{i}" for name in names):
+            if f"special_{key}" in point:
+                row[key] = as_digits(point[f"special_{key}"], 6)
         if kind == "double_hopf":
             row[f"angle_{i}"] = as_digits(point[f"special_angle_{i}"])
     return row
@@ -67,7 +66,8 @@ def row_of(point: xr.Dataset) -> dict:
 
 def death_rows_of(scene: str, stability: xr.Dataset) -> list[dict]:
     """Ends of the intervals of the delay in which a scene unstable without delay is stable."""
-    known = {key: as_digits(stability.attrs[key]) for key in ("epsilon", "xi", "gamma")}
+    keys = [key for key in AXES_FIRST if key != "tau" and key in stability.attrs]
+    known = {key: as_digits(stability.attrs[key]) for key in keys}
     rows = []
     for ends in amplitude_death(stability):
         for kind, tau in zip(("begin", "end"), ends, strict=True):

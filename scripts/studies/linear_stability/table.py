@@ -20,14 +20,13 @@ def row_of(scene: str, stability: xr.Dataset) -> dict:
     known = stability.attrs
     return {
         "scene": scene,
-        **{key: float(known[key]) for key in PARAMETERS},
+        **{key: float(known[key]) for key in PARAMETERS if key in known},
         "law": law_of(known),
         "unstable_pairs": int(known["unstable_pairs"]),
         "root_bound": float(known["root_bound"]),
         "roots_above_bound": stability.sizes["root"],
         "leading_roots": leading_roots(stability),
-        "tau_of_changes": changes(stability, "tau"),
-        "epsilon_of_changes": changes(stability, "epsilon"),
+        **{f"{key}_of_changes": changes(stability, key) for key in ("tau", "epsilon")},
         "amplitude_death": "; ".join(
             f"{begin:.12g} to {end:.12g}" for begin, end in amplitude_death(stability)
         ),
@@ -46,7 +45,12 @@ def leading_roots(stability: xr.Dataset) -> str:
 
 
 def changes(stability: xr.Dataset, parameter: str) -> str:
-    """Where a pair crosses the axis, with the number of unstable pairs before and after."""
+    """Where a pair crosses the axis, with the number of unstable pairs before and after.
+
+    Of a user's model it is not looked for.
+    """
+    if f"{parameter}_of_change" not in stability:
+        return ""
     return "; ".join(
         f"{place:.12g} ({before} -> {after})"
         for place, before, after in zip(

@@ -5,7 +5,7 @@ from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
 from scripts.drawing import parameters
-from scripts.drawing.trajectories import draw_portrait, draw_velocity, end_in_words, title_columns
+from scripts.drawing.trajectories import draw_portrait, draw_signal, end_in_words, title_columns
 from scripts.tables.motion_rows import class_in_words, own_rows
 
 COLUMNS = ("from the start", "at the end", "phase portrait")
@@ -26,8 +26,8 @@ def draw(trajectories: list[xr.Dataset], table: list[dict], settings: dict) -> F
     ):
         left, middle, right = panels
         last = float(trajectory.t[-1])
-        envelope = draw_velocity(left, trajectory, 0.0, min(row["time_shown"], last))
-        draw_velocity(middle, trajectory, max(0.0, last - settings["end_shown"]), last)
+        envelope = draw_signal(left, trajectory, 0.0, min(row["time_shown"], last))
+        draw_signal(middle, trajectory, max(0.0, last - settings["end_shown"]), last)
         draw_portrait(right, trajectory, settings["attractor_shown"])
         middle.sharey(left)
         middle.set(ylabel="")

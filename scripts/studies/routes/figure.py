@@ -14,6 +14,7 @@ from scripts.drawing.along_parameter import mark_scenes, maxima_of
 from scripts.drawing.class_map import draw_strips, legend_of
 from scripts.drawing.style import FAINT
 from scripts.drawing.wording import joined, place_in_words, short
+from scripts.namelists.laws import is_of_block
 from scripts.tables.attractor_tables import same_attractor
 from scripts.tables.motion_rows import UNDECIDED, count_in_words, has_problem, parameter_of
 
@@ -53,7 +54,8 @@ def draw(tables: list[list[dict]], runs: list[xr.Dataset], scenes: dict[str, dic
             draw_exponent(below, of_run, along, style)
         draw_strips(middle, by_run, along)
         meaning = data[along].attrs.get("long_name", "") if along in data else ""
-        label(above, middle, below, parameters.axis_of(along, meaning))
+        label(above, middle, below, parameters.axis_of(along, meaning, rows[0]))
+        above.set_ylabel(f"maxima of ${data.attrs['signal']}$")
         mark_scenes(above, scenes, rows[0], along)
         words = f"{parameters.in_words(rows[0], along)}: {count_in_words(rows)}"
         letter = f"$\\bf{{{'abcdefgh'[i % 8]}}}$  " if len(tables) > 1 else ""
@@ -87,21 +89,21 @@ def label(above: Axes, strips: Axes, below: Axes, abscissa: str) -> None:
     for side in ("left", "bottom"):
         strips.spines[side].set_visible(False)
     lowest, highest = above.dataLim.y0, above.dataLim.y1
-    if highest > LOGARITHMIC * lowest:
+    if 0 < LOGARITHMIC * lowest < highest:
         above.set_yscale("log")
         above.set_ylim(lowest / 1.5, highest * (highest / lowest) ** ROOM)
-    else:
+    elif lowest >= 0 or not np.isfinite(highest):
         above.set_ylim(0, (1 + ROOM) * highest if np.isfinite(highest) else None)
-    above.set_ylabel("maxima of $v$")
     below.axhline(0, color=FAINT, lw=0.6, zorder=0)
     below.set(xlabel=abscissa, ylabel="exponent\n$\\lambda_1$")
 
 
 def draw_maxima(axes: Axes, run: xr.Dataset, rows: list[dict], along: str, style: dict) -> None:
-    """A dot for each maximum kept, and at v = 1 for a fixed point, whose maxima are transient."""
+    """A dot for each maximum kept, and at v = 1 for steady sliding, whose maxima are transient."""
     there = np.array([row["class"] != "fixed point" for row in rows])
     places, maxima = maxima_of(run.isel(point=there), along)
-    rest = [row[along] for row in rows if row["class"] == "fixed point"]
+    rests = [row for row in rows if row["class"] == "fixed point" and is_of_block(row)]
+    rest = [row[along] for row in rests]
     axes.plot(
         np.append(places, rest),
         np.append(maxima, np.ones(len(rest))),
@@ -117,14 +119,14 @@ def draw_exponent(axes: Axes, rows: list[dict], along: str, style: dict) -> None
     axes.errorbar(*([row[key] for row in rows] for key in keys), fmt="o", lw=0.5, **style)
 
 
-def numbers(tables: list[list[dict]]) -> dict:
+def numbers(tables: list[list[dict]], runs: list[xr.Dataset]) -> dict:
     """Where each class first appears along each route, run by run, and where runs differ."""
     routes = []
     for letter, rows in zip(ascii_lowercase, tables, strict=False):
         along = parameter_of(rows)
-        runs: dict[str, list[str]] = {}
+        alike: dict[str, list[str]] = {}
         for run, of_run in rows_by_run(rows).items():
-            runs.setdefault(first_appearances(of_run, along), []).append(run)
+            alike.setdefault(first_appearances(of_run, along), []).append(run)
         places: dict[float, list[dict]] = {}
         for row in rows:
             places.setdefault(row[along], []).append(row)
@@ -135,7 +137,7 @@ def numbers(tables: list[list[dict]]) -> dict:
                 "place": place_in_words(rows[0], along),
                 "runs": [
                     {"names": f"run{'s' * (len(names) > 1)} {joined(names)}", "first": first}
-                    for first, names in runs.items()
+                    for first, names in alike.items()
                 ],
                 "parted": [
                     short(place, 4)
@@ -148,7 +150,8 @@ def numbers(tables: list[list[dict]]) -> dict:
                 ],
             }
         )
-    return {"routes": routes, "points": sum(map(len, tables))}
+    signals = dict.fromkeys(run.attrs["signal"] for run in runs)
+    return {"routes": routes, "points": sum(map(len, tables)), "signals": list(signals)}
 
 
 def first_appearances(rows: list[dict], along: str) -> str:

@@ -18,11 +18,19 @@ from scripts.drawing.style import FAINT
 from scripts.drawing.trajectories import (
     MOST_MISSED,
     draw_portrait,
-    draw_velocity,
+    draw_signal,
     end_in_words,
     share_missed,
+    signal_of,
 )
-from scripts.drawing.wording import as_formulas, place_in_words, short, with_error
+from scripts.drawing.wording import (
+    as_formulas,
+    place_in_words,
+    short,
+    with_error,
+    words_of_state,
+)
+from scripts.namelists.laws import is_of_block
 from scripts.tables.attractor_tables import SAME_MAXIMUM, rows_of
 from scripts.tables.exponent_signs import SIGNS, count_in_words
 from scripts.tables.motion_rows import UNDECIDED, class_in_words, has_problem, kind_of
@@ -70,11 +78,11 @@ def draw(
     row = rows_of(attractors)[0]
     powers = below.subplots()
     last = float(trajectory.t[-1])
-    envelope = draw_velocity(start, trajectory, 0.0, last)
+    envelope = draw_signal(start, trajectory, 0.0, last)
     # as lines, long runs would make the page slow
     for line in start.lines:
         line.set_rasterized(True)
-    draw_velocity(end, trajectory, max(0.0, last - end_shown(row, last)), last)
+    draw_signal(end, trajectory, max(0.0, last - end_shown(row, last)), last)
     end.set(ylabel="")
     draw_portrait(portrait, trajectory, ATTRACTOR)
     draw_section(section, attractors, row)
@@ -100,7 +108,7 @@ def draw(
     name = trajectory.attrs["scene"].replace("_", " ")
     above.suptitle(
         f"scene {name} ({parameters.in_words(trajectory.attrs)}): {class_and_signs(row)}\n"
-        f"steady sliding: {roots_in_words(roots)}",
+        f"{words_of_state(row)}: {roots_in_words(roots)}",
         fontsize=8,
     )
     return figure
@@ -117,8 +125,12 @@ def unsettled(trajectory: xr.Dataset, row: dict) -> str:
     end = float(trajectory.t[-1])
     start = max(trajectory.attrs["t_transient"], end - ATTRACTOR)
     cycle, rest = row["class"] == "cycle", row["class"] == "fixed point"
-    shown = trajectory.v.sel(t=slice(start, min(end, start + 1 / row["f1"]) if cycle else end))
+    shown = signal_of(trajectory).sel(
+        t=slice(start, min(end, start + 1 / row["f1"]) if cycle else end)
+    )
     largest, most = float(shown.max()), 1.0 if rest else row["largest_maximum"]
+    if min(largest, most) <= 0 or (rest and not is_of_block(row)):
+        return ""
     factor = 1 + SAME_MAXIMUM if cycle or rest else MOST_MISSING
     return short(largest) if abs(math.log(largest / most)) > math.log(factor) else ""
 
@@ -127,7 +139,7 @@ def spectrum_in_words(spectrum: xr.Dataset, row: dict) -> str:
     """What the spectrum shows, if it is resolved: the class rests on longer runs."""
     kind, motion = spectrum.attrs["spectrum_kind"], row["class"]
     if motion == "fixed point":
-        return "what is left of the approach to steady sliding"
+        return f"what is left of the approach to {words_of_state(row)}"
     wide = LINES * float(spectrum.frequency[1]) * row["recurrence_time"] > 1
     unlike = kind not in ("undecided", SPECTRA.get(motion, kind))
     return "not resolved, the run is too short" if wide or unlike else lines_in_words(spectrum)
@@ -148,7 +160,8 @@ def frequency_shown(spectrum: xr.Dataset) -> float:
 def draw_section(axes: Axes, attractors: xr.Dataset, row: dict) -> None:
     """Points where v rises through 1, from the scene's own history; of a cycle its last period."""
     own = attractors.isel(point=0)
-    theta, u = own.section_theta.values, own.section_u.values
+    names = [str(name) for name in own.data_vars if str(name).startswith("section_")]
+    theta, u = (own[name].values for name in names)
     there = np.flatnonzero(np.isfinite(theta) & np.isfinite(u) & ((theta != 0) | (u != 0)))
     if row["class"] == "cycle" and row["period"] > 0:
         there = there[-int(row["period"]) :]
@@ -159,7 +172,23 @@ def draw_section(axes: Axes, attractors: xr.Dataset, row: dict) -> None:
     else:
         axes.set(xticks=[], yticks=[])
         axes.text(0.5, 0.5, "none", transform=axes.transAxes, ha="center", va="center")
-    axes.set(xlabel=r"$\theta$ where $v$ rises through 1", ylabel="$u$ there")
+    x, y = (coordinate_in_words(name) for name in names)
+    if is_of_block(row):
+        x, y = f"{x} where $v$ rises through 1", f"{y} there"
+    axes.set(xlabel=x, ylabel=y)
+
+
+def coordinate_in_words(name: str) -> str:
+    """A coordinate of the section: a state, or the time and the peak since the point before."""
+    words = {"section_time": "time between", "section_peak": "peak between"}
+    return words.get(name, f"${parameters.symbol_of(name.removeprefix('section_'))}$")
+
+
+def section_in_words(attractors: xr.Dataset) -> str:
+    """What the section shows, for the caption."""
+    names = [str(name) for name in attractors.data_vars if str(name).startswith("section_")]
+    words = as_formulas(" and ".join(map(coordinate_in_words, names)))
+    return words.replace("between", "from point to point")
 
 
 def widen(set_limits, values: np.ndarray) -> None:
@@ -187,7 +216,7 @@ def draw_spectrum(axes: Axes, spectrum: xr.Dataset) -> None:
     shown = spectrum.sel(frequency=slice(spectrum.frequency[1], end))
     top = float(shown.power.max())
     axes.set(xlim=(0, end), xlabel="frequency (cycles per unit of time)")
-    axes.set_ylabel("power spectral\ndensity of $v$")
+    axes.set_ylabel(f"power spectral\ndensity of ${spectrum.attrs['signal']}$")
     if top > 0:
         axes.semilogy(shown.frequency, shown.power, color="C0", lw=0.7)
         axes.set_ylim(max(0.3 * float(shown.power.min()), 3e-11 * top), 100 * top)
@@ -217,7 +246,7 @@ def numbers(
     """Class, end of v, exponents, spectrum and the roots of steady sliding."""
     row = rows_of(attractors)[0]
     last = float(trajectory.t[-1])
-    v = trajectory.v.sel(t=slice(max(0.0, last - end_shown(row, last)), None))
+    v = signal_of(trajectory).sel(t=slice(max(0.0, last - end_shown(row, last)), None))
     order = range(1, attractors.sizes["exponent"] + 1)
     exponents = [with_error(row[f"exponent_{i}"], row[f"error_{i}"]) for i in order]
     missed = share_missed(trajectory)
@@ -230,6 +259,9 @@ def numbers(
         "exponents": [value for value in exponents if value != "not measured"],
         "lines": as_formulas(spectrum_in_words(spectrum, row)),
         "roots": as_formulas(roots_in_words(roots)),
+        "state": words_of_state(row),
+        "signal": v.name,
+        "section": section_in_words(attractors),
         "si": trajectory.attrs["scene"] if si else "",
     }
 

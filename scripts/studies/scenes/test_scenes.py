@@ -8,7 +8,7 @@ import xarray as xr
 from made_up_results import attractor_row, spectrum
 from matplotlib import pyplot as plt
 
-from scripts.drawing.trajectories import draw_velocity
+from scripts.drawing.trajectories import draw_signal
 from scripts.studies.scenes import figure as scene
 from scripts.tables.attractor_tables import SAME_MAXIMUM
 
@@ -77,10 +77,10 @@ def test_axis_of_velocity_shows_steady_sliding(largest, scale):
     """Logarithmic where v = 1 could not be told from a stuck block; the end shows events."""
     figure, axes = plt.subplots()
     run = run_with(largest)
-    assert not draw_velocity(axes, run, 0.0, 300.0)
+    assert not draw_signal(axes, run, 0.0, 300.0)
     assert axes.get_yscale() == scale
     dense = run_with(largest, count=200)
-    assert draw_velocity(axes, dense, 0.0, 2000.0)
+    assert draw_signal(axes, dense, 0.0, 2000.0)
     plt.close(figure)
     assert scene.end_shown(row_of("cycle"), 300.0) >= 100.0
 

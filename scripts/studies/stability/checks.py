@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from scripts.config.checks import check_reference, wrong
+from scripts.namelists.laws import is_law
 from scripts.studies.stability.cases import cases_of_family, number_of_cases
 
 MOST_CASES = 1000
@@ -33,6 +34,8 @@ def check_family(config: dict, name: str, family: dict) -> Iterator[str]:
             f"{place}: case '{longest}' of {len(longest)} letters; expected at most {LONGEST_NAME}"
             " (shorten the family's name)"
         )
-    if family["reference"] == "stationary" and family["t_end"] < LONG:
+    if family["reference"] == "stationary" and not is_law(config, family["law"]):
+        yield wrong(place, family, "reference", "quadruple or none with a model of one's own")
+    elif family["reference"] == "stationary" and family["t_end"] < LONG:
         expected = f"a finite number >= {LONG} where the reference is the stationary state"
         yield wrong(place, family, "t_end", expected)

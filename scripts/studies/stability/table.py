@@ -5,7 +5,7 @@ import numpy as np
 from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
 from scripts.namelists.laws import law_of
-from scripts.namelists.parameters import HISTORY, PARAMETERS
+from scripts.namelists.parameters import PARAMETERS
 from scripts.tables.accuracy import (
     Reference,
     distances,
@@ -41,14 +41,14 @@ def row_of(family: str, kind: str, run: dict, reference: Reference | None) -> di
         "case": run["case"],
         "family": family,
         "law": law_of(run),
-        **{name: run[name] for name in (*PARAMETERS, *(f"history_{key}" for key in HISTORY))},
+        **{name: run[name] for name in run if name in PARAMETERS or name.startswith("history_")},
         **{name: run[name] for name in ("t_end", "method")},
         "tolerance": run["setting"],
         "status": run["status"],
         "t_reached": run["t_reached"],
         "steps": run["steps_accepted"],
         "rejections": run["steps_rejected"],
-        **{name: run[name] for name in ("evaluations", "switches", "least_ln_v", "most_ln_v")},
+        **{name: run[name] for name in ("evaluations", "switches", "least", "most")},
         "error": error,
         "reference": WORDS[kind],
         "reference_status": status,

@@ -12,7 +12,7 @@ from scipy.signal import periodogram
 from scripts.drawing import parameters
 from scripts.drawing.spectra import label_peaks, lines_in_words, peaks_in_words
 from scripts.drawing.style import FAINT
-from scripts.drawing.trajectories import draw_velocity
+from scripts.drawing.trajectories import draw_signal
 from scripts.drawing.wording import count, short, with_error
 from scripts.tables.motion_rows import class_in_words, own_rows
 
@@ -50,7 +50,7 @@ def draw(
     ):
         velocity, spectrum = panels[2 * i : 2 * i + 2]
         last = float(trajectory.t[-1])
-        draw_velocity(velocity, trajectory, max(0.0, last - settings["end_shown"]), last)
+        draw_signal(velocity, trajectory, max(0.0, last - settings["end_shown"]), last)
         place = parameters.in_words(trajectory.attrs)
         velocity.set_title(f"$\\bf{{{label}}}$  {title_of(known[shown['scene']], place)}")
         draw_spectrum(spectrum, powers, settings["frequency_shown"])

@@ -6,7 +6,6 @@ module dde
    use dde_integrator, only: integrate
    use dde_jacobian, only: find_jacobian
    use dde_kinds, only: wp
-   use dde_methods, only: memory_needed
    use dde_outcome, only: event_met, integration_result, out_of_memory, reached_end, refused, &
                           step_underflow, too_many_steps, value_not_finite
    use dde_problem, only: dde_problem_type
@@ -22,7 +21,7 @@ module dde
    public :: continuation_type
    public :: event_table, event_watcher_type
    public :: sampler_type, table_sampler
-   public :: integrate, integration_options, integration_result, memory_needed, methods
+   public :: integrate, integration_options, integration_result, methods
    public :: event_met, out_of_memory, reached_end, refused, step_underflow, too_many_steps
    public :: value_not_finite
 end module dde

@@ -11,7 +11,7 @@ module dde_request
    use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: causes, check, check_problem, implicit_methods, integration_options, methods
+   public :: causes, check, implicit_methods, integration_options, methods
 
    !> Methods. `taylor` is for problems that give their series. `auto` changes between it (the
    !> explicit pair for other problems) and an implicit method.

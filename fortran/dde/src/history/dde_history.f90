@@ -12,7 +12,7 @@ module dde_history
    use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: history_type, kept_components, memory_of_past
+   public :: history_type, memory_of_past
 
    !> Slots of a new ring. It is a power of two, as are its doubles.
    integer, parameter :: first_capacity = 64
@@ -78,10 +78,13 @@ contains
       type(instant), intent(in) :: origin
       type(history_type) :: past
       integer, allocatable :: row_of(:)
+      logical, allocatable :: delayed(:)
       integer :: i, k
 
       past%origin = origin
-      past%kept = kept_components(problem)
+      allocate (delayed(problem%n), source=.false.)
+      delayed(problem%component) = .true.
+      past%kept = pack([(i, i=1, problem%n)], delayed)
       allocate (row_of(problem%n))
       row_of(past%kept) = [(i, i=1, size(past%kept))]
       past%row = [(row_of(problem%component(k)), k=1, size(problem%lag))]
@@ -91,19 +94,6 @@ contains
       allocate (past%nodes(highest_degree, first_capacity))
       allocate (past%place(first_capacity), past%stored(first_capacity))
    end function new_history
-
-   !> The delayed components, ascending, each once.
-   pure function kept_components(problem) result(kept)
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      integer, allocatable :: kept(:)
-      logical, allocatable :: delayed(:)
-      integer :: i
-
-      allocate (delayed(problem%n), source=.false.)
-      delayed(problem%component) = .true.
-      kept = pack([(i, i=1, problem%n)], delayed)
-   end function kept_components
 
    !> Slot of step number `step`.
    pure integer function slot_of(self, step) result(slot)

@@ -1,14 +1,11 @@
 !> The methods: how a step of each is made, how one follows another, and how long steps may be.
 module dde_methods
-   use dde_errors, only: error_type
    use dde_explicit_step, only: explicit_step_type
    use dde_implicit_step, only: implicit_cost, implicit_step_type, stages_of
-   use dde_history, only: kept_components, memory_of_past
-   use dde_interpolant, only: highest_degree, usual_degree
+   use dde_interpolant, only: highest_degree
    use dde_memory, only: bytes_of, lacks
-   use dde_orders, only: explicit_method, radau_method, taylor_degree
+   use dde_orders, only: explicit_method, radau_method
    use dde_problem, only: dde_problem_type
-   use dde_request, only: check_problem, implicit_methods, integration_options
    use dde_step, only: step_type
    use dde_switch, only: least_trial
    use dde_taylor_step, only: taylor_step_type
@@ -16,8 +13,7 @@ module dde_methods
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: choose_method, longest_step, matching_method, memory_needed, memory_of_state
-   public :: price_of_trial
+   public :: choose_method, longest_step, matching_method, memory_of_state, price_of_trial
 
    !> Iterations of a usual implicit step.
    integer, parameter :: usual_iterations = 3
@@ -38,36 +34,6 @@ contains
       if (problem%lower >= 0) columns = min(problem%n, 1 + problem%lower + problem%upper)
       price = implicit_cost*(columns + least_trial*(usual_iterations*stages + 2))
    end function price_of_trial
-
-   !> Bytes that a run needs for its state, its method and the least number of steps that the
-   !> longest delay holds. `auto` is counted as its explicit method. Huge for a refused problem.
-   pure real(wp) function memory_needed(problem, options) result(bytes)
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> Method and tolerances
-      type(integration_options), intent(in) :: options
-      type(error_type), allocatable :: error
-      type(tolerance_type) :: tolerance
-      character(len=8) :: name
-      integer :: degree, steps
-
-      bytes = huge(bytes)
-      call check_problem(problem, error)
-      if (allocated(error)) return
-      tolerance = tolerance_type(problem%n, options%relative, options%absolute, &
-                                 options%each_relative, options%each_absolute)
-      name = name_of(problem, options%method, tolerance)
-      degree = usual_degree
-      if (name == "taylor") degree = taylor_degree(tolerance%level)
-      bytes = memory_of_state(problem) + memory_of(problem, name)
-      if (.not. allocated(problem%lag)) return
-      if (size(problem%lag) == 0) return
-      steps = 1
-      if (all(name /= implicit_methods)) then
-         steps = ceiling(min(maxval(problem%lag)/minval(problem%lag), 0.5_wp*huge(1)))
-      end if
-      bytes = bytes + memory_of_past(steps, steps, size(kept_components(problem)), degree)
-   end function memory_needed
 
    !> Bytes of the state and its tolerances.
    pure real(wp) function memory_of_state(problem) result(bytes)

@@ -28,8 +28,7 @@ contains
 
       testsuite = [new_unittest("samples", test_samples), &
                    new_unittest("samples that follow the steps", test_following), &
-                   new_unittest("breaking points of one delay", test_one_delay), &
-                   new_unittest("breaking points of two delays", test_two_delays), &
+                   new_unittest("breaking points", test_points), &
                    new_unittest("kinks are landed on", test_landing), &
                    new_unittest("first and longest step", test_steps), &
                    new_unittest("first step chosen", test_first_step), &
@@ -88,8 +87,11 @@ contains
    end subroutine append_sample
 
    !> A method of order 8 needs a continuous eighth derivative: a kink is landed on 7 times, a jump
-   !> 8 times, as far as the multiples of the delay lie before the end.
-   subroutine test_one_delay(error)
+   !> 8 times, as far as the multiples of the delay lie before the end. Two delays are counted by
+   !> hand. Delays 1 and 0.2 to t = 2.1: 0.2, 0.4, .. 2.0, where many sums meet. Delays 1 and 0.1 to
+   !> t = 1.85: 0.1 .. 0.7, 1.0 .. 1.6, for 0.8 and 1.7 are sums of eight. Delays 1 and sqrt 2 to
+   !> t = 4.5: 4, 4, 2 and 1 with 0, 1, 2 and 3 times the root.
+   subroutine test_points(error)
       type(error_type), allocatable, intent(out) :: error
 
       call expect_points(error, linear(), 30.0_wp, 7)
@@ -100,18 +102,10 @@ contains
       call expect_points(error, linear(), 1.0_wp, 0)
       call expect_points(error, linear(past=[0.0_wp]), 8.5_wp, 8)
       call expect_points(error, linear(), 8.5_wp, 7)
-   end subroutine test_one_delay
-
-   !> Two delays, counted by hand. Delays 1 and 0.2 to t = 2.1: 0.2, 0.4, .. 2.0, where many sums
-   !> meet. Delays 1 and 0.1 to t = 1.85: 0.1 .. 0.7, 1.0 .. 1.6, for 0.8 and 1.7 are sums of eight.
-   !> Delays 1 and sqrt 2 to t = 4.5: 4, 4, 2 and 1 with 0, 1, 2 and 3 times the root.
-   subroutine test_two_delays(error)
-      type(error_type), allocatable, intent(out) :: error
-
       call expect_points(error, wille_baker(), 2.1_wp, 10)
       call expect_points(error, wille_baker(lag=[1.0_wp, 0.1_wp]), 1.85_wp, 14)
       call expect_points(error, wille_baker(lag=[1.0_wp, sqrt(2.0_wp)]), 4.5_wp, 11)
-   end subroutine test_two_delays
+   end subroutine test_points
 
    !> Where all kinks are landed on, piecewise polynomials up to degree 7 come out exact at any
    !> tolerance: with one delay and with two.

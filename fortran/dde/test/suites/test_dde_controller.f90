@@ -25,12 +25,12 @@ contains
 
       testsuite = [new_unittest("bounds", test_bounds), &
                    new_unittest("no growth after a rejection", test_after_rejection), &
-                   new_unittest("an error without a number", test_not_finite), &
                    new_unittest("a near-jump", test_jump), &
                    new_unittest("closed loop", test_closed_loop)]
    end subroutine collect_dde_controller
 
    !> However small or large an error, steps grow at most sixfold and shrink at most to a third.
+   !> Where there was no value at all, the next try is much shorter.
    subroutine test_bounds(error)
       type(error_type), allocatable, intent(out) :: error
 
@@ -43,6 +43,8 @@ contains
                           "ratio after an error that just fails")
       call expect_close(error, ratio_rejected(1.0e30_wp), 1.0_wp/3.0_wp, 1.0e-14_wp, &
                         "ratio after a huge error")
+      call expect_between(error, ratio_rejected(ieee_value(1.0_wp, ieee_quiet_nan)), 0.01_wp, &
+                          0.2_wp, "ratio without a value")
    end subroutine test_bounds
 
    !> The step that follows a rejection does not grow, the one after that may.
@@ -59,14 +61,6 @@ contains
       call control%accept(method, safety, h, 1.0e-20_wp)
       call expect(error, h > h_accepted, "the step after that grows")
    end subroutine test_after_rejection
-
-   !> Where there was no value at all, the next try is much shorter.
-   subroutine test_not_finite(error)
-      type(error_type), allocatable, intent(out) :: error
-
-      call expect_between(error, ratio_rejected(ieee_value(1.0_wp, ieee_quiet_nan)), 0.01_wp, &
-                          0.2_wp, "ratio")
-   end subroutine test_not_finite
 
    !> A near-jump in the past makes the error fall as a low power of the step: few rejections find
    !> the step, and one that is not much too short.

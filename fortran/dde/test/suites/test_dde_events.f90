@@ -46,16 +46,14 @@ contains
    subroutine collect_dde_events(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("directions", test_directions), &
+      testsuite = [new_unittest("passages and maxima", test_passages), &
                    new_unittest("an event that ends the run", test_terminal), &
-                   new_unittest("maxima", test_maxima), &
                    new_unittest("two passages in one step", test_pair), &
                    new_unittest("order of several functions", test_order), &
                    new_unittest("thousands of events in one step", test_thousands), &
                    new_unittest("a zero where steps meet", test_zero_at_step_end), &
                    new_unittest("a fast function of time", test_fast), &
                    new_unittest("steps without events are not searched", test_bounds), &
-                   new_unittest("the state of an event is whole", test_whole), &
                    new_unittest("an event costs its own components", test_frugal), &
                    new_unittest("within a spacing of t", test_within_spacing), &
                    new_unittest("a slope that jumps", test_jump), &
@@ -63,76 +61,81 @@ contains
    end subroutine collect_dde_events
 
    !> sin t = 1/2 at pi/6, 5 pi/6 and 13 pi/6: rising, falling, both. sin t = 0 at t = 0 is no
-   !> event, pi and 2 pi are.
-   subroutine test_directions(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(event_table) :: table
-      type(integration_result) :: outcome
-      integer :: i
-
-      do i = 1, size(methods)
-         table = event_table([1, 1, 1, 1], [0.5_wp, 0.5_wp, 0.5_wp, 0.0_wp], [1, -1, 0, 0])
-         call run(error, sine(), 0.0_wp, 8.0_wp, at_tolerance(1.0e-12_wp, methods(i)), outcome, &
-                  watcher=table)
-         call expect(error, outcome%reason == reached_end, "the run goes to its end")
-         call expect_close(error, times_of(table, 1), [pi/6, 13*pi/6], 1.0e-10_wp, &
-                           trim(methods(i))//", rising")
-         call expect_close(error, times_of(table, 2), [5*pi/6], 1.0e-10_wp, &
-                           trim(methods(i))//", falling")
-         call expect_close(error, times_of(table, 3), [pi/6, 5*pi/6, 13*pi/6], 1.0e-10_wp, &
-                           trim(methods(i))//", both")
-         call expect_close(error, times_of(table, 4), [pi, 2*pi], 1.0e-10_wp, &
-                           trim(methods(i))//", zeros")
-         call expect_close(error, table%y(1, :table%received), &
-                           table%level(table%which(:table%received)), 1.0e-14_wp, "y")
-      end do
-   end subroutine test_directions
-
-   !> The second event, 5 pi/6, ends the run: state, time and samples stop there.
-   subroutine test_terminal(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(event_table) :: table
-      type(integration_result) :: outcome
-      type(table_sampler) :: samples
-      integer :: i
-
-      do i = 1, size(methods)
-         table = event_table([1, 1], [0.5_wp, 0.5_wp], [1, -1], terminal=[.false., .true.])
-         samples = table_sampler([1], [0.0_wp, 2.6_wp, 2.61_wp, 2.62_wp, 5.0_wp])
-         call run(error, sine(), 0.0_wp, 8.0_wp, at_tolerance(1.0e-12_wp, methods(i)), outcome, &
-                  samples, table)
-         call expect(error, outcome%reason == event_met, "the reason is `event_met`")
-         call expect(error, table%received == 2, "two events are received")
-         call expect_close(error, table%time(:2)%hi, [pi/6, 5*pi/6], 1.0e-10_wp, "times")
-         call expect_close(error, outcome%t, table%time(2)%hi, 0.0_wp, "end")
-         call expect_close(error, outcome%y, [0.5_wp], 1.0e-14_wp, "y at the end")
-         call expect(error, samples%received == 3, "samples after it are not taken: " &
-                     //text(samples%received))
-         call expect_close(error, samples%values(1, 2:3), sin([2.6_wp, 2.61_wp]), 1.0e-10_wp, &
-                           "samples before it")
-      end do
-   end subroutine test_terminal
-
-   !> Maxima and minima of cos t and -sin t.
-   subroutine test_maxima(error)
+   !> event, pi and 2 pi are. Maxima and minima of cos t, and maxima of -sin t.
+   subroutine test_passages(error)
       type(error_type), allocatable, intent(out) :: error
       type(event_table) :: table
       type(integration_result) :: outcome
       integer :: i, k
 
       do i = 1, size(methods)
+         table = event_table([1, 1, 1, 1], [0.5_wp, 0.5_wp, 0.5_wp, 0.0_wp], [1, -1, 0, 0])
+         call run(error, sine(), 0.0_wp, 8.0_wp, at_tolerance(1.0e-12_wp, methods(i)), outcome, &
+                  watcher=table)
+         call expect(error, outcome%reason == reached_end, "the run goes to its end")
+         call expect_times(error, table, 1, [pi/6, 13*pi/6], methods(i)//", rising")
+         call expect_times(error, table, 2, [5*pi/6], methods(i)//", falling")
+         call expect_times(error, table, 3, [pi/6, 5*pi/6, 13*pi/6], methods(i)//", both")
+         call expect_times(error, table, 4, [pi, 2*pi], methods(i)//", zeros")
+         call expect_close(error, table%y(1, :table%received), &
+                           table%level(table%which(:table%received)), 1.0e-14_wp, "y")
          table = event_table([1, 1, 2], [0.0_wp, 0.0_wp, 0.0_wp], [-1, 1, -1], &
                              of_slope=[.true., .true., .true.])
          call run(error, swing(), 0.0_wp, 20.0_wp, at_tolerance(1.0e-12_wp, methods(i)), outcome, &
                   watcher=table)
-         call expect_close(error, times_of(table, 1), [(2*pi*k, k=1, 3)], 1.0e-10_wp, &
-                           trim(methods(i))//", maxima of cos t")
-         call expect_close(error, times_of(table, 2), [(2*pi*k - pi, k=1, 3)], 1.0e-10_wp, &
-                           trim(methods(i))//", minima of cos t")
-         call expect_close(error, times_of(table, 3), [(2*pi*k - 0.5_wp*pi, k=1, 3)], 1.0e-10_wp, &
-                           trim(methods(i))//", maxima of -sin t")
+         call expect_times(error, table, 1, [(2*pi*k, k=1, 3)], methods(i)//", maxima of cos t")
+         call expect_times(error, table, 2, [(2*pi*k - pi, k=1, 3)], methods(i)//", minima")
+         call expect_times(error, table, 3, [(2*pi*k - 0.5_wp*pi, k=1, 3)], &
+                           methods(i)//", maxima of -sin t")
       end do
-   end subroutine test_maxima
+   end subroutine test_passages
+
+   !> Times of the events of one function.
+   subroutine expect_times(error, table, which, known, what)
+      type(error_type), allocatable, intent(inout) :: error
+      type(event_table), intent(in) :: table
+      integer, intent(in) :: which
+      real(wp), intent(in) :: known(:)
+      character(len=*), intent(in) :: what
+
+      associate (n => table%received)
+         call expect_close(error, pack(table%time(:n)%hi, table%which(:n) == which), known, &
+                           1.0e-10_wp, what)
+      end associate
+   end subroutine expect_times
+
+   !> cos t passes 1/2, then -1/2, which ends the run: state, slope, time and samples stop there.
+   !> The table looks at cos t alone, but events have -sin t, too.
+   subroutine test_terminal(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(continuation_type) :: here
+      type(event_table) :: table
+      type(integration_result) :: outcome
+      type(table_sampler) :: samples
+      integer :: i
+
+      do i = 1, size(methods)
+         here = continuation_type()
+         table = event_table([1, 1], [0.5_wp, -0.5_wp], [0, 0], terminal=[.false., .true.])
+         samples = table_sampler([2], [0.0_wp, 2.08_wp, 2.09_wp, 2.1_wp, 5.0_wp])
+         call run(error, swing(), 0.0_wp, 8.0_wp, at_tolerance(1.0e-12_wp, methods(i)), outcome, &
+                  samples, table, here)
+         call expect(error, outcome%reason == event_met, "the reason is `event_met`")
+         call expect(error, table%received == 2, "two events")
+         if (allocated(error)) return
+         call expect_close(error, table%time(:2)%hi, [pi/3, 2*pi/3], 1.0e-10_wp, methods(i))
+         call expect_close(error, table%y(1, :2), [0.5_wp, -0.5_wp], 1.0e-14_wp, "cos t")
+         call expect_close(error, table%y(2, :2), -sin([pi/3, 2*pi/3]), 1.0e-10_wp, "-sin t")
+         call expect_close(error, outcome%t, table%time(2)%hi, 0.0_wp, "end")
+         call expect_close(error, outcome%y, table%y(:, 2), 0.0_wp, "y at the end")
+         call expect_close(error, here%slope, [here%y(2), -here%y(1)], 1.0e-9_wp, &
+                           methods(i)//", slope")
+         call expect(error, samples%received == 3, "samples after it are not taken: " &
+                     //text(samples%received))
+         call expect_close(error, samples%values(1, 2:3), -sin([2.08_wp, 2.09_wp]), 1.0e-10_wp, &
+                           "samples before it")
+      end do
+   end subroutine test_terminal
 
    !> t^2 passes 1/4 and 1/100 twice within one step from -1 to 1; the step's ends do not show it.
    subroutine test_pair(error)
@@ -154,32 +157,6 @@ contains
          call expect(error, all(table%which(:4) == [1, 2, 2, 1]), "which")
       end do
    end subroutine test_pair
-
-   !> A table looks at one component, of (cos t, -sin t); events give all of them.
-   !> So does the last event, which ends the run, to the run that goes on.
-   subroutine test_whole(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(continuation_type) :: here
-      type(event_table) :: table
-      type(integration_result) :: outcome
-      integer :: i
-
-      do i = 1, size(methods)
-         here = continuation_type()
-         table = event_table([1, 1], [0.5_wp, -0.5_wp], [0, 0], terminal=[.false., .true.])
-         call run(error, swing(), 0.0_wp, 8.0_wp, at_tolerance(1.0e-11_wp, methods(i)), outcome, &
-                  watcher=table, continuation=here)
-         call expect(error, table%received == 2, "two events")
-         if (allocated(error)) return
-         call expect_close(error, table%y(:, 1), [cos(pi/3), -sin(pi/3)], 1.0e-9_wp, &
-                           trim(methods(i))//", first event")
-         call expect_close(error, table%y(:, 2), [cos(2*pi/3), -sin(2*pi/3)], 1.0e-9_wp, &
-                           trim(methods(i))//", second event")
-         call expect_close(error, outcome%y, table%y(:, 2), 0.0_wp, "end")
-         call expect_close(error, here%slope, [here%y(2), -here%y(1)], 1.0e-8_wp, &
-                           trim(methods(i))//", slope")
-      end do
-   end subroutine test_whole
 
    !> t passes seven levels in one step, given in disorder: events come in order of time. Of events
    !> at one time, all are handed over, though one of them ends the run; later ones are not.
@@ -366,17 +343,6 @@ contains
 
       value = abs(sum(y**2) - 1.0_wp) < 1.0e-6_wp
    end function are_whole
-
-   !> Times of the events of one function.
-   pure function times_of(table, which) result(times)
-      type(event_table), intent(in) :: table
-      integer, intent(in) :: which
-      real(wp), allocatable :: times(:)
-
-      associate (rows => table%received)
-         allocate (times, source=pack(table%time(:rows)%hi, table%which(:rows) == which))
-      end associate
-   end function times_of
 
    !> sin 50 t, no number where it is near an extreme.
    pure subroutine fast_values(self, t, y, slope, g)

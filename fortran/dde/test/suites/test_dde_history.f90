@@ -2,8 +2,8 @@
 !> need more memory than there is, which end with an error.
 module test_dde_history
    use, intrinsic :: iso_c_binding, only: c_int, c_long
-   use dde, only: integrate, integration_options, integration_result, memory_needed, &
-                  out_of_memory
+   use dde, only: dde_problem_type, integrate, integration_options, integration_result, &
+                  out_of_memory, reached_end
    use dde_cursor, only: cursor_type
    use dde_history, only: history_type
    use dde_time, only: instant, later
@@ -54,7 +54,7 @@ contains
                    new_unittest("no memory for matrices", test_matrices), &
                    new_unittest("no memory for the past", test_past), &
                    new_unittest("the memory of each degree", test_degree), &
-                   new_unittest("memory known before", test_needed)]
+                   new_unittest("any memory", test_any_memory)]
    end subroutine collect_dde_history
 
    !> Three delays of two components over 2000 steps of different lengths, of which 50 at a time
@@ -312,33 +312,43 @@ contains
       call expect(error, limit_memory(-1_c_long) == 1, "the limit is lifted")
    end subroutine test_degree
 
-   !> A run of 300 000 delays that is given half the memory that it needs, and four times that.
-   subroutine test_needed(error)
+   !> A run of 300 000 delays that is given more and more memory ends with an error up to some
+   !> amount, and well from there on. 2000 delays of one component need little: one past is kept.
+   subroutine test_any_memory(error)
       type(error_type), allocatable, intent(out) :: error
-      integer, parameter :: n = 300000
-      type(failure_type), allocatable :: failure
-      type(integration_options) :: options
+      integer, parameter :: n = 300000, most = 6
+      integer(c_long), parameter :: megabyte = 1000000_c_long
+      integer :: i, k, reasons(most)
       type(integration_result) :: outcome
       type(linear) :: problem
-      real(wp) :: needed
-      integer :: i, k
 
       problem = linear(n=n, lag=spread(1.0_wp, 1, n), component=[(i, i=1, n)], &
                        past=spread(1.0_wp, 1, n), first=spread(1.0_wp, 1, n))
-      ! of 2000 delays of one component one past is kept
-      needed = memory_needed(linear(lag=[(real(i, wp), i=1, 2000)], component=spread(1, 1, 2000)), &
-                             at_tolerance(1.0e-6_wp))
-      call expect(error, needed < 1.0e7_wp, text(needed)//" bytes for one component")
       do i = 1, size(pairs)
-         options = at_tolerance(1.0e-6_wp, pairs(i))
-         needed = memory_needed(problem, options)
-         do k = 1, 2
-            if (limit_memory(int(merge(0.5_wp, 4.0_wp, k == 1)*needed, c_long)) == 0) return
-            call integrate(problem, 0.0_wp, 3.0_wp, options, outcome, failure)
-            call expect(error, limit_memory(-1_c_long) == 1, "the limit is lifted")
-            call expect(error, (outcome%reason == out_of_memory) .eqv. k == 1, &
-                        pairs(i)//text(needed)//" bytes, run "//text(k))
+         do k = 1, most
+            if (limit_memory(4**k*megabyte) == 0) return
+            call try(problem, pairs(i), outcome)
+            reasons(k) = outcome%reason
          end do
+         call expect(error, all(reasons == out_of_memory .or. reasons == reached_end), pairs(i))
+         call expect(error, reasons(1) == out_of_memory .and. reasons(most) == reached_end .and. &
+                     all(reasons(2:) == reached_end .or. reasons(:most - 1) == out_of_memory), &
+                     "the order of ends of "//pairs(i))
       end do
-   end subroutine test_needed
+      if (limit_memory(10*megabyte) == 0) return
+      call try(wille_baker(lag=[(real(i, wp), i=1, 2000)], component=spread(1, 1, 2000)), "bs5", &
+               outcome)
+      call expect(error, limit_memory(-1_c_long) == 1, "the limit is lifted")
+      call expect(error, outcome%reason == reached_end, "one past is kept")
+   end subroutine test_any_memory
+
+   !> Three units of time.
+   subroutine try(problem, method, outcome)
+      class(dde_problem_type), intent(in) :: problem
+      character(len=*), intent(in) :: method
+      type(integration_result), intent(out) :: outcome
+      type(failure_type), allocatable :: failure
+
+      call integrate(problem, 0.0_wp, 3.0_wp, at_tolerance(1.0e-6_wp, method), outcome, failure)
+   end subroutine try
 end module test_dde_history

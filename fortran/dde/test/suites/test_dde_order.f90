@@ -29,23 +29,24 @@ contains
    subroutine collect_dde_order(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("conditions of the steps", test_step_conditions), &
-                   new_unittest("conditions of the interpolants", test_interpolant_conditions), &
-                   new_unittest("mean of the interpolant", test_mean), &
-                   new_unittest("conditions of the estimates", test_estimate_conditions), &
+      testsuite = [new_unittest("conditions of order", test_conditions), &
                    new_unittest("estimate of the error", test_estimate), &
                    new_unittest("estimate of far too long steps", test_long_steps)]
    end subroutine collect_dde_order
 
-   !> The step gives h**order/density for every tree up to its order, but not for those of the next;
-   !> with and without the time of its stages.
-   subroutine test_step_conditions(error)
+   !> For every tree, with and without the time of the stages: the step gives h**order/density, and
+   !> all over the step the interpolant, one order lower, (s h)**order/density. The mean of that of
+   !> the pair 5(4) has the order of the step, since the right-hand side integrates the errors of
+   !> delayed values; three Gauss points give the mean of degree 4. Estimates vanish up to their
+   !> orders: 5 and 3 of the pair 8(5,3), 4 of the pair 5(4).
+   subroutine test_conditions(error)
       type(error_type), allocatable, intent(out) :: error
       type(explicit_step_type) :: step
       type(tree_system) :: trees
+      real(wp), parameter :: aside = sqrt(0.15_wp)
       real(wp) :: estimate
       real(wp), allocatable :: misfit(:)
-      integer :: i, j
+      integer :: i, j, k
 
       trees = grow_trees(9)
       call expect(error, all([(count(trees%order == i) == tree_counts(i), i=1, 9)]), &
@@ -55,81 +56,44 @@ contains
          do j = 1, size(pairs)
             call step%set_up(trees, pairs(j))
             call take_step(trees, 0.0_wp, h, step, estimate)
-            misfit = abs(step%y_new/h**trees%order - 1.0_wp/trees%density)
-            call expect_between(error, maxval(misfit, trees%order <= orders(j)), 0.0_wp, &
-                                1.0e-14_wp, "largest misfit up to order "//text(orders(j)))
-            call expect_between(error, maxval(misfit, trees%order == orders(j) + 1), 1.0e-6_wp, &
-                                1.0e-4_wp, "largest misfit beyond order "//text(orders(j)))
-         end do
-      end do
-   end subroutine test_step_conditions
-
-   !> All over the step, the interpolant gives (s h)**order/density for every tree up to an order
-   !> one lower, but not for the next; with and without the time of its stages.
-   subroutine test_interpolant_conditions(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(explicit_step_type) :: step
-      type(tree_system) :: trees
-      real(wp) :: estimate
-      real(wp), allocatable :: misfit(:)
-      integer :: i, j, k
-
-      trees = grow_trees(8)
-      do i = 1, 2
-         trees%by_the_clock = i == 2
-         do k = 1, size(pairs)
-            call step%set_up(trees, pairs(k))
-            call take_step(trees, 0.0_wp, h, step, estimate)
-            misfit = spread(0.0_wp, 1, trees%n)
-            do j = 1, size(places)
-               misfit = max(misfit, abs(interpolated(step, places(j))/h**trees%order &
-                                        - places(j)**trees%order/trees%density))
-            end do
-            call expect_between(error, maxval(misfit, trees%order < orders(k)), 0.0_wp, &
-                                1.0e-14_wp, "largest misfit below order "//text(orders(k)))
-            call expect_between(error, maxval(misfit, trees%order == orders(k)), 1.0e-5_wp, &
-                                1.0e-2_wp, "largest misfit of order "//text(orders(k)))
-         end do
-      end do
-   end subroutine test_interpolant_conditions
-
-   !> The estimate of order 5 of the pair 8(5,3) vanishes for every tree up to order 5, that of
-   !> order 3 up to order 3, that of the pair 5(4) up to order 4, and none beyond; with and without
-   !> the time of the stages.
-   subroutine test_estimate_conditions(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(explicit_step_type) :: step
-      type(tree_system) :: trees
-      real(wp) :: estimate
-      integer :: i, j
-
-      trees = grow_trees(6)
-      do i = 1, 2
-         trees%by_the_clock = i == 2
-         call step%set_up(trees, pairs(2))
-         call take_step(trees, 0.0_wp, 1.0_wp, step, estimate)
-         do j = 1, 2
-            associate (e => pack(abs(step%embedded(:, :, j)), .true.), order => trees%order)
-               call expect_between(error, maxval(e(:trees%n), order <= 4), 0.0_wp, 1.0e-14_wp, &
-                                   "estimate 4 of orders 1 to 4")
-               call expect_between(error, maxval(e(:trees%n), order == 5), 1.0e-5_wp, 1.0e-1_wp, &
-                                   "estimate 4 of order 5")
+            associate (order => trees%order, known => h**trees%order/trees%density, &
+                       pair => pairs(j))
+               call expect_order(error, pair, step%y_new/known - 1.0_wp, order, orders(j))
+               misfit = spread(0.0_wp, 1, trees%n)
+               do k = 1, size(places)
+                  misfit = max(misfit, abs(interpolated(step, places(k))/known - places(k)**order))
+               end do
+               call expect_order(error, "interpolant of "//pair, misfit, order, orders(j) - 1)
+               if (pair == "bs5") then
+                  misfit = (5.0_wp*interpolated(step, 0.5_wp - aside) &
+                            + 8.0_wp*interpolated(step, 0.5_wp) &
+                            + 5.0_wp*interpolated(step, 0.5_wp + aside))/18.0_wp
+                  call expect_order(error, "mean", misfit/known - 1.0_wp/(order + 1), order, 5)
+                  do k = 1, 2
+                     misfit = reshape(step%embedded(:, :, k), [size(step%embedded(:, :, k))])
+                     call expect_order(error, "estimate 4", misfit(:trees%n)/known, order, 4)
+                  end do
+               else
+                  call expect_order(error, "estimate 5", h*e_5(step)/known, order, 5)
+                  call expect_order(error, "estimate 3", h*e_3(step)/known, order, 3)
+               end if
             end associate
          end do
-         call step%set_up(trees, pairs(1))
-         call take_step(trees, 0.0_wp, 1.0_wp, step, estimate)
-         associate (e3 => abs(e_3(step)), e5 => abs(e_5(step)), order => trees%order)
-            call expect_between(error, maxval(e5, order <= 5), 0.0_wp, 1.0e-14_wp, &
-                                "estimate 5 of orders 1 to 5")
-            call expect_between(error, maxval(e5, order == 6), 1.0e-5_wp, 1.0e-2_wp, &
-                                "estimate 5 of order 6")
-            call expect_between(error, maxval(e3, order <= 3), 0.0_wp, 1.0e-14_wp, &
-                                "estimate 3 of orders 1 to 3")
-            call expect_between(error, maxval(e3, order == 4), 1.0e-3_wp, 1.0_wp, &
-                                "estimate 3 of order 4")
-         end associate
       end do
-   end subroutine test_estimate_conditions
+   end subroutine test_conditions
+
+   !> Misfits relative to the known value vanish for trees up to an order, not for all beyond.
+   subroutine expect_order(error, what, misfit, order, highest)
+      type(error_type), allocatable, intent(inout) :: error
+      character(len=*), intent(in) :: what
+      real(wp), intent(in) :: misfit(:)
+      integer, intent(in) :: order(:), highest
+
+      call expect_between(error, maxval(abs(misfit), order <= highest), 0.0_wp, 1.0e-12_wp, &
+                          what//": largest misfit up to order "//text(highest))
+      call expect_between(error, maxval(abs(misfit), order == highest + 1), 1.0e-4_wp, 1.0e2_wp, &
+                          what//": largest misfit of order "//text(highest + 1))
+   end subroutine expect_order
 
    !> The two make the estimate of eq. (II.10.17) of Hairer, Norsett and Wanner (1993) for each
    !> component, of which the largest counts.
@@ -151,28 +115,6 @@ contains
                         maxval(of_order_5**2/hypot(of_order_5, 0.1_wp*of_order_3), &
                                abs(of_order_5) > 0.0_wp), 1.0e-12_wp*estimate, "the estimate")
    end subroutine test_estimate
-
-   !> The mean of the interpolant of the pair 5(4) has the order of the step: the right-hand side
-   !> integrates the errors of delayed values. Three Gauss points give the mean of degree 4.
-   subroutine test_mean(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(explicit_step_type) :: step
-      type(tree_system) :: trees
-      real(wp), parameter :: aside = sqrt(0.15_wp)
-      real(wp) :: estimate
-      real(wp), allocatable :: mean(:), misfit(:)
-
-      trees = grow_trees(6)
-      call step%set_up(trees, "bs5")
-      call take_step(trees, 0.0_wp, h, step, estimate)
-      mean = (5.0_wp*interpolated(step, 0.5_wp - aside) + 8.0_wp*interpolated(step, 0.5_wp) &
-              + 5.0_wp*interpolated(step, 0.5_wp + aside))/18.0_wp
-      misfit = abs(mean/h**trees%order - 1.0_wp/((trees%order + 1)*trees%density))
-      call expect_between(error, maxval(misfit, trees%order <= 5), 0.0_wp, 1.0e-14_wp, &
-                          "largest misfit of orders 1 to 5")
-      call expect_between(error, maxval(misfit, trees%order == 6), 1.0e-6_wp, 1.0e-2_wp, &
-                          "largest misfit of order 6")
-   end subroutine test_mean
 
    !> y' = -rate y, rates up to 40 in a step of length 1: no step passes whose error is above the
    !> tolerance, not even near 5.66, where e5 of the pair 8(5,3) changes its sign and e3 is large.

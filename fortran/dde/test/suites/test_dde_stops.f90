@@ -1,8 +1,9 @@
 !> Why an integration ends, and that time and state say how far it came.
 module test_dde_stops
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use dde, only: event_table, integrate, integration_options, integration_result, methods, &
-                  reached_end, step_underflow, table_sampler, too_many_steps, value_not_finite
+   use dde, only: dde_problem_type, event_table, integrate, integration_options, &
+                  integration_result, methods, reached_end, step_underflow, table_sampler, &
+                  too_many_steps, value_not_finite
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_failure
    use dde_kinds, only: int64, wp
@@ -24,9 +25,7 @@ contains
                    new_unittest("tolerance below rounding", test_below_rounding), &
                    new_unittest("an end far away", test_far_end), &
                    new_unittest("too many steps", test_too_many_steps), &
-                   new_unittest("value not finite", test_value_not_finite), &
-                   new_unittest("value not finite from the start", test_not_finite_at_start), &
-                   new_unittest("history not finite", test_not_finite_history), &
+                   new_unittest("values not finite", test_not_finite), &
                    new_unittest("no length", test_no_length), &
                    new_unittest("below the spacing of times", test_unresolved)]
    end subroutine collect_dde_stops
@@ -110,42 +109,11 @@ contains
       call expect_close(error, outcome%y, [cos(outcome%t), -sin(outcome%t)], 1.0e-9_wp, "y")
    end subroutine test_too_many_steps
 
-   !> y = t up to t = 1, and no number beyond: it comes as near as steps can be short.
-   subroutine test_value_not_finite(error)
+   !> y = t up to t = 1, and no number beyond: it comes as near as steps can be short. Where not
+   !> even the first slope is a number, it stays at the start. A history that is no number is named
+   !> with its component and time.
+   subroutine test_not_finite(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(integration_result) :: outcome
-      integer :: i
-
-      do i = 1, size(methods)
-         if (methods(i) == "taylor") cycle
-         call integrate(falls_out(0.0_wp), 0.0_wp, 2.0_wp, at_tolerance(1.0e-9_wp, methods(i)), &
-                        outcome, failure)
-         call expect(error, outcome%reason == value_not_finite, "the reason is `value_not_finite`")
-         call expect_failure(error, failure, "f(1) is NaN at t = 1.0")
-         call expect_close(error, outcome%t, 1.0_wp, 1.0e-12_wp, "t by "//methods(i))
-         call expect_close(error, outcome%y, [outcome%t], 1.0e-12_wp, "y by "//methods(i))
-      end do
-   end subroutine test_value_not_finite
-
-   !> Where not even the first slope is a number, it stays at the start.
-   subroutine test_not_finite_at_start(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(integration_result) :: outcome
-
-      call integrate(falls_out(5.0_wp), 3.0_wp, 4.0_wp, at_tolerance(1.0e-9_wp), outcome, failure)
-      call expect(error, outcome%reason == value_not_finite, "the reason is `value_not_finite`")
-      call expect_failure(error, failure, "stopped at t = 3.0 of 4.0 after 0 steps")
-      call expect_close(error, outcome%t, 3.0_wp, 0.0_wp, "t")
-      call expect_close(error, outcome%y, [5.0_wp], 0.0_wp, "y")
-   end subroutine test_not_finite_at_start
-
-   !> A history that is no number is named with its component and time.
-   subroutine test_not_finite_history(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(integration_result) :: outcome
       type(jumping_history) :: problem
       integer :: i
 
@@ -154,12 +122,30 @@ contains
       problem%before = ieee_value(1.0_wp, ieee_quiet_nan)
       do i = 1, size(methods)
          if (methods(i) == "taylor") cycle
-         call integrate(problem, 0.0_wp, 2.0_wp, at_tolerance(1.0e-6_wp, methods(i)), outcome, &
-                        failure)
-         call expect(error, outcome%reason == value_not_finite, "the reason is `value_not_finite`")
-         call expect_failure(error, failure, "the history of component 1 is NaN at t = -1.0")
+         call expect_stop(falls_out(0.0_wp), 0.0_wp, "f(1) is NaN at t = 1.0", 1.0_wp, 1.0_wp)
+         call expect_stop(falls_out(5.0_wp), 3.0_wp, "stopped at t = 3.0 of 5.0 after 0 steps", &
+                          3.0_wp, 5.0_wp)
+         call expect_stop(problem, 0.0_wp, "the history of component 1 is NaN at t = -1.0", &
+                          0.0_wp, 0.0_wp)
       end do
-   end subroutine test_not_finite_history
+
+   contains
+
+      !> A run over two units of time ends with these words, at a time and a value.
+      subroutine expect_stop(problem, t_start, words, t, y)
+         class(dde_problem_type), intent(in) :: problem
+         real(wp), intent(in) :: t_start, t, y
+         character(len=*), intent(in) :: words
+         type(failure_type), allocatable :: failure
+         type(integration_result) :: outcome
+
+         call integrate(problem, t_start, t_start + 2.0_wp, at_tolerance(1.0e-9_wp, methods(i)), &
+                        outcome, failure)
+         call expect(error, outcome%reason == value_not_finite, "the reason is `value_not_finite`")
+         call expect_failure(error, failure, words)
+         call expect_close(error, [outcome%t, outcome%y], [t, y], 1.0e-12_wp, words//methods(i))
+      end subroutine expect_stop
+   end subroutine test_not_finite
 
    !> A run of no length gives the first state and the sample there.
    subroutine test_no_length(error)

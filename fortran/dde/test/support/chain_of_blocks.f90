@@ -11,14 +11,15 @@ module chain_of_blocks
    private
    public :: chain
 
-   !> Blocks computed at a time, and the highest degree of their series.
-   integer, parameter :: lanes = 4, most_degree = 20
+   !> Highest degree of series.
+   integer, parameter :: most_degree = 20
 
-   !> Coefficients of v, of theta + (1 + epsilon) w(t - lag), of unit w' and of s w'(s) of some
-   !> blocks.
-   type :: tile_type
-      real(wp), dimension(lanes, 0:most_degree) :: v, relaxing, rate, slope
-   end type tile_type
+   !> Of one block: coefficients of v, the last first, of theta + (1 + epsilon) w(t - lag), of unit
+   !> w' or s w'(s), and of unit v' as it was; 1/v at the start.
+   type :: block_type
+      real(wp), dimension(0:most_degree) :: v_back, relaxing, rate, v_rate
+      real(wp) :: by_v
+   end type block_type
 
    !> The chain.
    type, extends(constant_past) :: chain
@@ -66,16 +67,18 @@ contains
       class(chain), intent(in) :: self
       real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
-      real(wp) :: force, v
+      real(wp) :: delayed_w, force, v
       integer :: i, j
 
-      do j = 1, size(z)
+      do j = 1, self%n/3
          i = 3*(j - 1)
          v = exp(y(i + 3))
          force = y(i + 2) + (y(i + 1) + y(i + 3))/self%xi
          if (j > 1) force = force + self%kappa*(y(i + 2) - y(i - 1))
-         if (j < size(z)) force = force + self%kappa*(y(i + 2) - y(i + 5))
-         dydt(i + 1) = -v*(y(i + 1) + (1.0_wp + self%epsilon)*z(j))
+         if (3*j < self%n) force = force + self%kappa*(y(i + 2) - y(i + 5))
+         delayed_w = y(i + 3)
+         if (size(z) > 0) delayed_w = z(j)
+         dydt(i + 1) = -v*(y(i + 1) + (1.0_wp + self%epsilon)*delayed_w)
          dydt(i + 2) = v - 1.0_wp
          dydt(i + 3) = -self%gamma**2/v*force
       end do
@@ -88,8 +91,15 @@ contains
       integer, intent(in) :: degree
       real(wp), intent(in) :: z(0:degree, size(self%lag))
       real(wp), intent(inout) :: y(0:degree, self%n)
+      type(block_type) :: blocks(0:most_degree)
+      integer :: front, k
 
-      call go_through_tiles(self, unit, degree, degree - 1, z, y, take_up_coefficient)
+      do front = 0, self%n/3 + degree - 2
+         do k = max(0, front - self%n/3 + 1), min(front, degree - 1)
+            call take_up_coefficient(self, unit, degree, k, front - k + 1, z, y, &
+                                     blocks(modulo(front - k, degree)))
+         end do
+      end do
    end subroutine series_of_chain
 
    !> The least of the rates at which blocks approach their balances; 0 where these differ much:
@@ -105,39 +115,24 @@ contains
    end function relaxation_of_chain
 
    !> w = -theta - xi (u - kappa (second difference of u)) - (xi/gamma^2) v' with v' as it was.
+   !> Coefficient k + 1 of a block needs coefficient k of its neighbours: those of a few blocks are
+   !> computed in turn and stay in the cache.
    pure subroutine slow_series_of_chain(self, t, unit, degree, z, y)
       class(chain), intent(in) :: self
       real(wp), intent(in) :: t, unit
       integer, intent(in) :: degree
       real(wp), intent(in) :: z(0:degree, size(self%lag))
       real(wp), intent(inout) :: y(0:degree, self%n)
-
-      call go_through_tiles(self, unit, degree, degree, z, y, take_up_slow_coefficient)
-   end subroutine slow_series_of_chain
-
-   !> Blocks are computed some at a time, since the recurrences of one wait for their own last
-   !> terms. Coefficient k + 1 of a tile of blocks needs coefficient k of its neighbours: those of
-   !> a few tiles are computed in turn and stay in the cache.
-   pure subroutine go_through_tiles(self, unit, degree, last, z, y, take_up)
-      class(chain), intent(in) :: self
-      real(wp), intent(in) :: unit
-      !> Degree; number of the last coefficient that is taken up
-      integer, intent(in) :: degree, last
-      real(wp), intent(in) :: z(0:degree, size(self%lag))
-      real(wp), intent(inout) :: y(0:degree, self%n)
-      procedure(take_up_coefficient) :: take_up
-      type(tile_type) :: tiles(0:most_degree)
+      type(block_type) :: blocks(0:most_degree)
       integer :: front, k
 
-      associate (last_tile => (size(self%lag) - 1)/lanes)
-         do front = 0, last_tile + last
-            do k = max(0, front - last_tile), min(front, last)
-               call take_up(self, unit, degree, k, lanes*(front - k), z, y, &
-                            tiles(modulo(front - k, last + 1)))
-            end do
+      do front = 0, self%n/3 + degree - 1
+         do k = max(0, front - self%n/3 + 1), min(front, degree)
+            call take_up_slow_coefficient(self, unit, degree, k, front - k + 1, z, y, &
+                                          blocks(modulo(front - k, degree + 1)))
          end do
-      end associate
-   end subroutine go_through_tiles
+      end do
+   end subroutine slow_series_of_chain
 
    !> u - kappa (second difference of u) of block j, coefficient k.
    pure real(wp) function pull(self, degree, k, j, y) result(value)
@@ -148,102 +143,91 @@ contains
       associate (u => y(k, 3*j - 1))
          value = u
          if (j > 1) value = value + self%kappa*(u - y(k, 3*j - 4))
-         if (j < size(self%lag)) value = value + self%kappa*(u - y(k, 3*j + 2))
+         if (3*j < self%n) value = value + self%kappa*(u - y(k, 3*j + 2))
       end associate
    end function pull
 
-   !> Coefficients k + 1 of the blocks of one tile.
-   pure subroutine take_up_coefficient(self, unit, degree, k, first, z, y, tile)
+   !> theta + (1 + epsilon) w(t - lag) of block j, coefficient k; w itself without delay.
+   pure real(wp) function relaxing(self, degree, k, j, z, y) result(value)
+      class(chain), intent(in) :: self
+      integer, intent(in) :: degree, k, j
+      real(wp), intent(in) :: z(0:degree, size(self%lag)), y(0:degree, self%n)
+      real(wp) :: delayed_w
+
+      delayed_w = y(k, 3*j)
+      if (size(self%lag) > 0) delayed_w = z(k, j)
+      value = y(k, 3*j - 2) + (1.0_wp + self%epsilon)*delayed_w
+   end function relaxing
+
+   !> Coefficients k + 1 of block j.
+   pure subroutine take_up_coefficient(self, unit, degree, k, j, z, y, of)
       class(chain), intent(in) :: self
       real(wp), intent(in) :: unit
-      !> Degree; the coefficient known
-      integer, intent(in) :: degree, k
-      !> Blocks before those of the tile
-      integer, intent(in) :: first
+      !> Degree; the coefficient known; the block
+      integer, intent(in) :: degree, k, j
       real(wp), intent(in) :: z(0:degree, size(self%lag))
       real(wp), intent(inout) :: y(0:degree, self%n)
-      type(tile_type), intent(inout) :: tile
-      real(wp), dimension(lanes) :: by_rate, by_relaxing, force, relaxing, u, w
-      integer :: i, j, lane, last, m
+      type(block_type), intent(inout) :: of
+      real(wp) :: earlier, share, total, v, v_rate
+      integer :: m
 
-      last = min(lanes, size(self%lag) - first)
-      force = 0.0_wp
-      relaxing = 0.0_wp
-      do lane = 1, last
-         j = first + lane
-         i = 3*(j - 1)
-         force(lane) = pull(self, degree, k, j, y) + (y(k, i + 1) + y(k, i + 3))/self%xi
-         relaxing(lane) = y(k, i + 1) + (1.0_wp + self%epsilon)*z(k, j)
-      end do
       if (k == 0) then
-         tile%v(:, 0) = 1.0_wp
-         do lane = 1, last
-            tile%v(lane, 0) = exp(y(0, 3*(first + lane)))
-         end do
+         of%v_back(degree) = exp(y(0, 3*j))
+         of%by_v = 1.0_wp/of%v_back(degree)
       end if
-      by_rate = 0.0_wp
-      by_relaxing = 0.0_wp
+      share = 1.0_wp/(k + 1)
+      ! first what has been known for long: the newest terms need not wait for it
+      total = 0.0_wp
+      earlier = 0.0_wp
       do m = 0, k - 1
-         by_rate = by_rate + tile%v(:, k - m)*tile%rate(:, m)
-         by_relaxing = by_relaxing + tile%v(:, k - m)*tile%relaxing(:, m)
+         total = total + of%v_back(degree - k + m)*of%relaxing(m)
+         earlier = earlier + of%v_back(degree - k + m)*of%rate(m)
       end do
-      force = -self%gamma**2*unit*force
-      u = tile%v(:, k)
-      if (k == 0) u = u - 1.0_wp
-      w = (force - by_rate)/tile%v(:, 0)
-      by_relaxing = by_relaxing + tile%v(:, 0)*relaxing
-      tile%relaxing(:, k) = relaxing
-      tile%rate(:, k) = w
-      tile%v(:, k + 1) = force/(k + 1)
-      do lane = 1, last
-         i = 3*(first + lane - 1)
-         y(k + 1, i + 1) = -unit/(k + 1)*by_relaxing(lane)
-         y(k + 1, i + 2) = unit/(k + 1)*u(lane)
-         y(k + 1, i + 3) = w(lane)/(k + 1)
-      end do
+      v = of%v_back(degree - k)
+      if (k == 0) v = v - 1.0_wp
+      v_rate = -self%gamma**2*unit*(pull(self, degree, k, j, y) &
+                                    + (1.0_wp/self%xi)*(y(k, 3*j - 2) + y(k, 3*j)))
+      of%relaxing(k) = relaxing(self, degree, k, j, z, y)
+      of%rate(k) = of%by_v*(v_rate - earlier)
+      of%v_back(degree - k - 1) = share*v_rate
+      y(k + 1, 3*j - 2) = -unit*share*(total + of%v_back(degree)*of%relaxing(k))
+      y(k + 1, 3*j - 1) = unit*share*v
+      y(k + 1, 3*j) = share*of%rate(k)
    end subroutine take_up_coefficient
 
-   !> Coefficients k of w and k + 1 of theta and u, of the blocks of one tile. Its `rate` is unit v'
-   !> as it was.
-   pure subroutine take_up_slow_coefficient(self, unit, degree, k, first, z, y, tile)
+   !> Coefficients k of w and k + 1 of theta and u, of block j.
+   pure subroutine take_up_slow_coefficient(self, unit, degree, k, j, z, y, of)
       class(chain), intent(in) :: self
       real(wp), intent(in) :: unit
-      integer, intent(in) :: degree, k, first
+      integer, intent(in) :: degree, k, j
       real(wp), intent(in) :: z(0:degree, size(self%lag))
       real(wp), intent(inout) :: y(0:degree, self%n)
-      type(tile_type), intent(inout) :: tile
-      real(wp), dimension(lanes) :: by_relaxing, relaxing, v, w
-      integer :: i, j, lane, last, m
+      type(block_type), intent(inout) :: of
+      real(wp) :: earlier, total, v
+      integer :: m
 
-      last = min(lanes, size(self%lag) - first)
-      w = 0.0_wp
-      relaxing = 0.0_wp
-      do lane = 1, last
-         j = first + lane
-         i = 3*(j - 1)
-         if (k == 0) call find_last_rate(unit, degree, y(:, i + 2), y(:, i + 3), tile%rate(lane, :))
-         w(lane) = -y(k, i + 1) - self%xi*pull(self, degree, k, j, y) &
-                   - self%xi/(self%gamma**2*unit)*tile%rate(lane, k)
-         relaxing(lane) = y(k, i + 1) + (1.0_wp + self%epsilon)*z(k, j)
-         y(k, i + 3) = w(lane)
+      if (k == 0) call find_last_rate(unit, degree, y(:, 3*j - 1), y(:, 3*j), of%v_rate)
+      y(k, 3*j) = -y(k, 3*j - 2) &
+                  - self%xi*(pull(self, degree, k, j, y) + of%v_rate(k)/(self%gamma**2*unit))
+      of%relaxing(k) = relaxing(self, degree, k, j, z, y)
+      of%rate(k) = k*y(k, 3*j)
+      total = 0.0_wp
+      earlier = 0.0_wp
+      do m = 1, k - 1
+         total = total + of%v_back(degree - k + m)*of%relaxing(m)
+         earlier = earlier + of%v_back(degree - k + m)*of%rate(m)
       end do
-      tile%slope(:, k) = k*w
-      tile%relaxing(:, k) = relaxing
-      v = 0.0_wp
-      by_relaxing = 0.0_wp
-      do m = 1, k
-         v = v + tile%v(:, k - m)*tile%slope(:, m)
-         by_relaxing = by_relaxing + tile%v(:, k - m)*tile%relaxing(:, m)
-      end do
-      if (k == 0) v = exp(w)
-      tile%v(:, k) = v/max(1, k)
-      by_relaxing = by_relaxing + tile%v(:, k)*tile%relaxing(:, 0)
+      if (k == 0) then
+         v = exp(y(0, 3*j))
+         total = v*of%relaxing(0)
+      else
+         v = (earlier + of%v_back(degree)*of%rate(k))/k
+         total = total + of%v_back(degree)*of%relaxing(k) + v*of%relaxing(0)
+      end if
+      of%v_back(degree - k) = v
       if (k == degree) return
-      do lane = 1, last
-         i = 3*(first + lane - 1)
-         y(k + 1, i + 1) = -unit/(k + 1)*by_relaxing(lane)
-         y(k + 1, i + 2) = unit/(k + 1)*(tile%v(lane, k) - merge(1.0_wp, 0.0_wp, k == 0))
-      end do
+      y(k + 1, 3*j - 2) = -unit/(k + 1)*total
+      y(k + 1, 3*j - 1) = unit/(k + 1)*(v - merge(1.0_wp, 0.0_wp, k == 0))
    end subroutine take_up_slow_coefficient
 
    !> Coefficients of unit v', by u' = v - 1; the last, for which those of u do not suffice, by

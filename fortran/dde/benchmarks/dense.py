@@ -3,28 +3,20 @@
 import itertools
 import platform
 
-import matplotlib.pyplot as plt
 import numpy as np
 import scipy
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from measuring import BUILD, describe_machine, measure_command, options_of, write_table
 from scipy.integrate import solve_ivp
-
-from scripts.drawing.style import FAINT, INK, STYLE
 
 OURS = ("auto", "bs5", "dop853", "taylor", "radau5", "radau9", "radau13")
 THEIRS = ("RK23", "RK45", "DOP853", "Radau", "BDF", "LSODA")
 EXPLICIT = ("bs5", "dop853", "taylor", "RK23", "RK45", "DOP853")
 """Their steps are as long as one over the rate, which is at most 1000."""
-LAYERS = ("decay", "switch", "pulse", "returning pulse")
-"""Without delay y' = rate (s - y), y(0) = 1, s = 0, or y(0) = 0 and s = 1 from t = 1 on; then those
-of this solver's tests, with delay."""
-PANELS = {
-    "this solver, without delay": (OURS, LAYERS[:2]),
-    "SciPy, without delay": (THEIRS, LAYERS[:2]),
-    "this solver, with delay": (OURS, LAYERS[2:]),
-}
+WITHOUT_DELAY = ("decay", "switch")
+"""y' = rate (s - y), y(0) = 1, s = 0, or y(0) = 0 and s = 1 from t = 1 on."""
+WITH_DELAY = ("pulse", "returning pulse")
+"""Those of this solver's tests."""
+PARTS_OF_TABLE = ((OURS, WITHOUT_DELAY), (THEIRS, WITHOUT_DELAY), (OURS, WITH_DELAY))
 RATES = 1.01 * 10.0 ** (np.arange(73) / 12)
 TOLERANCES = (1e-3, 1e-6, 1e-9, 1e-12)
 PARTS = 16
@@ -81,47 +73,19 @@ def row_of(method: str, layer: str, tolerance: float) -> dict:
     case = {"method": method, "layer": layer, "tolerance": tolerance}
     rates = RATES[RATES < 1e3] if method in EXPLICIT else RATES
     if method in OURS:
-        return {
-            "solver": "dde",
-            **case,
-            **worst(our_errors(*case.values(), rates), tolerance, rates),
-        }
-    errors = np.array([their_errors(*case.values(), rate) for rate in rates])
-    return {"solver": "SciPy", **case, **worst(errors, tolerance, rates)}
-
-
-def draw(rows: list[dict]) -> Figure:
-    """The largest ratio of each method, layer and tolerance."""
-    figure, grid = plt.subplots(1, 3, figsize=(6.7, 3.2), sharey=True, width_ratios=(7, 6, 7))
-    look = {"ls": "", "mfc": "none", "ms": 3.5}
-    for axes, (title, (methods, layers)) in zip(grid, PANELS.items(), strict=True):
-        axes.axhline(1.0, color=FAINT, zorder=0)
-        for layer, marker in zip(layers, "os", strict=True):
-            axes.plot([], [], marker, label=layer, color=INK, **look)
-            for k, tolerance in enumerate(TOLERANCES):
-                shown = {
-                    methods.index(row["method"]) + 0.2 * k - 0.3: row["ratio"]
-                    for row in rows
-                    if row["method"] in methods
-                    and (row["layer"], row["tolerance"]) == (layer, tolerance)
-                }
-                axes.plot(shown.keys(), shown.values(), marker, color=f"C{k}", **look)
-        axes.set(title=title, yscale="log")
-        axes.set_xticks(range(len(methods)), methods, rotation=60)
-        axes.legend(loc="upper left")
-    grid[0].set_ylabel("error of dense output\nover error at steps, or tolerance")
-    handles = [Line2D([], [], ls="", c=f"C{k}", marker="o") for k in range(len(TOLERANCES))]
-    labels = ["1e-3", "1e-6", "1e-9", "1e-12"]
-    figure.legend(handles, labels, title="tolerance", loc="outside lower center", ncols=4)
-    return figure
+        errors = our_errors(*case.values(), rates)
+    else:
+        errors = np.array([their_errors(*case.values(), rate) for rate in rates])
+    solver = "dde" if method in OURS else "SciPy"
+    return {"solver": solver, **case, **worst(errors, tolerance, rates)}
 
 
 def main() -> None:
-    """Measure, write the table and draw the picture."""
-    options = options_of("dense").parse_args()
+    """Measure and write the table."""
+    options = options_of("run dense").parse_args()
     rows = [
         row_of(method, layer, tolerance)
-        for methods, layers in PANELS.values()
+        for methods, layers in PARTS_OF_TABLE
         for method, layer, tolerance in itertools.product(methods, layers, TOLERANCES)
     ]
     header = [
@@ -133,8 +97,6 @@ def main() -> None:
         "rate, error_at_steps, error_between: those of the run with this ratio",
     ]
     write_table(options.output / "dense-output.tsv", rows, header)
-    with plt.style.context(STYLE):
-        draw(rows).savefig(options.output / "dense-output.png")
 
 
 if __name__ == "__main__":

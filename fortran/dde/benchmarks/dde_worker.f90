@@ -1,12 +1,10 @@
-!> One scene in the project's own solver (compare.py). Its arguments are the method and, for a
-!> problem without its Taylor series, "rhs".
-program our_worker
-   use block_parameters, only: block_history_type, block_parameters_type
+!> One scene in this solver (workers.py). Arguments: the method and, for a problem without its
+!> Taylor series, "rhs".
+program dde_worker
+   use block_problem, only: spring_block
    use dde, only: integrate, integration_options, integration_result, table_sampler
    use dde_errors, only: error_type
    use dde_kinds, only: wp
-   use spring_block, only: index_of_ln_v, index_of_theta, index_of_u, spring_block_type
-   use version, only: project_version
    use worker_protocol, only: answer_requests, epsilon, gamma, past, sample_time, samples, t_end, &
                               tau, xi
    implicit none (type, external)
@@ -14,7 +12,7 @@ program our_worker
 
    call get_command_argument(1, arguments(1))
    call get_command_argument(2, arguments(2))
-   call answer_requests(project_version, integrate_once)
+   call answer_requests(DDE_VERSION, integrate_once)
 
 contains
 
@@ -26,22 +24,19 @@ contains
       type(error_type), allocatable :: error
       type(integration_options) :: options
       type(integration_result) :: outcome
-      type(spring_block_type) :: block_model
+      type(spring_block) :: problem
       type(table_sampler) :: table
 
-      block_model = spring_block_type( &
-                    block_parameters_type(tau=tau, epsilon=epsilon, xi=xi, gamma=gamma), &
-                    block_history_type(theta=past(1), u=past(2), v=exp(past(3))))
-      block_model%analytic = arguments(2) /= "rhs"
+      problem = spring_block(tau, epsilon, xi, gamma, past)
+      problem%analytic = arguments(2) /= "rhs"
       options = integration_options(method=arguments(1), relative=tolerance, absolute=tolerance)
       if (allocated(samples)) then
-         table = table_sampler([index_of_theta, index_of_u, index_of_ln_v], &
-                               [(sample_time(i), i=0, ubound(samples, 2))])
-         call integrate(block_model, 0.0_wp, t_end, options, outcome, error, table)
+         table = table_sampler([1, 2, 3], [(sample_time(i), i=0, ubound(samples, 2))])
+         call integrate(problem, 0.0_wp, t_end, options, outcome, error, table)
          samples = table%values
       else
-         call integrate(block_model, 0.0_wp, t_end, options, outcome, error)
+         call integrate(problem, 0.0_wp, t_end, options, outcome, error)
       end if
       if (allocated(error)) failure = error%message
    end subroutine integrate_once
-end program our_worker
+end program dde_worker

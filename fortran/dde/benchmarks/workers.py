@@ -1,45 +1,69 @@
 """Solvers as processes: each integrates one scene on request, and may fail without harm."""
 
-import math
 import os
 import re
 import select
+import shutil
 import subprocess
+import tempfile
 import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from measuring import BUILD, HERE, ROOT, configuration
+from measuring import BUILD, HERE
 
-from scripts.files.tsv import read_table
-from scripts.studies.work_precision.plan import case_of, measured_study
-from scripts.tables.accuracy import Reference, distances, read_references
-
-HORIZONS = ROOT / "results" / "tables" / "trusted-horizons.tsv"
 START_LIMIT = 120.0
 """Seconds in which a worker must have started, which may include compilation."""
-OURS_BINARY = str(BUILD / "our_worker")
+
+
+@dataclass(frozen=True)
+class Solver:
+    """How a solver is called, what it is made from, and kinds of scenes that it is for."""
+
+    command: list[str]
+    needs: str = "nothing else"
+    kinds: tuple[str, ...] = ("mild", "stiff")
+
+
 DESOLVE = ["Rscript", "--vanilla", str(HERE / "desolve_worker.R"), str(BUILD / "block.so")]
+OURS = "ours"
 SOLVERS = {
-    "ours": [OURS_BINARY, "auto"],
-    "jitcdde": [str(HERE / ".venv" / "bin" / "python"), "-I", str(HERE / "jitcdde_worker.py")],
-    "desolve": [*DESOLVE, "1"],
-    "desolve_interpol_2": [*DESOLVE, "2"],
+    OURS: Solver([str(BUILD / "dde_worker"), "auto"]),
+    "radar5": Solver([str(BUILD / "radar5_worker")], "--hairer FOLDER", ("stiff",)),
+    "retard": Solver([str(BUILD / "retard_worker")], "--hairer FOLDER", ("mild",)),
+    "jitcdde": Solver(
+        [str(HERE / ".venv" / "bin" / "python"), "-I", str(HERE / "jitcdde_worker.py")],
+        "Python packages of requirements.lock",
+        ("mild",),
+    ),
+    "desolve": Solver([*DESOLVE, "1"], "R with deSolve"),
+    "desolve_interpol_2": Solver([*DESOLVE, "2"], "R with deSolve"),
 }
-"""Commands of the solvers, ours first; deSolve by default and with its better interpolation."""
+"""This solver, then others; deSolve by default and with its better interpolation."""
+
+
+def chosen_solvers(names: list[str]) -> dict[str, Solver]:
+    """This solver and others by name; SystemExit if one of them is not there."""
+    chosen = {name: SOLVERS[name] for name in dict.fromkeys([OURS, *names])}
+    for name, solver in chosen.items():
+        if not shutil.which(solver.command[0]):
+            raise SystemExit(f"benchmarks: {name} is missing; it needs {solver.needs}")
+    return chosen
 
 
 @dataclass(frozen=True, kw_only=True)
 class Scene:
-    """Parameters, the constant past in theta, u, ln v, last and sample times; nondimensional."""
+    """Parameters, the constant past, last and sample times; nondimensional.
 
-    name: str
+    The past is theta, u, ln v, of one block after another where there are several.
+    """
+
     tau: float
     epsilon: float
     xi: float
     gamma: float
-    past: tuple[float, float, float]
+    past: tuple[float, ...]
     t_end: float
     sample_interval: float
 
@@ -47,47 +71,6 @@ class Scene:
         """The scene as its workers read it."""
         values = (self.tau, self.epsilon, self.xi, self.gamma, *self.past)
         return " ".join(f"{value:.17g}" for value in (*values, self.t_end, self.sample_interval))
-
-
-def read_study() -> dict:
-    """The study of work against precision of the project's configuration."""
-    return measured_study(configuration())
-
-
-def read_horizons() -> dict[str, float]:
-    """Times up to which each scene can be trusted."""
-    return {row["scene"]: row["horizon"] for row in read_table(HORIZONS)}
-
-
-def reference_path(name: str) -> Path:
-    """Where the workflow puts a scene's reference."""
-    return ROOT / "results" / "references" / "trust" / f"{name}.tsv"
-
-
-def read_reference(name: str) -> Reference:
-    """The solution of a scene in quadruple precision."""
-    return read_references([reference_path(name)])[name]
-
-
-def scene_of(study: dict, horizons: dict[str, float], name: str) -> Scene:
-    """A scene of the study, up to its horizon."""
-    case = case_of(name, study["cases"][name])
-    return Scene(
-        name=name,
-        **{key: float(case[key]) for key in ("tau", "epsilon", "xi", "gamma")},
-        past=(float(case["theta"]), float(case["u"]), math.log(case["v"])),
-        t_end=horizons[name],
-        sample_interval=case["sample_interval"],
-    )
-
-
-def error_max(samples: np.ndarray, scene: Scene, reference: Reference) -> float:
-    """Largest error over all samples, rows of t, theta, u, ln v; NaN where one is missing."""
-    count = round(scene.t_end / scene.sample_interval) + 1
-    times = reference.time[:count]
-    if samples.shape != (count, 4) or not np.allclose(samples[:, 0], times, rtol=0, atol=1e-6):
-        return math.nan
-    return float(np.max(distances(samples[:, 1:].T, reference.state[:, :count])))
 
 
 class SolverError(Exception):
@@ -112,6 +95,7 @@ class Worker:
     command: list[str]
     scene: Scene
     version: str = ""
+    set_up_seconds: float | None = None
     process: subprocess.Popen | None = None
     unread: bytes = field(default=b"", repr=False)
 
@@ -125,9 +109,12 @@ class Worker:
         """CPU seconds of one integration without samples, as the mean of several."""
         return self._request(f"{tolerance:g} {runs} -", limit)
 
-    def sample(self, tolerance: float, path: Path, limit: float) -> None:
-        """Integrate once and write samples to a file."""
-        self._request(f"{tolerance:g} 0 {path}", limit)
+    def samples(self, tolerance: float, limit: float) -> np.ndarray:
+        """Samples of one integration: rows of the time and the state."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "samples.tsv"
+            self._request(f"{tolerance:g} 0 {path}", limit)
+            return np.loadtxt(path, ndmin=2)
 
     def peak_memory(self) -> float:
         """The most memory that the process has held, in MB."""
@@ -163,7 +150,8 @@ class Worker:
             env={**os.environ, "OMP_NUM_THREADS": "1"},
         )
         self._send(self.scene.line())
-        self.version = self._answer(START_LIMIT)
+        self.version, *seconds = self._answer(START_LIMIT).split()
+        self.set_up_seconds = float(seconds[0]) if seconds else None
 
     def _send(self, line: str) -> None:
         try:

@@ -1,4 +1,4 @@
-# One scene in deSolve's dede, run as often as standard input asks (compare.py).
+# One scene in deSolve's dede, run as often as standard input asks (workers.py).
 # Arguments: the library of block.c, and which interpolation of the past.
 suppressPackageStartupMessages(library(deSolve))
 

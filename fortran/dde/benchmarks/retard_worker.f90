@@ -1,4 +1,4 @@
-!> One scene in RETARD (peers.py): not stiff, the pair of Dormand and Prince.
+!> One scene in RETARD (workers.py): not stiff, the pair of Dormand and Prince.
 module retard_scene
    use dde_kinds, only: wp
    use worker_protocol, only: epsilon, gamma, past, sample_time, samples, t_end, tau, xi
@@ -106,5 +106,5 @@ program retard_worker
    use worker_protocol, only: answer_requests
    implicit none (type, external)
 
-   call answer_requests("RETARD of 1995", integrate_once)
+   call answer_requests("1995", integrate_once)
 end program retard_worker

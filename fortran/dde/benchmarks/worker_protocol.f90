@@ -1,4 +1,4 @@
-!> What the workers in Fortran share (compare.py): a scene and requests from standard input, answers
+!> What the workers in Fortran share (workers.py): a scene and requests from standard input, answers
 !> to standard output. Scene and samples are global, as Hairer's codes call back without them.
 module worker_protocol
    use, intrinsic :: iso_fortran_env, only: iostat_end

@@ -1,4 +1,4 @@
-"""What all benchmarks share: the configuration, CPU seconds of a command, and tables."""
+"""What all benchmarks share: CPU seconds of a command, and tables."""
 
 import argparse
 import csv
@@ -6,33 +6,31 @@ import datetime
 import os
 import platform
 import resource
+import shutil
 import subprocess
 from pathlib import Path
 
-from scripts.config.check_config import checked
-from scripts.plans.studies import merged
-
 HERE = Path(__file__).resolve().parent
-ROOT = HERE.parent
 BUILD = HERE / "build"
 
 
-def configuration() -> dict:
-    """The project's configuration, checked and with its defaults."""
-    return checked(merged("config.yaml"))
-
-
-def options_of(name: str) -> argparse.ArgumentParser:
-    """The options of `benchmarks/run NAME`."""
-    parser = argparse.ArgumentParser(prog=f"benchmarks/run {name}".strip(), allow_abbrev=False)
-    parser.add_argument("--output", type=Path, default=ROOT / "results" / "tables")
+def options_of(command: str, output: Path = BUILD) -> argparse.ArgumentParser:
+    """The options of a benchmark, whose tables go to a folder."""
+    parser = argparse.ArgumentParser(prog=command, allow_abbrev=False)
+    parser.add_argument("--output", type=Path, default=output)
     return parser
+
+
+def add_limits(parser: argparse.ArgumentParser, time_limit: float = 60.0) -> None:
+    """Options of what integrates again and again."""
+    parser.add_argument("--time-limit", type=float, default=time_limit)
+    parser.add_argument("--repeats", type=int, default=5)
 
 
 def measure_command(command: list, request: str = "") -> tuple[float, str]:
     """CPU seconds of a command on one core, and its output; SystemExit if it fails."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-    # without this project's packages, which stand in PYTHONPATH
+    # without the packages of those who call this, which stand in PYTHONPATH
     environment = {key: word for key, word in os.environ.items() if key != "PYTHONPATH"}
     run = subprocess.run(
         [str(word) for word in command],
@@ -61,7 +59,9 @@ def describe_machine() -> list[str]:
 
 
 def first_line(*command: str) -> str:
-    """The first line of a command's output."""
+    """The first line of a command's output, if there is the command."""
+    if not shutil.which(command[0]):
+        return f"no {command[0]}"
     return subprocess.run(command, capture_output=True, text=True, check=True).stdout.split("\n")[0]
 
 

@@ -1,4 +1,4 @@
-!> One scene in RADAR5, version 2.1 (peers.py): stiff, Radau IIA of order 5.
+!> One scene in RADAR5, version 2.1 (workers.py): stiff, Radau IIA of order 5.
 module radar5_scene
    use dde_kinds, only: wp
    use worker_protocol, only: epsilon, gamma, past, sample_time, samples, t_end, tau, xi
@@ -158,5 +158,5 @@ program radar5_worker
    use worker_protocol, only: answer_requests
    implicit none (type, external)
 
-   call answer_requests("RADAR5 2.1", integrate_once)
+   call answer_requests("2.1", integrate_once)
 end program radar5_worker
