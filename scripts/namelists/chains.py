@@ -1,6 +1,4 @@
-"""Histories of the blocks of a scene, and the eigenvalues of the modes of chains."""
-
-import math
+"""Histories of the blocks of a scene."""
 
 import numpy as np
 
@@ -24,11 +22,3 @@ def histories_of(scene: dict) -> list[dict[str, float]]:
             values[key] = np.exp(np.log(value) + disturbance[f"ln_{key}"] * share)
     columns = [column.tolist() for column in values.values()]
     return [dict(zip(values, block, strict=True)) for block in zip(*columns, strict=True)]
-
-
-def eigenvalues(blocks: int, ends: str) -> list[float]:
-    """Minus the second difference over the mode, of each mode in ascending order, each once."""
-    numbers = range(1, blocks + 1) if ends == "plate" else range(blocks)
-    turns = {"free": 0.5 / blocks, "ring": 1.0 / blocks, "plate": 0.5 / (blocks + 1)}[ends]
-    values = [4.0 * math.sin(math.pi * turns * number) ** 2 for number in numbers]
-    return sorted({round(value, 12) for value in values})
