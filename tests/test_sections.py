@@ -21,6 +21,7 @@ SHORT = {"t_end": 200.0, "t_transient": 50.0}
 SECTIONS = {
     "scenes": {
         "s": {**PLACE, **SHORT, "sample_interval": 0.1, "exponents": {}},
+        "chain": {**PLACE, **SHORT, "blocks": 3, "kappa": 0.1, "exponents": {}},
         "in_si": {"si": SLAB, "tau": "2.2 years", **SHORT, "sample_interval": "10 days"},
     },
     "hopf_curves": {
@@ -38,8 +39,7 @@ SECTIONS = {
             "test": {"attractor_class": {"scene": "chaos", "expected": "chaos"}},
         }
     },
-    "chains": {"n": {**PLACE, **SHORT, "blocks": 3, "kappa": 0.1}},
-    "event_sizes": {"chains": {"e": {**PLACE, **SHORT, "blocks": 5, "kappa": 0.1}}},
+    "event_sizes": {"scenes": ["chaos_25"]},
     "chain_modes": {
         **{"blocks": 3, "cells": 10},
         "planes": {"m": {**PLANE, "epsilon_window": [0, 1], "tau_window": [0, 5]}},
@@ -49,11 +49,13 @@ SECTIONS = {
     "stability": {"families": {"f": {**{k: [v] for k, v in PLACE.items()}, "t_end": 10.0}}},
 }
 NOTHING = {
-    "scenes": {"s": {**AT_REST, **SHORT, "history": {"v": 1.0, "u": 0.0, "theta": 0.0}}},
+    "scenes": {
+        "s": {**AT_REST, **SHORT, "history": {"v": 1.0, "u": 0.0, "theta": 0.0}},
+        "c": {**AT_REST, **SHORT, "blocks": 3, "kappa": 0.1},
+    },
     "hopf_curves": {"p": {**SECTIONS["hopf_curves"]["p"], "abscissa_window": [0, 0.1]}},
     "cycles": {"lines": {"c": {**LINE, "epsilon": 0.1, "window": [0.1, 0.2]}}},
-    "chains": {"n": {**AT_REST, **SHORT, "blocks": 3, "kappa": 0.1}},
-    "event_sizes": {"chains": {"e": {**AT_REST, **SHORT, "blocks": 3, "kappa": 0.1}}},
+    "event_sizes": {"scenes": ["c"]},
     "chain_modes": merge(SECTIONS["chain_modes"], {"planes": {"m": {"epsilon_window": [0, 0.05]}}}),
 }
 """Motions at rest, planes and lines without Hopf points."""

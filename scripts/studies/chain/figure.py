@@ -6,7 +6,7 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.colors import TwoSlopeNorm
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullFormatter
+from matplotlib.ticker import MaxNLocator, NullFormatter
 
 from scripts.drawing import parameters
 from scripts.drawing.roots import roots_in_words
@@ -22,6 +22,8 @@ from scripts.tables.chain_motions import (
 
 SHOWN = 150.0
 """Time at the end that the maps show."""
+DECADE = 10.0
+"""Mean squares that span less have labels between powers of ten."""
 FLAT = 1e-6
 """ln v that is as near to 0 has no colour."""
 
@@ -70,6 +72,7 @@ def draw_map(figure: Figure, axes: Axes, chain: xr.Dataset) -> None:
         shading="nearest",
         rasterized=True,
     )
+    axes.yaxis.set_major_locator(MaxNLocator(5, integer=True))
     axes.set_ylabel("block")
     figure.colorbar(shades, ax=axes, label=r"$\ln v$", pad=0.02)
 
@@ -85,7 +88,9 @@ def draw_modes(axes: Axes, chain: xr.Dataset) -> None:
     """The mean square of each mode of ln v after the transient."""
     powers = powers_of(chain)
     axes.semilogy(first_mode(chain) + np.arange(powers.size), powers, "o-", ms=2.5, lw=0.7)
-    axes.yaxis.set_minor_formatter(NullFormatter())
+    axes.xaxis.set_major_locator(MaxNLocator(5, integer=True))
+    if powers.max() > DECADE * powers.min():
+        axes.yaxis.set_minor_formatter(NullFormatter())
     axes.set_ylabel("mean square")
 
 

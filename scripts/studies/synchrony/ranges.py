@@ -53,7 +53,7 @@ def undecided_blocks(one: xr.Dataset, kappa: float, most: int) -> list[int]:
 def stiffness_of_modes(blocks: int, kappa: float) -> list[float]:
     """The s of the modes of a chain with free ends but that in which all blocks move alike."""
     angles = [math.pi * mode / blocks for mode in range(1, blocks)]
-    return [1 + 4 * kappa * math.sin(angle / 2) ** 2 for angle in angles]
+    return [1 + kappa * round(4 * math.sin(angle / 2) ** 2, 12) for angle in angles]
 
 
 def largest_alike(ranges: list[tuple[float, float]], kappa: float) -> int | None:
