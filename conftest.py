@@ -58,6 +58,10 @@ GROUPS = {
 """Namelist group of each command that reads one alone, as tests name it."""
 DEAR = {"visited", "made", "installed", "run_of", "planned"}
 """Fixtures of a module that one of the processes of `./test` makes for all tests that use them."""
+collect_ignore = (
+    [] if (studies.FOLDER / "work_precision").exists() else ["tests/test_benchmarks.py"]
+)
+"""Benchmarks measure the cases of this study."""
 MADE = set(".git .venv .snakemake build __pycache__ .pytest_cache .ruff_cache".split())
 """Folders that hold none of the project's own files, beside the one of the results."""
 
@@ -168,15 +172,19 @@ class Programs:
         before = unfinished(self.output)
         command = [*self.command(program), "input.nml", self.output.name]
         run = subprocess.Popen(command, cwd=self.folder, **options)
-        wait_for(lambda: bool(unfinished(self.output) - before))
+        # text is written at the end
+        empty = 0 if program == "reference" else 1
+        wait_for(
+            lambda: any(path.stat().st_size >= empty for path in unfinished(self.output) - before)
+        )
         return run
 
     def write(self, groups: dict[str, dict]) -> Path:
         """Write a namelist; the models that it names are compiled."""
-        command = "synchrony" if "synchrony" in groups else ""
-        for model in models_in(groups, command):
+        groups = in_groups(groups)
+        for model in models_in(groups):
             compile_model(model, quad="reference" in groups)
-        write_namelist(self.folder / "input.nml", in_groups(groups))
+        write_namelist(self.folder / "input.nml", groups)
         return self.folder / "input.nml"
 
     def run_groups(self, program: str, groups: dict[str, dict]) -> subprocess.CompletedProcess[str]:
@@ -284,8 +292,8 @@ def compile_model(name: str, *, quad: bool) -> None:
     """Compile a model of the project where it is not up to date; other names are the program's."""
     if law_of(name) not in built_in():
         return
-    (path,) = objects_of({name}, {}, "", quad)
-    parts = [ROOT / part for part in parts_of(name, {}, "")]
+    (path,) = objects_of({name}, {"laws": {}}, "", quad)
+    parts = [ROOT / part for part in parts_of(name, {"laws": {}}, "")]
     sources = [*parts, *ROOT.glob("generator/*.py"), *ROOT.glob("generator/fortran/shared/*.f90")]
     with locked(ROOT / "build" / "lock"):
         made = (ROOT / path).stat().st_mtime if (ROOT / path).exists() else 0.0

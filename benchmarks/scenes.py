@@ -46,7 +46,7 @@ def scenes_up_to_horizons(cases: dict[str, dict]) -> dict[str, Scene]:
     return {
         name: Scene(
             **{key: float(case[key]) for key in ("tau", "epsilon", "xi", "gamma")},
-            past=(float(case["theta"]), float(case["u"]), math.log(case["v"])),
+            past=(case["history"]["theta"], case["history"]["u"], math.log(case["history"]["v"])),
             t_end=horizons[name],
             sample_interval=case["sample_interval"],
         )

@@ -6,12 +6,16 @@ from pathlib import Path
 import jinja2
 import sympy
 
-from generator import chain, chain_series, chain_tangents, pointwise, rest, series, slow, tangents
+from generator import pointwise, rest
+from generator.address import couplings
 from generator.definition import TIME, Model
-from generator.fortran import in_words, text_of, wrapped
+from generator.flow import Flow, Procedure, flow_of, rate_of_auxiliary
+from generator.fortran import in_words, indented, text_of, wrapped
 from generator.graph import Graph, in_order
-from generator.recurrences import Constants, Recurrences, fetch_parameters
-from generator.series import Procedure
+from generator.recurrences import Constants, Recurrences, fetch_parameters, names_of_parameters
+from generator.series import series_procedure
+from generator.slow import Balance, balance_of
+from generator.tangents import tangent_series_procedure
 
 LONGEST = 70
 """Letters of a character constant on one line."""
@@ -29,10 +33,10 @@ TEMPLATES = jinja2.Environment(
 
 def write_module(model: Model) -> str:
     """The text of the module."""
-    balance = slow.balance_of(model)
-    flow = series.flow_of(model)
+    balance = balance_of(model)
+    flow = flow_of(model)
     parts = {
-        "made": (procedures_of_chain if model.differences else procedures)(model, balance),
+        "made": procedures(model, balance),
         "description": description_lines(model),
         "delayed": delayed_procedure(model),
         "flow_texts": flow_texts(model, flow),
@@ -53,33 +57,18 @@ def write_module(model: Model) -> str:
     return rendered("model.f90.jinja", model.written, model=model, balance=balance, **parts)
 
 
-def procedures(model: Model, balance: slow.Balance | None) -> dict[str, Procedure]:
+def procedures(model: Model, balance: Balance | None) -> dict[str, Procedure]:
     """Those for the solver."""
     parts = {
         "rhs": pointwise.rhs_procedure(model),
         "jacobian": pointwise.jacobian_procedure(model),
-        "series": series.series_procedure(model),
-        "tangent_series": tangents.tangent_series_procedure(model),
+        "series": series_procedure(model),
+        "tangent_series": tangent_series_procedure(model),
     }
     if balance:
         parts["relaxation_rate"] = pointwise.relaxation_procedure(model, balance)
-        parts["slow_series"] = slow.slow_series_procedure(model, balance)
-        parts["slow_tangent_series"] = slow.slow_tangent_series_procedure(model, balance)
-    return parts
-
-
-def procedures_of_chain(model: Model, balance: slow.Balance | None) -> dict[str, Procedure]:
-    """Those for the solver, of all blocks."""
-    parts = {
-        "rhs": chain.rhs_procedure(model),
-        "jacobian": chain.jacobian_procedure(model),
-        "series": chain_series.series_procedure(model),
-        "tangent_series": chain_tangents.tangent_series_procedure(model),
-    }
-    if balance:
-        parts["relaxation_rate"] = chain.relaxation_procedure(model, balance)
-        parts["slow_series"] = chain_series.slow_series_procedure(model, balance)
-        parts["slow_tangent_series"] = chain_tangents.slow_tangent_series_procedure(model, balance)
+        parts["slow_series"] = series_procedure(model, balance)
+        parts["slow_tangent_series"] = tangent_series_procedure(model, balance)
     return parts
 
 
@@ -91,12 +80,12 @@ def rendered(template: str, names: dict[str, str], **values) -> str:
     return "\n".join(lines) + "\n"
 
 
-def flow_texts(model: Model, flow: series.Flow) -> dict[str, str]:
+def flow_texts(model: Model, flow: Flow) -> dict[str, str]:
     """The equations as they are integrated."""
     texts = dict(model.texts)
     for auxiliary, state in flow.integrated.items():
         texts[state] = f"{auxiliary}'/{auxiliary}"
-        texts[auxiliary] = str(series.rate_of_auxiliary(model, auxiliary))
+        texts[auxiliary] = str(rate_of_auxiliary(model, auxiliary))
     return texts
 
 
@@ -110,7 +99,7 @@ def description_lines(model: Model) -> list[str]:
     counted = (model.parameters, equations, model.states, model.delayed, terms)
     lines = [
         ("sizes", *(str(len(each)) for each in counted)),
-        *(("coupling", str(row), str(column)) for row, column in chain.couplings(model)),
+        *(("coupling", str(row), str(column)) for row, column in couplings(model)),
         observed_line(model),
         ("name", model.name),
         ("source", model.source),
@@ -162,49 +151,45 @@ def quoted(text: str) -> str:
 
 def delayed_procedure(model: Model) -> Procedure:
     """Delays and components of the delayed states."""
-    parameters = series.uses_parameters(model, [one.lag for one in model.delayed])
     states = list(model.states)
     components = [states.index(one.state) + 1 for one in model.delayed]
     lines = [
-        *fetch_parameters(model, parameters),
+        *fetch_parameters(model),
         *(f"lag({i}) = {text_of(one.lag)}" for i, one in enumerate(model.delayed, 1)),
         *(f"component({i}) = {number}" for i, number in enumerate(components, 1)),
     ]
-    return Procedure(parameters, [], [], lines)
+    return Procedure({"real(wp)": names_of_parameters(model)}, lines)
 
 
 def history_procedure(model: Model) -> Procedure:
     """Values up to the initial time."""
-    parameters = series.uses_parameters(model, list(model.history.values()))
-    lines = [*fetch_parameters(model, parameters), "select case (component)"]
+    lines = [*fetch_parameters(model), "select case (component)"]
     for place, value in enumerate(model.history.values(), 1):
         lines += [f"case ({place})", f"   value = {text_of(value)}"]
     lines += ["case default", "   value = ieee_value(1.0_wp, ieee_quiet_nan)", "end select"]
-    return Procedure(parameters, [], [], lines)
+    return Procedure({"real(wp)": names_of_parameters(model)}, lines)
 
 
 def history_series_procedure(model: Model, state: str) -> Procedure:
     """Coefficients of one component up to the initial time."""
     graph = Graph(model, {TIME: "time"})
     target = graph.node(sympy.sympify(model.history[state]))
-    nodes = in_order([target])
     constants = Constants(model)
-    recurrences = Recurrences(nodes, [target], constants)
-    first = [line for node in nodes for line in recurrences.first.get(node, [])]
-    later = [line for node in nodes for line in recurrences.later.get(node, [])]
-    start, rest = recurrences.rate_text(target, first=True), recurrences.rate_text(target)
+    recurrences = Recurrences(in_order([target]), [target], constants)
+    start, later = recurrences.rate_text(target, first=True), recurrences.rate_text(target)
+    body = recurrences.at_k(["time = merge(unit, 0.0_wp, k == 1)"])
     lines = [
         *constants.fetched(),
         "time_0 = t",
-        *first,
+        *recurrences.at_0(),
         f"y(0) = {start}",
         "do k = 1, degree",
-        *("   " + line for line in recurrences.loop()),
-        "   time = merge(unit, 0.0_wp, k == 1)",
-        *("   " + line for line in later),
-        *("   " + line for line in recurrences.stores()),
-        f"   y(k) = {rest}",
+        *indented([*body, f"y(k) = {later}"]),
         "end do",
     ]
-    reals = [*constants.scalars(), "time", "time_0", *recurrences.scalars]
-    return Procedure(reals, recurrences.arrays(), ["j", "k"] if recurrences.sums else ["k"], lines)
+    names = {
+        "real(wp)": [*constants.scalars(), "time", "time_0", *recurrences.scalars],
+        "real(wp), dimension(0:degree)": recurrences.arrays(),
+        "integer": ["j", "k"],
+    }
+    return Procedure(names, lines)

@@ -2,129 +2,112 @@
 
 import sympy
 
+from generator.address import Address
 from generator.definition import Model
-from generator.fortran import text_of
-from generator.recurrences import fetch_parameters
-from generator.series import Procedure, guarded, refusals, uses_parameters
+from generator.flow import Procedure, guard_names, refusals
+from generator.fortran import indented, text_of
+from generator.recurrences import fetch_parameters, names_of_parameters
 from generator.slow import Balance
 
 
-def fetch_states(
-    model: Model, expressions: list[sympy.Expr]
-) -> tuple[list[str], list[str], list[str]]:
-    """Statements that set states, delayed states and auxiliaries; and the names that they set.
-
-    The auxiliaries are by themselves: they may have no value.
-    """
-    symbols = set().union(*(one.free_symbols for one in expressions)) if expressions else set()
-    states, names = [], []
-    wanted = {one.state for one in model.delayed if one.symbol in symbols}
-    wanted |= {state for name, state in model.auxiliary.items() if model.symbol(name) in symbols}
-    wanted |= set(model.domain)
-    for place, state in enumerate(model.states, 1):
-        if model.symbol(state) in symbols or state in wanted:
-            states.append(f"{state} = y({place})")
-            names.append(state)
+def of_all_blocks(model: Model, result: str, lines: list[str], names: list[str]) -> Procedure:
+    """A procedure with these statements for every block."""
+    at = Address(model)
+    states = [*at.start(), *(f"{name} = {at.state('y', state=name)}" for name in model.states)]
     for number, one in enumerate(model.delayed, 1):
-        if one.symbol in symbols:
-            name = one.symbol.name
-            states += [
-                f"{name} = {one.state}",
-                f"if (place({number}) > 0) {name} = z(place({number}))",
-            ]
-            names.append(name)
-    auxiliary = [
-        f"{name} = exp({state})"
-        for name, state in model.auxiliary.items()
-        if model.symbol(name) in symbols
+        name, value = one.symbol.name, at.delayed("z", number=number)
+        states += [f"{name} = {one.state}", f"if (place_{number} > 0) {name} = {value}"]
+    inside = [
+        *states,
+        *at.differences(lambda column: f"y({column})"),
+        *refusals(model, list(model.equations.values()), guard_names(model), result),
+        *(f"{name} = exp({state})" for name, state in model.auxiliary.items()),
+        *lines,
     ]
-    names += [name for name in model.auxiliary if model.symbol(name) in symbols]
-    return states, auxiliary, names
-
-
-def guard_lines(model: Model, result: str) -> list[str]:
-    """Statements that end a procedure where the equations have no value."""
-    names = {model.symbol(name): f"exp({state})" for name, state in model.auxiliary.items()}
-    names |= {model.symbol(state): state for state in model.states}
-    names |= {one.symbol: one.symbol.name for one in model.delayed}
-    return refusals(model, list(model.equations.values()), names, result)
+    # without a value there are no derivatives by delayed states either
+    if result == "by_y":
+        inside = [
+            part
+            for line in inside
+            for part in (["   by_z = by_y(1, 1)", line] if line == "   return" else [line])
+        ]
+    if at.in_chain:
+        inside = ["do block = 1, self%blocks", *indented(inside), "end do"]
+    before = ["by_y = 0.0_wp", "by_z = 0.0_wp"] if result == "by_y" else []
+    symbols = [*(one.symbol for one in model.delayed), *model.differences.values()]
+    reals = [*names_of_parameters(model), *model.states, *model.auxiliary, *names]
+    return Procedure(
+        {
+            "real(wp)": [*reals, *(symbol.name for symbol in symbols)],
+            "integer": [*at.place_names(), *["at", "block"] * at.in_chain],
+        },
+        [*fetch_parameters(model), *at.places(), *before, *inside],
+    )
 
 
 def rhs_procedure(model: Model) -> Procedure:
     """The equations themselves."""
-    equations = list(model.equations.values())
-    states, auxiliary, names = fetch_states(model, [*equations, *guarded(model)])
-    parameters = uses_parameters(model, equations)
+    at = Address(model)
     lines = [
-        *fetch_parameters(model, parameters),
-        *states,
-        *guard_lines(model, "dydt"),
-        *auxiliary,
-        *(f"dydt({place}) = {text_of(one)}" for place, one in enumerate(equations, 1)),
+        f"{at.state('dydt', state=state)} = {text_of(model.equations[state])}"
+        for state in model.states
     ]
-    return Procedure([*parameters, *names], [], [], lines)
+    return of_all_blocks(model, "dydt", lines, [])
 
 
-def jacobian_entries(model: Model):
-    """Derivatives that are not 0, by equation and by what; parts that they share, and their texts.
+def jacobian_procedure(model: Model) -> Procedure:
+    """Derivatives of the equations by states and delayed states.
 
-    They are by the name of a state, or by the symbol of a delayed state or a second difference.
+    In a chain the first are banded, and the others are those of the equations of the same block.
     """
+    at = Address(model)
     entries: dict[tuple, sympy.Expr] = {}
+    variables = [*(one.symbol for one in model.delayed), *model.differences.values()]
     for row, equation in enumerate(map(model.plain, model.equations.values()), 1):
         for state in model.states:
             entries[row, state] = model.by_state(equation, state)
-        for symbol in [*(one.symbol for one in model.delayed), *model.differences.values()]:
+        for symbol in variables:
             entries[row, symbol] = equation.diff(symbol)
     entries = {place: value for place, value in entries.items() if value != 0}
     shared, reduced = sympy.cse(
         list(entries.values()), symbols=sympy.numbered_symbols("part_", real=True, start=1)
     )
-    return entries, shared, dict(zip(entries, map(text_of, reduced), strict=True))
-
-
-def jacobian_procedure(model: Model) -> Procedure:
-    """Derivatives of the equations by states and delayed states."""
-    entries, shared, texts = jacobian_entries(model)
-    values = [*entries.values(), *guarded(model)]
-    states, auxiliary, names = fetch_states(model, values)
-    parameters = uses_parameters(model, values)
-    columns = {state: column for column, state in enumerate(model.states, 1)}
-    lines = [
-        *fetch_parameters(model, parameters),
-        *states,
-        *guard_lines(model, "by_y"),
-        *auxiliary,
-        *(f"{name} = {text_of(value)}" for name, value in shared),
-        "by_y = 0.0_wp",
-        *(
-            f"by_y({row}, {columns[of]}) = {text}"
-            for (row, of), text in texts.items()
-            if of in columns
-        ),
+    texts = dict(zip(entries, map(text_of, reduced), strict=True))
+    lines = [f"{name} = {text_of(value)}" for name, value in shared]
+    lines += [
+        f"{at.slope(row, of)} = {text}" for (row, of), text in texts.items() if of in model.states
     ]
-    # without its delay a delayed state is the present one
-    for number, one in enumerate(model.delayed, 1):
-        rows = {row: text for (row, of), text in texts.items() if of == one.symbol}
-        place = f"place({number})"
-        lines += [f"if ({place} > 0) then", f"   by_z(:, {place}) = 0.0_wp"]
-        lines += [f"   by_z({row}, {place}) = {text}" for row, text in rows.items()]
-        lines += ["else"]
-        for row, text in rows.items():
-            entry = f"by_y({row}, {columns[one.state]})"
-            lines.append(f"   {entry} = {entry} + {braced(text)}")
-        lines += ["end if"]
-    lines = without_value(lines)
-    return Procedure([*parameters, *names, *(str(name) for name, _ in shared)], [], [], lines)
+    for (row, of), text in texts.items():
+        for state, symbol in model.differences.items():
+            if of == symbol:
+                lines += neighbour_entries(at, row, state, text)
+        for number, one in enumerate(model.delayed, 1):
+            if of == one.symbol:
+                # without its delay a delayed state is the present one
+                entry = at.slope(row, one.state)
+                lines += [
+                    f"if (place_{number} > 0) then",
+                    f"   {at.delayed('by_z', str(row), number=number)} = {text}",
+                    "else",
+                    f"   {entry} = {entry} + {braced(text)}",
+                    "end if",
+                ]
+    names = [str(name) for name, _ in shared]
+    return of_all_blocks(model, "by_y", lines, [*names, *["by_difference"] * at.in_chain])
 
 
-def without_value(lines: list[str]) -> list[str]:
-    """Statements that also leave no number in the derivatives by delayed states."""
-    return [
-        part
-        for line in lines
-        for part in (["   by_z = by_y(1, 1)", line] if line == "   return" else [line])
-    ]
+def neighbour_entries(at: Address, row: int, state: str, text: str) -> list[str]:
+    """Statements that add derivatives by the states of which a second difference is made."""
+    lines = [f"by_difference = {text}"]
+    for block, weight in (
+        ("block", "-(2.0_wp + self%mode)*by_difference"),
+        ("left(block)", "by_difference"),
+        ("right(block)", "by_difference"),
+    ):
+        entry = at.slope(row, state, block)
+        line = f"{entry} = {entry} + {braced(weight)}"
+        lines.append(line if block == "block" else f"if ({block} > 0) {line}")
+    return lines
 
 
 def braced(text: str) -> str:
@@ -133,12 +116,12 @@ def braced(text: str) -> str:
 
 
 def relaxation_procedure(model: Model, balance: Balance) -> Procedure:
-    """The rate at which the fast state approaches its balance, (rate of the definition)/v."""
-    parameters = uses_parameters(model, [balance.rate])
-    place = list(model.states).index(balance.state) + 1
+    """The least rate at which the fast state of a block approaches its balance, rate/v."""
+    place, size = list(model.states).index(balance.state) + 1, len(model.states)
     least = text_of(sympy.Rational(str(model.domain.get(balance.state, (-300, 0))[0])))
+    value = f"maxval(y({place}::{size}))" if Address(model).in_chain else f"y({place})"
     lines = [
-        *fetch_parameters(model, parameters),
-        f"rate = {text_of(balance.rate)}*exp(-max({least}, y({place})))",
+        *fetch_parameters(model),
+        f"rate = {text_of(balance.rate)}*exp(-max({least}, {value}))",
     ]
-    return Procedure(parameters, [], [], lines)
+    return Procedure({"real(wp)": names_of_parameters(model)}, lines)

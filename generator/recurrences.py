@@ -45,24 +45,24 @@ class Constants:
             self.lines.append(f"{self.names[value]} = {text_of(value)}")
         return self.names[value]
 
-    def parameters(self) -> list[str]:
-        """Names of the parameters that the constants take."""
-        used = {symbol.name for value in self.names for symbol in value.free_symbols}
-        return [one.name for one in self.model.parameters if one.name in used]
-
     def fetched(self) -> list[str]:
         """Statements that set parameters and constants."""
-        return [*fetch_parameters(self.model, self.parameters()), *self.lines]
+        return [*fetch_parameters(self.model), *self.lines]
 
     def scalars(self) -> list[str]:
         """Names that these statements set."""
-        return [*self.parameters(), *self.names.values()]
+        return [*names_of_parameters(self.model), *self.names.values()]
 
 
-def fetch_parameters(model: Model, names: list[str]) -> list[str]:
-    """Statements that give parameters their names."""
-    order = [one.name for one in model.parameters]
-    return [f"{name} = parameters({order.index(name) + 1})" for name in names]
+def names_of_parameters(model: Model) -> list[str]:
+    """Names of all parameters."""
+    return [one.name for one in model.parameters]
+
+
+def fetch_parameters(model: Model) -> list[str]:
+    """Statements that set them."""
+    names = names_of_parameters(model)
+    return [f"{name} = parameters({place})" for place, name in enumerate(names, 1)]
 
 
 def weighted_sum(parts: list[tuple[sympy.Expr, str]], constants: Constants) -> str:
@@ -89,6 +89,8 @@ class Recurrences:
     constants: Constants
     in_lanes: bool = False
     """Whether names are arrays of lanes: then both factors of a sum are stored forwards."""
+    k: str = "k"
+    """The order of which coefficients are computed."""
     inlined: set[Node] = field(default_factory=set)
     """Sums that stand within the expression that takes them."""
     sums: list[tuple[str, str]] = field(default_factory=list)
@@ -97,6 +99,8 @@ class Recurrences:
     """Stored backwards: the array of each quantity."""
     forwards: dict[str, str] = field(default_factory=dict)
     scalars: list[str] = field(default_factory=list)
+    kept: dict[str, None] = field(default_factory=dict)
+    """Names set at order 0 that higher orders take."""
 
     def __post_init__(self):
         uses: dict[Node, int] = {}
@@ -149,6 +153,11 @@ class Recurrences:
             self.sums.append(pair)
         return f"total_{self.sums.index(pair) + 1}"
 
+    def keep(self, name: str) -> str:
+        """A name that is set at order 0."""
+        self.kept.setdefault(name)
+        return name
+
     def define(self, name: str) -> str:
         """A scalar that is set."""
         if name not in self.scalars:
@@ -177,14 +186,16 @@ class Recurrences:
         left, right = node.args
         a, b = self.text(left), self.text(right)
         rest = self.convolved(a, b)
-        newest = f"2.0_wp*{a}_0*{a}" if a == b else f"{a}_0*{b} + {a}*{b}_0"
-        return [f"{zero} = {a}_0*{b}_0"], [f"{name} = {rest} + {newest}"]
+        a_0, b_0 = self.keep(f"{a}_0"), self.keep(f"{b}_0")
+        newest = f"2.0_wp*{a_0}*{a}" if a == b else f"{a_0}*{b} + {a}*{b_0}"
+        return [f"{zero} = {a_0}*{b_0}"], [f"{name} = {rest} + {newest}"]
 
     def quotient(self, node, name, zero):
         above, below = node.args
         b = self.text(below)
-        inverse = self.define(f"by_{b}")
+        inverse = self.keep(self.define(f"by_{b}"))
         rest = self.convolved(b, name)
+        self.keep(zero)
         above_text = self.text(above)
         newest = "" if above_text == "0.0_wp" else f"{above_text} - "
         return (
@@ -194,27 +205,31 @@ class Recurrences:
             else [f"{name} = -{inverse}*({zero}*{b} + {rest})"],
         )
 
-    def multiple(self, a: str) -> str:
-        """The name of k times coefficient k."""
-        return self.define(f"multiple_of_{a}")
+    def multiple(self, a: str) -> tuple[str, str]:
+        """The name of k times coefficient k, and the statement that sets it."""
+        name = self.define(f"multiple_of_{a}")
+        return name, f"{name} = {self.k}*{a}"
 
     def exponential(self, node, name, zero):
         a = self.text(node.args[0])
-        multiple = self.multiple(a)
+        multiple, line = self.multiple(a)
         rest = self.convolved(name, multiple)
         return (
             [f"{zero} = exp({a}_0)"],
-            [f"{multiple} = k*{a}", f"{name} = reciprocal(k)*({rest} + {zero}*{multiple})"],
+            [line, f"{name} = {self.over_k}({rest} + {self.keep(zero)}*{multiple})"],
         )
 
     def logarithm(self, node, name, zero):
         a = self.text(node.args[0])
-        multiple, inverse = self.multiple(name), self.define(f"by_{a}")
+        (multiple, _), inverse = self.multiple(name), self.keep(self.define(f"by_{a}"))
         rest = self.convolved(a, multiple)
         value = self.sum_text(node, first=True) if node.exact else f"log({a}_0)"
         return (
             [f"{inverse} = 1.0_wp/{a}_0", f"{zero} = {value}"],
-            [f"{multiple} = {inverse}*(k*{a} - {rest})", f"{name} = reciprocal(k)*{multiple}"],
+            [
+                f"{multiple} = {inverse}*({self.k}*{a} - {rest})",
+                f"{name} = {self.over_k}{multiple}",
+            ],
         )
 
     def power(self, node, name, zero):
@@ -224,28 +239,42 @@ class Recurrences:
             if node.exponent.is_Integer
             else self.constants.text(node.exponent)
         )
-        own, given, inverse = self.multiple(name), self.multiple(a), self.define(f"by_{a}")
+        (own, _), (given, line) = self.multiple(name), self.multiple(a)
+        inverse = self.keep(self.define(f"by_{a}"))
         grows, rest = self.convolved(name, given), self.convolved(a, own)
+        self.keep(zero)
         return (
             [f"{inverse} = 1.0_wp/{a}_0", f"{zero} = {a}_0**{exponent}"],
             [
-                f"{given} = k*{a}",
+                line,
                 f"{own} = {inverse}*({exponent}*({grows} + {zero}*{given}) - {rest})",
-                f"{name} = reciprocal(k)*{own}",
+                f"{name} = {self.over_k}{own}",
             ],
         )
 
     def function(self, node, name, zero):
         a, slope = self.text(node.args[0]), node.slope.name
-        multiple = self.multiple(a)
+        multiple, line = self.multiple(a)
         rest = self.convolved(slope, multiple)
+        slope_0 = self.keep(f"{slope}_0")
         return (
             [f"{zero} = {node.kind}({a}_0)"],
-            [
-                f"{multiple} = k*{a}",
-                f"{name} = {node.sign}reciprocal(k)*({rest} + {slope}_0*{multiple})",
-            ],
+            [line, f"{name} = {node.sign}{self.over_k}({rest} + {slope_0}*{multiple})"],
         )
+
+    @property
+    def over_k(self) -> str:
+        """A factor 1/k."""
+        return f"reciprocal({self.k})*"
+
+    def at_0(self) -> list[str]:
+        """The statements of order 0."""
+        return [line for node in self.nodes for line in self.first.get(node, [])]
+
+    def at_k(self, newest: list[str]) -> list[str]:
+        """The statements of order k, with those that set the newest coefficients of inputs."""
+        later = [line for node in self.nodes for line in self.later.get(node, [])]
+        return [*self.loop(), *newest, *later, *self.stores()]
 
     def loop(self) -> list[str]:
         """The sums over lower orders."""
@@ -255,11 +284,13 @@ class Recurrences:
         for name in names:
             self.define(name)
         left_part, right_part = (
-            ("(:, k - j, slot)", "(:, j, slot)") if self.in_lanes else ("(degree - k + j)", "(j)")
+            (f"(:, {self.k} - j, slot)", "(:, j, slot)")
+            if self.in_lanes
+            else (f"(degree - {self.k} + j)", "(j)")
         )
         return [
             *(f"{name} = 0.0_wp" for name in names),
-            "do j = 1, k - 1",
+            f"do j = 1, {self.k} - 1",
             *(
                 f"   {name} = {name} + {left}{left_part}*{right}{right_part}"
                 for name, (left, right) in zip(names, self.sums, strict=True)
@@ -271,10 +302,10 @@ class Recurrences:
         """Keep the newest coefficients for the sums of higher orders."""
         if self.in_lanes:
             stored = {array: name for name, array in {**self.backwards, **self.forwards}.items()}
-            return [f"{array}(:, k, slot) = {name}" for array, name in stored.items()]
+            return [f"{array}(:, {self.k}, slot) = {name}" for array, name in stored.items()]
         return [
-            *(f"{array}(degree - k) = {name}" for name, array in self.backwards.items()),
-            *(f"{array}(k) = {name}" for name, array in self.forwards.items()),
+            *(f"{array}(degree - {self.k}) = {name}" for name, array in self.backwards.items()),
+            *(f"{array}({self.k}) = {name}" for name, array in self.forwards.items()),
         ]
 
     def arrays(self) -> list[str]:

@@ -8,9 +8,9 @@ their place where there are any.
 import sympy
 
 from generator.definition import MODE, Model
+from generator.flow import Procedure, refusals
 from generator.fortran import indented, text_of
-from generator.recurrences import fetch_parameters
-from generator.series import Procedure, refusals, uses_parameters
+from generator.recurrences import fetch_parameters, names_of_parameters
 
 
 def at(model: Model, array: str = "state") -> dict[sympy.Expr, str]:
@@ -21,25 +21,23 @@ def at(model: Model, array: str = "state") -> dict[sympy.Expr, str]:
 def steady_state_procedure(model: Model) -> Procedure:
     """The state at rest, or where Newton's method starts."""
     values = list((model.near or model.steady_state).values())
-    parameters = uses_parameters(model, values)
-    lines = [*fetch_parameters(model, parameters)]
+    lines = [*fetch_parameters(model)]
     lines += [f"state({place}) = {text_of(value)}" for place, value in enumerate(values, 1)]
     if model.near:
         given = f"parameters(:{len(model.parameters)}), state(:{len(values)})"
         lines.append(f"call approach(equations_at_rest, {given})")
-    return Procedure(parameters, [], [], lines)
+    return Procedure({"real(wp)": names_of_parameters(model)}, lines)
 
 
 def rest_procedure(model: Model) -> Procedure:
     """The equations with all states alike, now and before, and their derivatives."""
     equations = [model.at_steady_state(one) for one in model.equations.values()]
-    parameters = uses_parameters(model, equations)
     names = at(model)
     guarded = names | {
         model.symbol(v): f"exp({names[model.symbol(w)]})" for v, w in model.auxiliary.items()
     }
     lines = [
-        *fetch_parameters(model, parameters),
+        *fetch_parameters(model),
         *refusals(model, equations, guarded, "rates"),
         *(f"rates({row}) = {text_of(one, names)}" for row, one in enumerate(equations, 1)),
     ]
@@ -53,15 +51,14 @@ def rest_procedure(model: Model) -> Procedure:
                 if (slope := one.diff(symbol)) != 0:
                     lines.append(f"   {array}({row}, {column}) = {text_of(slope, names)}")
         lines.append("end if")
-    return Procedure(parameters, [], [], lines)
+    return Procedure({"real(wp)": names_of_parameters(model)}, lines)
 
 
 def derivative_procedure(model: Model) -> Procedure:
     """The k-linear forms of the equations at the steady state, by nilpotent numbers."""
     equations = list(map(model.plain, model.equations.values()))
     symbols = set().union(*(one.free_symbols for one in equations))
-    parameters = uses_parameters(model, [*equations, *model.steady_state.values()])
-    lines = fetch_parameters(model, parameters)
+    lines = fetch_parameters(model)
     values = {name: text_of(value, at(model)) for name, value in model.steady_state.items()}
     places = {state: place for place, state in enumerate(model.states, 1)}
     made = [(state, state, 1) for state in model.states]
@@ -75,7 +72,9 @@ def derivative_procedure(model: Model) -> Procedure:
     for place, equation in enumerate(equations, 1):
         constant = not equation.free_symbols & model.variables
         lines.append(f"form({place}) = " + ("0.0_wp" if constant else f"top({text_of(equation)})"))
-    return Procedure(parameters, [], [], lines, lanes=[*(name for name, _, _ in made), *auxiliary])
+    numbers = [*(name for name, _, _ in made), *auxiliary]
+    names = {"real(wp)": names_of_parameters(model), "type(nilpotent_type)": numbers}
+    return Procedure(names, lines)
 
 
 def shortest(expression: sympy.Expr) -> sympy.Expr:
@@ -137,10 +136,7 @@ def characteristic_procedure(model: Model) -> Procedure:
     """Coefficients, powers and delays of the terms, and their derivatives where these are not 0."""
     terms = characteristic_terms(model)
     linear = linear_part(model) if model.near else {}
-    delays = [delay for _, _, delay in terms]
-    coefficients = [coefficient for coefficient, _, _ in terms]
-    parameters = uses_parameters(model, [*delays, *coefficients, *linear.values()])
-    lines = [*fetch_parameters(model, parameters), *entry_lines(model, linear)]
+    lines = [*fetch_parameters(model), *entry_lines(model, linear)]
     parts = [sympy.S.Zero]
     for i, (coefficient, power, delay) in enumerate(terms, 1):
         if delay not in parts:
@@ -167,7 +163,8 @@ def characteristic_procedure(model: Model) -> Procedure:
     count, size, entries = len(model.parameters), len(model.states), len(linear)
     arrays = [f"rates({size})", f"by_state({size}, {size})", f"moves({size}, {count})"]
     arrays += [f"entry({entries})", f"entry_by({entries}, {count})"]
-    return Procedure(parameters, [], [], lines, others={"real(wp)": arrays if linear else []})
+    names = [*names_of_parameters(model), *(arrays if linear else [])]
+    return Procedure({"real(wp)": names}, lines)
 
 
 def entry_lines(model: Model, linear: dict[tuple, sympy.Expr]) -> list[str]:

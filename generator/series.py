@@ -1,309 +1,273 @@
-"""Procedures that compute Taylor series of solutions, and what all procedures share.
+"""Procedures that compute Taylor series of solutions, order by order.
 
-For each state w of which exp(w) is taken, v = exp(w) may be integrated beside w, by v' = v w'.
-This pays where v' needs fewer convolutions than the recurrence of the exponential: in the block
-v' is linear, and w' = v'/v takes one.
+One block alone has its coefficients in scalars. Blocks of a chain are computed in tiles of some
+lanes. Coefficient k + 1 of a tile needs coefficient k of its neighbours, so tile i is at order k
+when the front is at i + k: a few tiles are computed in turn and stay in the cache. Neighbours are
+within a tile or in the next ones.
 """
 
-from dataclasses import dataclass
-
-import sympy
-
-from generator.definition import LARGEST_EXPONENT, TIME, Model
-from generator.fortran import indented, text_of
-from generator.graph import Graph, Node, convolutions, in_order
-from generator.recurrences import Constants, Recurrences, fetch_parameters
-
-REFUSED = {
-    sympy.log: ".not. {} > 0.0_wp",
-    **dict.fromkeys((sympy.sinh, sympy.cosh), f"abs({{}}) > {LARGEST_EXPONENT}.0_wp"),
-    **dict.fromkeys((sympy.asin, sympy.acos, sympy.atanh), ".not. abs({}) < 1.0_wp"),
-    sympy.acosh: ".not. {} > 1.0_wp",
-}
-"""Arguments for which functions have no value or no derivative, or overflow, as conditions."""
-
-
-@dataclass
-class Procedure:
-    """The parts of a procedure: variables by their type, and statements."""
-
-    reals: list[str]
-    arrays: list[str]
-    integers: list[str]
-    lines: list[str]
-    lanes: list[str] | tuple = ()
-    lane_arrays: list[str] | tuple = ()
-    others: dict[str, list[str]] | None = None
-    """Names by what stands before :: in their declarations."""
+from generator.address import Address
+from generator.definition import Model
+from generator.flow import (
+    Procedure,
+    exponential_lines,
+    flow_of,
+    flow_with,
+    guard_names,
+    input_names,
+    refusals,
+)
+from generator.fortran import indented
+from generator.graph import in_order
+from generator.recurrences import Constants, Recurrences
+from generator.slow import Balance, inertia_lines
 
 
-def input_names(model: Model) -> dict[sympy.Symbol, str]:
-    """States, delayed states and time by their names in statements."""
-    names = {model.symbol(state): state for state in model.states}
-    names |= {one.symbol: one.symbol.name for one in model.delayed}
-    names |= {symbol: symbol.name for symbol in model.differences.values()}
-    return names | {TIME: "time"}
+class Series:
+    """The statements of the series of all states, or of those on the slow solution.
 
+    On the slow solution the fast state is not advanced but its balance less v'/rate, with v' as it
+    was.
+    """
 
-def rate_of_auxiliary(model: Model, auxiliary: str) -> sympy.Expr:
-    """v' = v w' of v = exp(w), term by term, so that powers of v cancel."""
-    rate = model.equations[model.auxiliary[auxiliary]]
-    terms = rate.args if rate.is_Add else (rate,)
-    return sympy.Add(*(model.symbol(auxiliary) * term for term in terms))
+    def __init__(self, model: Model, balance: Balance | None):
+        self.model, self.balance, self.at = model, balance, Address(model)
+        self.flow = flow_with(model, {}) if balance else flow_of(model)
+        self.fast = [balance.state] if balance else []
+        self.rates = {name: node for name, node in self.flow.rates.items() if name not in self.fast}
+        self.advanced = [state for state in model.states if state in self.rates]
+        self.constants = Constants(model)
+        roots = list(self.rates.values())
+        in_lanes = self.at.in_chain
+        self.recurrences = Recurrences(in_order(roots), roots, self.constants, in_lanes=in_lanes)
+        self.inertia = inertia_lines(balance, self.constants)
+        self.last = "degree" if balance else "degree - 1"
 
+    def before(self) -> list[str]:
+        """Statements before all others."""
+        return [*self.at.places(), *self.constants.fetched(), *self.inertia]
 
-@dataclass
-class Flow:
-    """Rates of states as nodes, and of auxiliaries that are integrated beside them."""
-
-    graph: Graph
-    rates: dict[str, Node]
-    integrated: dict[str, str]
-    """Integrated auxiliaries and their states."""
-
-
-def flow_of(model: Model) -> Flow:
-    """The cheapest way to the rates."""
-    integrated: dict[str, str] = {}
-    best = flow_with(model, integrated)
-    for auxiliary, state in model.auxiliary.items():
-        other = flow_with(model, {**integrated, auxiliary: state})
-        if convolutions(list(other.rates.values())) < convolutions(list(best.rates.values())):
-            integrated, best = {**integrated, auxiliary: state}, other
-    return best
-
-
-def flow_with(model: Model, integrated: dict[str, str]) -> Flow:
-    """Rates where these auxiliaries are integrated."""
-    names = input_names(model) | {model.symbol(name): name for name in integrated}
-    graph = Graph(model, names)
-    rates = {}
-    for auxiliary, state in integrated.items():
-        rate, symbol = rate_of_auxiliary(model, auxiliary), model.symbol(auxiliary)
-        rates[auxiliary] = graph.node(rate)
-        graph.known[model.equations[state]] = graph.add(
-            "quotient", rates[auxiliary], graph.known[symbol]
-        )
-    rates |= {state: graph.node(equation) for state, equation in model.equations.items()}
-    return Flow(graph, {state: rates[state] for state in [*model.states, *integrated]}, integrated)
-
-
-def conditions_of(model: Model, expressions: list[sympy.Expr], names: dict) -> list[list[str]]:
-    """Conditions under which the expressions have no value: a list for each depth of nesting."""
-    found: dict[sympy.Expr, tuple[int, str]] = {}
-
-    def visit(one: sympy.Expr) -> int:
-        depth = max([visit(argument) for argument in one.args], default=0)
-        text = None
-        if one.func is sympy.exp:
-            text = REFUSED[sympy.sinh].format(text_of(one.args[0], names))
-            for delayed in model.delayed:
-                if delayed.symbol == one.args[0] and delayed.state in model.domain:
-                    text = window_condition(names[delayed.symbol], model.domain[delayed.state])
-        elif one.func in REFUSED:
-            text = REFUSED[one.func].format(text_of(one.args[0], names))
-        elif one.is_Pow and not one.exp.is_Integer and one.base is not sympy.E:
-            text = REFUSED[sympy.log].format(text_of(one.base, names))
-        elif one.is_Pow and one.exp.is_Integer and one.exp < 0 and not one.base.is_Symbol:
-            text = f".not. abs({text_of(one.base, names)}) > 0.0_wp"
-        if text is None or not one.free_symbols & model.variables:
-            return depth
-        found.setdefault(one, (depth, text))
-        return depth + 1
-
-    for expression in map(model.plain, expressions):
-        visit(expression)
-    levels: list[list[str]] = []
-    for depth, text in found.values():
-        while len(levels) <= depth:
-            levels.append([])
-        if text not in levels[depth]:
-            levels[depth].append(text)
-    outer = [
-        window_condition(names[model.symbol(state)], window)
-        for state, window in model.domain.items()
-    ]
-    return [level for level in [outer, *levels] if level]
-
-
-def window_condition(name: str, window: tuple[float, float]) -> str:
-    """Whether a value is outside a window, or no number."""
-    least, largest = (text_of(sympy.Rational(str(bound))) for bound in window)
-    return f".not. ({name} >= {least} .and. {name} <= {largest})"
-
-
-def refusals(model: Model, expressions: list[sympy.Expr], names: dict, result: str) -> list[str]:
-    """Statements that end a procedure with no number where an expression has no value."""
-    lines = []
-    for level in conditions_of(model, expressions, names):
-        lines += [
-            f"if ({' .or. '.join(level)}) then",
-            f"   {result} = ieee_value(1.0_wp, ieee_quiet_nan)",
-            "   return",
-            "end if",
+    def rate_before(self, lane: str) -> list[str]:
+        """Statements that set v' times the unit of the iteration before."""
+        if not self.balance:
+            return []
+        v, rate = self.balance.auxiliary, self.at.kept("rate_before", lane, "i - 1")
+        return [
+            *exponential_lines(
+                self.model,
+                v,
+                lambda order, state: self.at.state("y", order, state=state),
+                lambda order: f"{v}_series({order})",
+                self.constants,
+            ),
+            "do i = 1, degree",
+            f"   {rate} = i*{v}_series(i)",
+            "end do",
         ]
-    return lines
+
+    def balanced(self, order: str, end: str = "") -> list[str]:
+        """The statement that sets the fast state, from others whose names have an end."""
+        if not self.balance:
+            return []
+        others = [*self.advanced, *(one.name for one in self.model.differences.values())]
+        names = {name: f"{name}{end}" for name in others}
+        text = self.balance.text(names, self.constants, whole=order == "0")
+        rate = self.at.kept("rate_before", ":" * self.at.in_chain, order)
+        return [f"{self.balance.state}{end} = {text} - inertia*{rate}"]
+
+    def integrated_at_0(self) -> list[str]:
+        """Statements that set auxiliaries that are integrated."""
+        return [f"{name}_0 = exp({state}_0)" for name, state in self.flow.integrated.items()]
+
+    def guards(self) -> list[str]:
+        """Statements that end the procedure where equations have no value."""
+        equations = [self.model.equations[state] for state in self.advanced]
+        result, names = "y" if self.fast else "y(1:, :)", guard_names(self.model, "_0")
+        return refusals(self.model, equations, names, result, in_lanes=self.at.in_chain)
+
+    def procedure(self, lines: list[str], names: dict[str, list[str]]) -> Procedure:
+        """The procedure, with names beside those that all have."""
+        slow = bool(self.fast)
+        reals = [*self.constants.scalars(), "step", *["by_unit", "inertia"] * slow]
+        integers = [*self.at.place_names(), "j", "k", *["i"] * slow]
+        names["real(wp)"] = [*reals, "time", "time_0", *names.get("real(wp)", [])]
+        names["integer"] = [*integers, *names.get("integer", [])]
+        series = [f"{self.balance.auxiliary}_series"] if slow else []
+        arrays = "real(wp), dimension(0:degree)"
+        return Procedure({**names, arrays: [*series, *names.get(arrays, [])]}, lines)
 
 
-def fetch_inputs(model: Model, nodes: list[Node], order: str) -> tuple[list[str], list[str]]:
-    """Statements that set delayed states and time at order 0 or k, and the names that they set."""
-    suffix = "_0" if order == "0" else ""
-    used = {node.name for node in nodes if node.kind == "input"}
-    lines, names = [], []
-    for number, one in enumerate(model.delayed, 1):
-        if one.symbol.name in used:
-            name = one.symbol.name + suffix
-            names.append(name)
-            lines += [
-                f"{name} = {one.state}{suffix}",
-                f"if (place_{number} > 0) {name} = z({order}, place_{number})",
-            ]
-    if "time" in used:
-        names.append("time" + suffix)
-        lines.append("time_0 = t" if order == "0" else "time = merge(unit, 0.0_wp, k == 1)")
-    return lines, names
+def series_procedure(model: Model, balance: Balance | None = None) -> Procedure:
+    """Coefficients 1 to degree of the states from their values, or those of the slow solution."""
+    series = Series(model, balance)
+    return of_chain(series) if series.at.in_chain else of_one_block(series)
 
 
-def fetch_places(model: Model) -> list[str]:
-    """Statements that set where the delayed states are."""
-    return [f"place_{number} = place({number})" for number, _ in enumerate(model.delayed, 1)]
+def of_one_block(series: Series) -> Procedure:
+    """Order 0, then a loop over higher orders."""
+    model, at, recurrences = series.model, series.at, series.recurrences
+    inputs = {node.name for node in recurrences.nodes if node.kind == "input"}
 
+    def given(order: str, end: str) -> list[str]:
+        """Statements that set delayed states and time."""
+        lines = []
+        for number, one in enumerate(model.delayed, 1):
+            name = f"{one.symbol.name}{end}"
+            if one.symbol.name in inputs:
+                value = at.delayed("z", order, number=number)
+                lines += [f"{name} = {one.state}{end}", f"if (place_{number} > 0) {name} = {value}"]
+        time = "time_0 = t" if order == "0" else "time = merge(unit, 0.0_wp, k == 1)"
+        return [*lines, *[time] * ("time" in inputs)]
 
-def place_names(model: Model) -> list[str]:
-    """Names that these statements set."""
-    return [f"place_{number}" for number, _ in enumerate(model.delayed, 1)]
-
-
-def uses_parameters(model: Model, expressions: list[sympy.Expr]) -> list[str]:
-    """Names of the parameters in expressions."""
-    symbols = set().union(*(one.free_symbols for one in expressions)) if expressions else set()
-    return [one.name for one in model.parameters if model.symbol(one.name) in symbols]
-
-
-def series_procedure(model: Model) -> Procedure:
-    """Coefficients 1 to degree of the states from their values."""
-    flow = flow_of(model)
-    roots = list(flow.rates.values())
-    nodes = in_order(roots)
-    constants = Constants(model)
-    recurrences = Recurrences(nodes, roots, constants)
-    names = {model.symbol(state): f"{state}_0" for state in model.states}
-    names |= {one.symbol: f"{one.symbol.name}_0" for one in model.delayed}
-    names |= {model.symbol(name): f"exp({state}_0)" for name, state in model.auxiliary.items()}
-    names[TIME] = "time_0"
-    states = list(model.states)
-    known, known_names = fetch_inputs(model, nodes, "0")
-    newest, newest_names = fetch_inputs(model, nodes, "k")
-    guards = refusals(model, list(model.equations.values()), names, "y(1:, :)")
-    first = [line for node in nodes for line in recurrences.first.get(node, [])]
-    later = [line for node in nodes for line in recurrences.later.get(node, [])]
-    steps_first = [
-        f"{name} = unit*({recurrences.rate_text(node, first=True)})"
-        for name, node in flow.rates.items()
-    ]
-    rates = [f"{name}_rate = {recurrences.rate_text(node)}" for name, node in flow.rates.items()]
+    texts = {name: recurrences.rate_text(node) for name, node in series.rates.items()}
+    start = {name: recurrences.rate_text(node, first=True) for name, node in series.rates.items()}
     body = [
-        *recurrences.loop(),
-        *newest,
-        *later,
-        *recurrences.stores(),
-        *rates,
+        *series.balanced("k"),
+        *(f"{at.state('y', 'k', state=state)} = {state}" for state in series.fast),
+        *["if (k == degree) exit"] * bool(series.fast),
+        *recurrences.at_k(given("k", "")),
+        *(f"{name}_rate = {text}" for name, text in texts.items()),
         "step = unit*reciprocal(k + 1)",
-        *(f"{name} = step*{name}_rate" for name in flow.rates),
-        *(f"y(k + 1, {place}) = {state}" for place, state in enumerate(states, 1)),
+        *(f"{name} = step*{name}_rate" for name in texts),
+        *(f"{at.state('y', 'k + 1', state=state)} = {state}" for state in series.advanced),
     ]
-    guard_parameters = uses_parameters(model, guarded(model))
     lines = [
-        *fetch_places(model),
-        *(f"{state}_0 = y(0, {place})" for place, state in enumerate(states, 1)),
-        *known,
-        *fetch_parameters(
-            model, [name for name in guard_parameters if name not in constants.parameters()]
-        ),
-        *constants.fetched(),
-        *guards,
+        *(f"{state}_0 = {at.state('y', '0', state=state)}" for state in series.advanced),
+        *series.balanced("0", "_0"),
+        *given("0", "_0"),
+        *series.guards(),
+        *series.integrated_at_0(),
+        *recurrences.at_0(),
+        *(f"{at.state('y', '0', state=state)} = {state}_0" for state in series.fast),
         "if (degree == 0) return",
-        *(f"{name}_0 = exp({state}_0)" for name, state in flow.integrated.items()),
-        *first,
-        *steps_first,
-        *(f"y(1, {place}) = {state}" for place, state in enumerate(states, 1)),
-        "do k = 1, degree - 1",
+        *(f"{name} = unit*({text})" for name, text in start.items()),
+        *(f"{at.state('y', '1', state=state)} = {state}" for state in series.advanced),
+        f"do k = 1, {series.last}",
         *indented(body),
         "end do",
     ]
-    reals = [
-        *constants.scalars(),
-        *(name for name in guard_parameters if name not in constants.parameters()),
-        *(f"{name}{end}" for name in flow.rates for end in ("", "_0", "_rate")),
-        *known_names,
-        *newest_names,
-        *recurrences.scalars,
-        "step",
+    rate_before = series.rate_before("")
+    if rate_before:
+        lines = [*rate_before, f"{at.kept('rate_before', 'degree')} = 0.0_wp", *lines]
+    delayed = [one.symbol.name for one in model.delayed]
+    reals = [f"{name}{end}" for name in [*series.flow.rates, *delayed] for end in ("", "_0")]
+    return series.procedure(
+        [*series.before(), *lines],
+        {
+            "real(wp)": [*reals, *(f"{name}_rate" for name in texts), *recurrences.scalars],
+            "real(wp), dimension(0:degree)": [
+                *recurrences.arrays(),
+                *["rate_before"] * bool(rate_before),
+            ],
+        },
+    )
+
+
+def of_chain(series: Series) -> Procedure:
+    """Loops over tiles and orders."""
+    model, at, recurrences = series.model, series.at, series.recurrences
+    delayed = list(enumerate((one.symbol.name for one in model.delayed), 1))
+    names = [name for symbol, name in input_names(model).items() if name != "time"]
+    integrated = list(series.flow.integrated)
+
+    def each_lane(lines: list[str]) -> list[str]:
+        return [
+            "do lane = 1, last",
+            *indented(["block = first + lane", *at.start(), *lines]),
+            "end do",
+        ]
+
+    def scattered(order: str, states: list[str]) -> list[str]:
+        return each_lane([f"{at.state('y', order, state=one)} = {one}(lane)" for one in states])
+
+    def balanced(order: str) -> list[str]:
+        if not series.fast:
+            return []
+        stored = scattered("k", series.fast)
+        return [*series.balanced(order), *stored, "if (k == degree) cycle"]
+
+    # a delayed state without delay is the present one, which may be its balance
+    present = [f"if (place_{i} == 0) {name} = {model.delayed[i - 1].state}" for i, name in delayed]
+    gathered = [
+        *(f"{name} = 0.0_wp" for name in names),
+        *each_lane(
+            [
+                *(f"{one}(lane) = {at.state('y', 'k', state=one)}" for one in series.advanced),
+                *at.differences(lambda column: f"y(k, {column})", lane="(lane)"),
+                *(
+                    f"if (place_{i} > 0) {name}(lane) = {at.delayed('z', 'k', number=i)}"
+                    for i, name in delayed
+                ),
+            ]
+        ),
     ]
-    integers = [*place_names(model), *["j"] * bool(recurrences.sums), "k"]
-    return Procedure(reals, recurrences.arrays(), integers, lines)
-
-
-def guarded(model: Model) -> list[sympy.Expr]:
-    """Arguments of functions that have no value everywhere."""
-    kinds = (sympy.exp, sympy.Pow, *REFUSED)
-    return [
-        part.args[0]
-        for equation in map(model.plain, model.equations.values())
-        for part in sympy.preorder_traversal(equation)
-        if isinstance(part, kinds) and part.free_symbols & model.variables
+    rates = {name: recurrences.rate_text(node) for name, node in series.rates.items()}
+    start = {name: recurrences.rate_text(node, first=True) for name, node in series.rates.items()}
+    rate_before = series.rate_before("lane")
+    if rate_before:
+        rate_before = ["rate_before(:, :, slot) = 0.0_wp", *each_lane(rate_before)]
+    first = [
+        *rate_before,
+        *balanced("0"),
+        *present,
+        *(f"{name}_0 = {name}" for name in names),
+        *series.guards(),
+        *series.integrated_at_0(),
+        *recurrences.at_0(),
+        *(f"{name}_rate = {text}" for name, text in start.items()),
     ]
-
-
-def integral_of(model: Model, auxiliary: str) -> tuple[int, sympy.Expr] | None:
-    """The place of a state x with x' = c v + constant, and c: its series holds that of v."""
-    v = model.symbol(auxiliary)
-    for place, equation in enumerate(map(model.plain, model.equations.values()), 1):
-        by_v = equation.diff(v)
-        if (
-            by_v != 0
-            and not (by_v.free_symbols | (equation - by_v * v).free_symbols) & model.variables
-        ):
-            return place, by_v
-    return None
-
-
-def exponential_lines(
-    model: Model, auxiliary: str, y: str, series: str, constants: Constants
-) -> list[str]:
-    """Statements that compute the series of v = exp(w) from those of the states.
-
-    Where x' = c v + constant they are those of x, but for the last, by v' = v w'.
-    """
-    w = list(model.states).index(model.auxiliary[auxiliary]) + 1
-    window = model.domain.get(model.auxiliary[auxiliary], (0, LARGEST_EXPONENT))
-    largest = text_of(sympy.Rational(str(window[1])))
-    found = integral_of(model, auxiliary)
-    lines = [f"{series}(0) = exp(min({y}(0, {w}), {largest}))"]
-    sums = [
-        f"{series}(k) = 0.0_wp",
-        "do j = 1, k",
-        f"   {series}(k) = {series}(k) + j*{y}(j, {w})*{series}(k - j)",
+    later = [
+        *balanced("k"),
+        *present,
+        *(f"{name} = {name}_next(:, slot)" for name in integrated),
+        *recurrences.at_k([]),
+        *(f"{name}_rate = {text}" for name, text in rates.items()),
+    ]
+    kept = [(name, f"{name}_kept(:, slot)") for name in recurrences.kept if name != "time_0"]
+    body = [
+        "first = lanes*(front - k)",
+        "last = min(lanes, self%blocks - first)",
+        f"slot = modulo(front - k, {series.last} + 1)",
+        "time = merge(unit, 0.0_wp, k == 1)",
+        *gathered,
+        "if (k == 0) then",
+        *indented([*first, *(f"{place} = {name}" for name, place in kept)]),
+        "else",
+        *indented([*(f"{name} = {place}" for name, place in kept), *later]),
+        "end if",
+        "step = unit*reciprocal(k + 1)",
+        *(f"{state} = step*{state}_rate" for state in series.advanced),
+        *(f"{name}_next(:, slot) = step*{name}_rate" for name in integrated),
+        *scattered("k + 1", series.advanced),
+    ]
+    lines = [
+        *series.before(),
+        *["if (degree == 0) return"] * (not series.fast),
+        "time_0 = t",
+        "last_tile = (self%blocks - 1)/lanes",
+        f"do front = 0, last_tile + {series.last}",
+        f"   do k = max(0, front - last_tile), min(front, {series.last})",
+        *indented(body, 6),
+        "   end do",
         "end do",
-        f"{series}(k) = reciprocal(k)*{series}(k)",
     ]
-    if found is None:
-        return [*lines, "do k = 1, degree", *indented(sums), "end do"]
-    place, factor = found
-    scale = "1.0_wp/unit" if factor == 1 else f"1.0_wp/({weighted_unit(factor, constants)})"
-    return [
-        *lines,
-        f"by_unit = {scale}",
-        "do k = 1, degree - 1",
-        f"   {series}(k) = (by_unit*(k + 1))*{y}(k + 1, {place})",
-        "end do",
-        "do k = max(1, degree), degree",
-        *indented(sums),
-        "end do",
-    ]
-
-
-def weighted_unit(factor: sympy.Expr, constants: Constants) -> str:
-    """A unit of time times a factor."""
-    sign = "-" if factor.could_extract_minus_sign() else ""
-    return f"{sign}{constants.text(-factor if sign else factor)}*unit"
+    all_names = [*names, *(f"{name}_0" for name in [*names, *integrated]), *integrated]
+    return series.procedure(
+        lines,
+        {
+            "integer": ["at", "block", "first", "front", "lane", "last", "last_tile", "slot"],
+            "real(wp), dimension(lanes)": [
+                *all_names,
+                *(f"{name}_rate" for name in rates),
+                *recurrences.scalars,
+            ],
+            "real(wp), dimension(lanes, 0:degree, 0:degree)": [
+                *recurrences.arrays(),
+                *["rate_before"] * bool(rate_before),
+            ],
+            "real(wp), dimension(lanes, 0:degree)": [
+                *(f"{name}_kept" for name, _ in kept),
+                *(f"{name}_next" for name in integrated),
+            ],
+        },
+    )

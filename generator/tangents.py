@@ -1,408 +1,271 @@
-"""Procedures that compute Taylor series of small disturbances: the derivatives of the recurrences.
+"""Procedures that compute Taylor series of small disturbances.
 
-    p = a b       dp = a db + b da            e = exp(a)    de = e da
-    q = a/b       b dq = da - q db            l = log(a)    a dl = da
-    p = a**c      dp = (c p/a) da             f = f(a)      df = g da with its slope g
-    v = exp(w), integrated    v dw = dv
-
-Disturbances are computed in lanes, several at a time: the recurrences of one wait for their own
-last terms, those of several overlap. One product of each sum is one statement: compilers then keep
-the sums in registers.
+Blocks of a chain are computed one at a time: block i is at order k when the front is at
+i + k reach, where neighbours are up to `reach` places apart.
 """
 
-from dataclasses import dataclass, field
-
+from generator.address import Address
 from generator.definition import Model
-from generator.fortran import indented, text_of
-from generator.graph import Node, in_order
-from generator.recurrences import Constants, Recurrences, weighted_sum
-from generator.series import (
-    Flow,
-    Procedure,
-    exponential_lines,
-    fetch_inputs,
-    fetch_places,
-    flow_of,
-    integral_of,
-    place_names,
-)
+from generator.disturbances import Disturbances, base_series, lane_inputs
+from generator.flow import Procedure, exponential_lines, flow_of, flow_with, integral_of
+from generator.fortran import indented
+from generator.graph import in_order
+from generator.recurrences import Constants
+from generator.slow import Balance, inertia_lines
 
 
-@dataclass
-class Disturbances:
-    """Statements for the disturbance of each node at order k, and the sums and series they take.
+def growth_lines(model: Model, balance: Balance, at: Address) -> list[str]:
+    """Statements that set disturbances of v' of the iteration before."""
 
-    A disturbance is early where it follows at order k without sums over lower orders: those of
-    states do, and sums of early ones. The sums then hold their newest terms. Of the others the
-    newest terms are added later, and stand as zeros before.
+    def state(order: str, state: str) -> str:
+        return at.state("dy", order, state=state, rest="first:last")
+
+    def rate(order: str, lanes: str = ":used") -> str:
+        return at.kept("d_rate_before", lanes, order)
+
+    def series(order: str) -> str:
+        return at.kept(f"{balance.auxiliary}_before", order)
+
+    integral = integral_of(model, balance.auxiliary)
+    if integral is None:
+        lines = [
+            "do i = 0, degree - 1",
+            "   do j = 0, i + 1",
+            f"      {rate('i')} = {rate('i')} + {series('i + 1 - j')}*{state('j', balance.state)}",
+            "   end do",
+            f"   {rate('i', ':')} = (i + 1)*{rate('i', ':')}",
+            "end do",
+        ]
+    else:
+        last = rate("degree - 1")
+        lines = [
+            "do i = 0, degree - 2",
+            f"   {rate('i')} = (by_unit*((i + 1)*(i + 2)))*{state('i + 2', integral[0])}",
+            "end do",
+            "do j = 0, degree",
+            f"   {last} = {last} + degree*{series('degree - j')}*{state('j', balance.state)}",
+            "end do",
+        ]
+    return [f"{rate(':', ':')} = 0.0_wp", *lines]
+
+
+class Tangents:
+    """The statements for disturbances of all states, or of those on the slow solution.
+
+    On the slow solution the disturbance of the fast state is that of its balance less v'/rate.
     """
 
-    flow: Flow
-    nodes: list[Node]
-    roots: list[Node]
-    constants: Constants
-    sums: list[tuple[str, str]] = field(default_factory=list)
-    series: dict[Node, None] = field(default_factory=dict)
-    """Nodes whose own series are needed."""
-    stored: dict[Node, None] = field(default_factory=dict)
-    """Nodes whose disturbances sums take."""
-    lanes: list[str] = field(default_factory=list)
-    early: list[Node] = field(default_factory=list)
-
-    def __post_init__(self):
-        # which sums stand alone, and which within the expression that takes them
-        self.inlined = Recurrences(self.nodes, self.roots, Constants(self.constants.model)).inlined
-        for node in self.nodes:
-            if self.is_early(node):
-                self.early.append(node)
-        for node in self.nodes:
-            if node.is_convolution:
-                self.formula(node)
-        self.alone = [
-            node
-            for node in self.nodes
-            if node.kind != "input" and node not in self.inlined and not self.is_constant(node)
+    def __init__(self, model: Model, balance: Balance | None):
+        self.model, self.balance, self.at = model, balance, Address(model)
+        self.flow = flow_with(model, {}) if balance else flow_of(model)
+        known = self.flow.graph.known
+        self.known = {name: known[model.symbol(name)] for name in self.flow.rates}
+        self.driven = {state: auxiliary for auxiliary, state in self.flow.integrated.items()}
+        """States that follow from integrated auxiliaries."""
+        self.fast = [balance.state] if balance else []
+        self.advanced = [state for state in model.states if state not in self.fast]
+        skipped = (*self.fast, *self.driven)
+        self.rates = {name: one for name, one in self.flow.rates.items() if name not in skipped}
+        self.constants = Constants(model)
+        roots = list(self.rates.values())
+        nodes = in_order(roots, slopes=False)
+        self.steps = Disturbances(self.flow, nodes, roots, self.constants, self.at)
+        # of v = exp(w), integrated: v_0 dw_(k+1) = dv_(k+1) - sum over j <= k of v_(k+1-j) dw_j
+        self.shifted = [
+            self.steps.total(self.known[auxiliary], self.known[state], "k + 1 - j")
+            for state, auxiliary in self.driven.items()
         ]
-        self.lanes = [f"d_{node.name}" for node in self.alone if node not in self.stored]
-
-    def is_constant(self, node: Node) -> bool:
-        """Whether a node does not change in time."""
-        return node.kind == "sum" and not node.args
-
-    def is_early(self, node: Node) -> bool:
-        """Whether the disturbance follows without sums over lower orders."""
-        return node.kind == "input" or (node.kind == "sum" and all(map(self.is_early, node.args)))
-
-    def text(self, node: Node) -> str:
-        """The disturbance of a node at order k: its name, or the sum itself."""
-        if node in self.inlined:
-            text = self.sum_text(node)
-            return text if text.replace("_", "").isalnum() else f"({text})"
-        return f"d_{node.name}_all(:, k)" if node in self.stored else f"d_{node.name}"
-
-    def sum_text(self, node: Node) -> str:
-        """The sum of a node."""
-        parts = [
-            (weight, self.text(one)) for weight, one in zip(node.weights, node.args, strict=True)
-        ]
-        return weighted_sum(parts, self.constants) or "0.0_wp"
-
-    def rate_text(self, node: Node) -> str:
-        """The disturbance of a rate, without brackets around a sum."""
-        return self.sum_text(node) if node in self.inlined else self.text(node)
-
-    def total(self, series: Node, of: Node, shift: str = "k - j") -> str:
-        """The name of the sum of series_(k-j) disturbance_j, the newest term left out if late."""
-        self.series.setdefault(series)
-        self.stored.setdefault(of)
-        pair = (f"{series.name}_series({shift})", f"d_{of.name}_all(:, j)")
-        if pair not in self.sums:
-            self.sums.append(pair)
-        return f"d_total_{self.sums.index(pair) + 1}"
-
-    def times(self, series: Node, of: Node) -> str:
-        """The whole sum over j <= k."""
-        total = self.total(series, of)
-        return total if of in self.early else f"{total} + {series.name}_series(0)*{self.text(of)}"
-
-    def statement(self, node: Node) -> str:
-        """The statement that sets the disturbance of a node."""
-        return f"{self.text(node)} = {self.formula(node)}"
-
-    def formula(self, node: Node) -> str:
-        """The disturbance of a node from those of its arguments."""
-        a = node.args[0] if node.args else node
-        match node.kind:
-            case "sum":
-                return self.sum_text(node)
-            case "product":
-                b = node.args[1]
-                if a is b:
-                    return f"2.0_wp*({self.times(a, a)})"
-                return f"{self.times(a, b)} + {self.times(b, a)}"
-            case "quotient":
-                b = node.args[1]
-                # the newest term of the quotient itself is a zero here
-                own = self.total(b, node)
-                above = "" if self.is_constant(a) else f"{self.text(a)} - "
-                minus = "" if above else "-"
-                return f"{minus}({above}({self.times(node, b)} + {own}))/{b.name}_series(0)"
-            case "exp":
-                return self.times(node, a)
-            case "log":
-                own = self.total(a, node)
-                return f"({self.text(a)} - {own})/{a.name}_series(0)"
-            case "power":
-                ratio = self.ratio(node, a)
-                exponent = (
-                    text_of(node.exponent)
-                    if node.exponent.is_Integer
-                    else self.constants.text(node.exponent)
-                )
-                return f"{exponent}*({self.times(ratio, a)})"
-        product = self.times(node.slope, a)
-        return f"-({product})" if node.sign else product
-
-    def ratio(self, power: Node, base: Node) -> Node:
-        """The node a**c/a."""
-        known = [one for one in self.series if one.kind == "quotient" and one.args == (power, base)]
-        return known[0] if known else self.flow.graph.add("quotient", power, base)
-
-    def loop(self) -> list[str]:
-        """The sums, and zeros for the terms that come later."""
-        if not self.sums:
-            return []
-        names = [f"d_total_{i + 1}" for i in range(len(self.sums))]
-        return [
-            *(
-                f"d_{node.name}_all(:, k) = 0.0_wp"
-                for node in self.stored
-                if node not in self.early
-            ),
-            *(f"{name} = 0.0_wp" for name in names),
-            "do j = 0, k",
-            *(
-                f"   {n} = {n} + {left}*{right}"
-                for n, (left, right) in zip(names, self.sums, strict=True)
-            ),
-            "end do",
-        ]
-
-    def before_loop(self) -> list[str]:
-        """Statements of early nodes."""
-        return [self.statement(node) for node in self.alone if node in self.early]
-
-    def after_loop(self) -> list[str]:
-        """Statements of the others."""
-        return [self.statement(node) for node in self.alone if node not in self.early]
-
-    def lane_names(self) -> list[str]:
-        """Scalars of each lane."""
-        return [*self.lanes, *(f"d_total_{i + 1}" for i in range(len(self.sums)))]
-
-    def arrays(self) -> list[str]:
-        """Arrays of each lane."""
-        return [f"d_{node.name}_all" for node in self.stored]
-
-
-def base_series(model: Model, wanted: list[Node], flow: Flow, constants: Constants, y: str):
-    """Statements that compute the series of nodes from those of the states, and their names."""
-    given = frozenset(flow.graph.known[model.symbol(name)] for name in model.auxiliary)
-    auxiliaries = [node for node in given if node in in_order(wanted)]
-    lines = [
-        line
-        for node in auxiliaries
-        for line in exponential_lines(model, node.name, y, f"{node.name}_series", constants)
-    ]
-    own = ["by_unit"] * any(integral_of(model, node.name) for node in auxiliaries)
-    rest = [node for node in wanted if node not in given]
-    # auxiliaries are inputs here
-    nodes = [node for node in in_order(rest, given) if node not in given]
-    if not rest:
-        return lines, own, [f"{node.name}_series" for node in wanted]
-    recurrences = Recurrences(nodes, rest, constants)
-    places = {name: place for place, name in enumerate(model.states, 1)}
-    inputs = [node for node in in_order(rest, given) if node.kind == "input" or node in given]
-    reals: list[str] = []
-
-    def fetched(order: str) -> list[str]:
-        end = "_0" if order == "0" else ""
-        found = []
-        states = {
-            one.state for one in model.delayed if one.symbol.name in {node.name for node in inputs}
+        self.delayed, self.at_order, self.delayed_arrays = lane_inputs(model, self.steps)
+        early = self.steps.early
+        early += [node for node in self.known.values() if node not in early]
+        self.held = {
+            name: self.text(name)
+            for name, node in self.known.items()
+            if node not in self.steps.stored
         }
-        for name in [*model.states, *model.auxiliary]:
-            if name in states or name in {node.name for node in inputs}:
-                source = (
-                    f"{y}({order}, {places[name]})" if name in places else f"{name}_series({order})"
-                )
-                found.append(f"{name}{end} = {source}")
-                reals.append(f"{name}{end}")
-        more, names = fetch_inputs(model, inputs, order)
-        reals.extend(names)
-        return [*found, *more]
+        """Disturbances that are in no array."""
+        # what follows asks for constants
+        self.body = self.of_order_k()
+        series = list(self.steps.series)
+        self.base = base_series(model, series, self.flow, self.constants)
+        self.solution = [*self.exponential(), *self.base.lines]
+        self.inertia = inertia_lines(balance, self.constants)
+        self.last = "degree" if balance else "degree - 1"
 
-    def kept(order: str) -> list[str]:
-        first = order == "0"
-        texts = [(node, recurrences.rate_text(node, first=first)) for node in rest]
-        return [f"{node.name}_series({order}) = {text}" for node, text in texts]
+    def text(self, name: str, order: str = "k", lanes: str = ":") -> str:
+        """The disturbance of a state or an auxiliary."""
+        return self.steps.text(self.known[name], order, lanes)
 
-    first = [line for node in nodes for line in recurrences.first.get(node, [])]
-    later = [line for node in nodes for line in recurrences.later.get(node, [])]
-    lines += [
-        *fetched("0"),
-        *first,
-        *kept("0"),
-        "do k = 1, degree",
-        *indented([*recurrences.loop(), *fetched("k"), *later, *recurrences.stores(), *kept("k")]),
-        "end do",
-    ]
-    arrays = [*recurrences.arrays(), *(f"{node.name}_series" for node in wanted)]
-    arrays += [f"{node.name}_series" for node in auxiliaries]
-    return lines, [*own, *reals, *recurrences.scalars], arrays
+    def value(self, state: str, order: str) -> str:
+        """The coefficients of a state in the result."""
+        return self.at.state("dy", order, state=state, rest="first:last")
 
+    def before(self) -> list[str]:
+        """Statements before all others."""
+        return [*self.at.places(), *self.constants.fetched(), *self.inertia]
 
-def lane_inputs(model: Model, steps: Disturbances) -> tuple[list[str], list[str], list[str]]:
-    """Statements that set delayed disturbances before all orders and at order k; their arrays."""
-    before, at_order, arrays = [], [], []
-    used = {node.name: node for node in steps.nodes if node.kind == "input"}
-    for number, one in enumerate(model.delayed, 1):
-        if one.symbol.name not in used:
-            continue
-        steps.stored.setdefault(used[one.symbol.name])
-        name = f"d_{one.symbol.name}_all"
-        arrays.append(name)
-        before += [
-            f"if (place_{number} > 0) then",
-            f"   {name} = 0.0_wp",
-            f"   {name}(:used, 0:degree) = transpose(dz(:, place_{number}, first:last))",
-            "end if",
-        ]
-        present = steps.flow.graph.known[model.symbol(one.state)]
-        at_order.append(f"if (place_{number} == 0) {name}(:, k) = {steps.text(present)}")
-    if "time" in used:
-        at_order.append(f"{steps.text(used['time'])} = 0.0_wp")
-    return before, at_order, arrays
-
-
-def of_order(texts: dict[str, str], order: str) -> dict[str, str]:
-    """Texts of disturbances at another order; scalars are those of the present one."""
-    return {name: text.replace("(:, k)", f"(:, {order})") for name, text in texts.items()}
-
-
-def of_used(texts: dict[str, str]) -> dict[str, str]:
-    """Texts of disturbances in the lanes that are in use."""
-    return {
-        name: text.replace("(:, ", "(:used, ") if "(" in text else f"{text}(:used)"
-        for name, text in texts.items()
-    }
-
-
-@dataclass
-class Parts:
-    """The parts of a procedure for disturbances."""
-
-    constants: list[str]
-    """Statements that set what does not change in time."""
-    base: list[str]
-    """Statements that compute series of the solution, for all disturbances."""
-    inverses: list[str]
-    """Statements that set inverses of their coefficients 0."""
-    delayed: list[str]
-    """Statements that set delayed disturbances of some lanes."""
-    other_starts: list[str]
-    """Statements that set coefficients 0 of what is no state."""
-    body: list[str]
-    """Statements of order k."""
-    texts: dict[str, str]
-    """Disturbances of the states, and of auxiliaries, at order k."""
-    reals: list[str]
-    arrays: list[str]
-    integers: list[str]
-    lanes: list[str]
-    lane_arrays: list[str]
-
-    def starts(self, states: dict[str, int]) -> list[str]:
-        """Statements that set coefficients 0 of states, by their places."""
-        start = of_order(self.texts, "0")
-        part = of_used(start)
-        return [
-            *(f"{start[state]} = 0.0_wp" for state in states),
-            *(f"{part[state]} = dy(0, {place}, first:last)" for state, place in states.items()),
-        ]
-
-    def of_one_block(self, begin: list[str], body: list[str], last: str) -> Procedure:
-        """The procedure, with statements before all orders and of order k."""
-        lines = [
-            *self.constants,
-            *self.base,
-            *self.inverses,
-            "do first = 1, vectors, lanes",
-            *indented(
-                [
-                    "last = min(vectors, first + lanes - 1)",
-                    "used = last - first + 1",
-                    *begin,
-                    f"do k = 0, {last}",
-                    *indented(body),
-                    "end do",
-                ]
-            ),
-            "end do",
-        ]
-        return Procedure(
-            *(self.reals, self.arrays, self.integers, lines),
-            lanes=self.lanes,
-            lane_arrays=self.lane_arrays,
+    def exponential(self) -> list[str]:
+        """Statements that compute the series of v of the iteration before."""
+        balance, at = self.balance, self.at
+        if not balance:
+            return []
+        return exponential_lines(
+            self.model,
+            balance.auxiliary,
+            lambda order, state: at.state("before", order, state=state),
+            lambda order: at.kept(f"{balance.auxiliary}_before", order),
+            self.constants,
         )
 
+    def inverses(self) -> list[str]:
+        """Statements that set inverses of coefficients 0 of integrated auxiliaries."""
+        return [
+            f"by_{name} = 1.0_wp/{self.at.kept(f'{name}_series', '0')}"
+            for name in self.driven.values()
+        ]
 
-def tangent_parts(model: Model) -> Parts:
-    """Coefficients 1 to degree of disturbances from their values."""
-    flow = flow_of(model)
-    known = {name: flow.graph.known[model.symbol(name)] for name in flow.rates}
-    driven = {state: auxiliary for auxiliary, state in flow.integrated.items()}
-    rates = {name: node for name, node in flow.rates.items() if name not in driven}
-    roots = list(rates.values())
-    nodes = in_order(roots, slopes=False)
-    constants = Constants(model)
-    steps = Disturbances(flow, nodes, roots, constants)
-    # of v = exp(w), integrated: v_0 dw_(k+1) = dv_(k+1) - sum over j <= k of v_(k+1-j) dw_j
-    shifted = {
-        state: steps.total(known[auxiliary], known[state], "k + 1 - j")
-        for state, auxiliary in driven.items()
-    }
-    before, at_order, delayed = lane_inputs(model, steps)
-    steps.early += [node for node in known.values() if node not in steps.early]
-    rate_lines = [f"d_{name}_rate = {steps.rate_text(node)}" for name, node in rates.items()]
-    statements = [*steps.before_loop()], [*steps.after_loop()]
-    base, reals, arrays = base_series(model, list(steps.series), flow, constants, "y")
-    now = {name: steps.text(node) for name, node in known.items()}
-    start, later = of_order(now, "0"), of_order(now, "k + 1")
-    body = [
-        *at_order,
-        *statements[0],
-        *steps.loop(),
-        *statements[1],
-        *rate_lines,
-        "step = unit*reciprocal(k + 1)",
-        *(f"{later[name]} = step*d_{name}_rate" for name in rates),
-        *(
-            f"{later[state]} = by_{auxiliary}*({later[auxiliary]} - {shifted[state]})"
-            for state, auxiliary in driven.items()
-        ),
+    def start(self) -> list[str]:
+        """Statements before order 0 of some disturbances."""
+        lines = list(self.delayed)
+        if self.balance:
+            lines += growth_lines(self.model, self.balance, self.at)
+        for state in self.advanced:
+            lines.append(f"{self.text(state, '0')} = 0.0_wp")
+            lines.append(f"{self.text(state, '0', ':used')} = {self.value(state, '0')}")
+        for state, auxiliary in self.driven.items():
+            series = self.at.kept(f"{auxiliary}_series", "0")
+            lines.append(f"{self.text(auxiliary, '0')} = {series}*{self.text(state, '0')}")
+        return lines
+
+    def balanced(self) -> list[str]:
+        """Statements that set the disturbance of the fast state, of which no others are taken."""
+        if not self.balance:
+            return []
+        names = {name: self.text(name) for name in self.model.states}
+        for symbol in self.model.differences.values():
+            names[symbol.name] = self.steps.text(self.flow.graph.known[symbol])
+        total = self.balance.text(names, self.constants, whole=False)
+        state, rate = self.balance.state, self.at.kept("d_rate_before", ":", "k")
+        return [
+            f"{self.text(state)} = {total} - inertia*{rate}",
+            f"{self.value(state, 'k')} = {self.text(state, lanes=':used')}",
+            f"if (k == degree) {'cycle' if self.at.in_chain else 'exit'}",
+        ]
+
+    def of_order_k(self) -> list[str]:
+        """Statements of order k, which set the states of the next one."""
+        steps, text = self.steps, self.text
+        return [
+            *self.balanced(),
+            *self.at_order,
+            *steps.before_loop(),
+            *steps.loop(),
+            *steps.after_loop(),
+            *(f"d_{name}_rate = {steps.rate_text(node)}" for name, node in self.rates.items()),
+            "step = unit*reciprocal(k + 1)",
+            *(f"{text(name, 'k + 1')} = step*d_{name}_rate" for name in self.rates),
+            *(
+                f"{text(state, 'k + 1')} = by_{name}*({text(name, 'k + 1')} - {total})"
+                for (state, name), total in zip(self.driven.items(), self.shifted, strict=True)
+            ),
+            *(
+                f"{self.value(state, 'k + 1')} = {text(state, 'k + 1', ':used')}"
+                for state in self.advanced
+            ),
+        ]
+
+    def names(self) -> dict[str, list[str]]:
+        """Names in all these statements."""
+        steps, slow = self.steps, bool(self.balance)
+        slots = ", 0:self%reach*degree" if self.at.in_chain else ""
+        before = [f"{self.balance.auxiliary}_before"] if slow else []
+        reals = [*self.constants.scalars(), *self.base.reals, "step"]
+        names = {
+            "real(wp)": [*reals, *(f"by_{name}" for name in self.driven.values())],
+            "integer": [*self.at.place_names(), "first", "i", "j", "k", "last", "used"],
+            "real(wp), dimension(lanes)": [
+                *self.held.values(),
+                *(f"d_{name}_rate" for name in self.rates),
+                *(f"d_{symbol.name}" for symbol in self.model.differences.values()),
+                *steps.lane_names(),
+            ],
+            f"real(wp), dimension(0:degree{slots})": [*self.base.series, *before],
+            f"real(wp), dimension(lanes, 0:degree + 1{slots})": [
+                *steps.arrays(),
+                *self.delayed_arrays,
+                *["d_rate_before"] * slow,
+            ],
+        }
+        names["real(wp)"] += ["by_unit", "inertia"] * slow
+        names.setdefault("real(wp), dimension(0:degree)", []).extend(self.base.arrays)
+        return names
+
+
+def tangent_series_procedure(model: Model, balance: Balance | None = None) -> Procedure:
+    """Coefficients 1 to degree of disturbances from their values, or those of the slow solution."""
+    tangents = Tangents(model, balance)
+    return of_chain(tangents) if tangents.at.in_chain else of_one_block(tangents)
+
+
+def of_one_block(tangents: Tangents) -> Procedure:
+    """A loop over orders."""
+    loop = [f"do k = 0, {tangents.last}", *indented(tangents.body), "end do"]
+    lines = [*tangents.solution, *tangents.inverses(), *in_groups([*tangents.start(), *loop])]
+    return Procedure(tangents.names(), [*tangents.before(), *lines])
+
+
+def of_chain(tangents: Tangents) -> Procedure:
+    """Loops over blocks and orders."""
+    held, last, names = tangents.held, tangents.last, tangents.names()
+    loads = []
+    for state in tangents.advanced:
+        if state in held:
+            loads += [f"{held[state]} = 0.0_wp"]
+            loads += [f"{held[state]}(:used) = {tangents.value(state, 'k')}"]
+    # what is in no vector of states
+    own = [name for name in held if name not in tangents.model.states]
+    inside = [
+        "block = front - self%reach*k + 1",
+        *tangents.at.start(),
+        f"slot = modulo(block, self%reach*({last}) + 1)",
+        "if (k == 0) then",
+        *indented([*tangents.solution, *tangents.start()]),
+        "else",
+        *indented([*loads, *(f"{held[name]} = next_{name}(:, slot)" for name in own)]),
+        "end if",
+        *disturbed_differences(tangents.steps),
+        *tangents.inverses(),
+        *tangents.body,
+        *(f"next_{name}(:, slot) = {held[name]}" for name in own),
     ]
-    return Parts(
-        constants=[*fetch_places(model), *constants.fetched()],
-        base=base,
-        inverses=[f"by_{one} = 1.0_wp/{one}_series(0)" for one in driven.values()],
-        delayed=before,
-        other_starts=[
-            f"{start[auxiliary]} = {auxiliary}_series(0)*{start[state]}"
-            for state, auxiliary in driven.items()
-        ],
-        body=body,
-        texts=now,
-        reals=[*constants.scalars(), *reals, *(f"by_{one}" for one in driven.values()), "step"],
-        arrays=arrays,
-        integers=[*place_names(model), "first", "j", "k", "last", "used"],
-        lanes=[
-            *(text for text in now.values() if "(" not in text),
-            *(f"d_{name}_rate" for name in rates),
-            *steps.lane_names(),
-        ],
-        lane_arrays=[*steps.arrays(), *delayed],
-    )
+    lines = [
+        f"do front = 0, self%blocks - 1 + self%reach*({last})",
+        "   start = max(0, front - self%blocks + self%reach)/self%reach",
+        f"   do k = start, min(front/self%reach, {last})",
+        *indented(inside, 6),
+        "   end do",
+        "end do",
+    ]
+    names["integer"] += ["at", "block", "front", "slot", "start"]
+    names["real(wp), dimension(lanes, 0:self%reach*degree)"] = [f"next_{name}" for name in own]
+    return Procedure(names, [*tangents.before(), *in_groups(lines)])
 
 
-def tangent_series_procedure(model: Model) -> Procedure:
-    """Coefficients 1 to degree of disturbances from their values."""
-    parts = tangent_parts(model)
-    places = {state: place for place, state in enumerate(model.states, 1)}
-    later = of_used(of_order(parts.texts, "k + 1"))
-    stores = [f"dy(k + 1, {at}, first:last) = {later[state]}" for state, at in places.items()]
-    return parts.of_one_block(
-        [*parts.delayed, *parts.starts(places), *parts.other_starts],
-        [*parts.body, *stores],
-        "degree - 1",
-    )
+def in_groups(lines: list[str]) -> list[str]:
+    """Statements for as many disturbances as there are lanes, and again for others."""
+    group = ["last = min(vectors, first + lanes - 1)", "used = last - first + 1"]
+    return ["do first = 1, vectors, lanes", *indented([*group, *lines]), "end do"]
+
+
+def disturbed_differences(steps: Disturbances) -> list[str]:
+    """Statements that set second differences of disturbances at order k."""
+    at, lines = steps.at, []
+    for state, symbol in at.model.differences.items():
+        known = steps.flow.graph.known
+        own, node = steps.text(known[at.model.symbol(state)]), known[symbol]
+        part = steps.text(node, lanes=":used")
+        lines.append(f"{steps.text(node)} = -(2.0_wp + self%mode)*{own}")
+        for side in ("left", "right"):
+            value = f"dy(k, {at.column(state, f'{side}(block)')}, first:last)"
+            lines.append(f"if ({side}(block) > 0) {part} = {part} + {value}")
+    return lines

@@ -65,7 +65,11 @@ def digest_of_program():
 @functools.cache
 def digest_of_model(model):
     """A digest of what a model is made of; what a user defines is in the configuration."""
-    parts = [path for path in models.parts_of(model, config, BUILT) if not path.startswith(BUILT)]
+    parts = [
+        path
+        for path in models.parts_of(model, config, BUILT)
+        if not path.startswith(BUILT)
+    ]
     own = models.of_user(config).get(models.law_of(model))
     return digest_of_files([*OF_MODELS, *parts]), own
 
@@ -126,9 +130,7 @@ def objects_of(run):
     """Compiled models that a run opens, by the wildcards."""
 
     def find_objects(wildcards):
-        return models.objects_of(
-            models_of(run)(wildcards), config, BUILT, run.quad
-        )
+        return models.objects_of(models_of(run)(wildcards), config, BUILT, run.quad)
 
     return find_objects
 

@@ -44,9 +44,7 @@ rule program:
 rule model:
     """A model, compiled from its definition: the program opens it by name."""
     input:
-        lambda wildcards: models.parts_of(
-            wildcards.model, config, wildcards.built
-        ),
+        lambda wildcards: models.parts_of(wildcards.model, config, wildcards.built),
     output:
         "{built}/models{quad}/{model}.so",
     log:

@@ -1,4 +1,4 @@
-/* Preloaded by tests: writes `fsync PATH` and `rename FROM TO` to standard output, in their order. */
+/* Preloaded by a test: writes `fsync PATH` and `rename FROM TO` to standard output, in their order. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <stdio.h>

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import xarray as xr
 
+from scripts.claims import declare
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED, Results
 from scripts.namelists.parameters import HISTORY, PARAMETERS
 
@@ -233,8 +234,9 @@ def run_row(**given) -> dict:
 def survey_run(classes: list[str], **given) -> xr.Dataset:
     """A file with one point for each class, other values of points as given."""
     size = len(classes)
-    numbers = [CLASSES.index(name) for name in classes]
-    meanings = " ".join(name.replace(" ", "_") for name in CLASSES)
+    known = ["undecided", *declare.CLASSES]
+    numbers = [known.index(name) for name in classes]
+    meanings = " ".join(name.replace(" ", "_") for name in known)
     points = {
         **dict.fromkeys([*PARAMETERS, *(f"history_{key}" for key in HISTORY)], 1.0),
         **{"period": 1, "base_1": 0.1, "base_2": 0.0, "base_3": 0.0},

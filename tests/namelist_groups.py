@@ -1,53 +1,108 @@
 """Namelist values that programs accept, for tests to copy and change, and the groups they are in.
 
-Tests name the keys of a group without the groups within it.
+Tests name parameters, law and history beside the keys of a group.
 """
 
-from scripts.namelists.laws import PAPER
-from scripts.namelists.parameters import HISTORY, PARAMETERS
-from scripts.namelists.program_groups import case_groups, nested
+from scripts.namelists.laws import CHAIN, PAPER, definitions
+from scripts.namelists.parameters import HISTORY, PARAMETERS, histories_group
 
-PARTS = {
-    "scene": {"parameters": [*PARAMETERS, "law", "own"]},
-    "linear_stability": {"parameters": [*PARAMETERS, "law"]},
-    "cycles": {"parameters": [*PARAMETERS, "law"]},
-    "hopf_curves": {"parameters": [*PARAMETERS, "law"]},
-    "points": {"parameters": [*PARAMETERS, "law", "own_names", "own"]},
+OF_MODELS = {
+    *(*PARAMETERS, "kappa"),
+    *(name for law in definitions({}).values() for name in law.get("parameters") or {}),
 }
-"""For a group: the groups within it and their keys."""
-BESIDE = {
-    "points": {"histories": HISTORY},
-    "observation": {"solver": ["method", "tolerance", "most_steps"]},
-}
-"""For a group: groups beside it that tests leave in it, and their keys."""
+"""Parameters of the laws of the project."""
+OF_SOLVER = ("method", "tolerance", "most_steps")
+"""Keys that tests leave in the observation."""
 
 
 def in_groups(given: dict[str, dict]) -> dict[str, dict]:
     groups = {}
     for name, values in given.items():
-        for part, keys in PARTS.get(name, {}).items():
-            values = nested(values, part, keys)
-        for part, keys in BESIDE.get(name, {}).items():
-            values = nested(values, part, keys)
-            groups[part] = values.pop(part)
-        if name == "points":
-            axes = ("epsilon", values.pop("ordinate", "tau"))
-            values["axes"] = [
-                {key: values.pop(f"{axis}_{key}") for key in ("window", "count", "part")}
-                | {"along": axis}
-                for axis in axes
-            ]
-            values = {key: value for key, value in values.items() if not key.startswith("tau_")}
-        if name == "spectrum":
-            groups |= {key: values[key] for key in ("trajectory",) if key in values}
-            values = {key: value for key, value in values.items() if key != "trajectory"}
-        if name == "cases":
+        if name == "cases" and isinstance(values, dict):
             rows = zip(*values.values(), strict=True)
-            cases = [dict(zip(values, row, strict=True)) for row in rows]
-            groups |= case_groups({"laws": {}}, cases)
-            continue
-        groups[name] = values
+            groups[name] = [case_of(dict(zip(values, row, strict=True))) for row in rows]
+        elif name == "spectrum":
+            rest = dict(values)
+            groups |= {key: rest.pop(key) for key in ("trajectory",) if key in rest}
+            groups[name] = rest
+        elif name == "observation" and "method" in values:
+            groups["solver"] = {key: values[key] for key in OF_SOLVER if key in values}
+            groups[name] = {key: one for key, one in values.items() if key not in OF_SOLVER}
+        elif "law" in values or name == "linear_stability":
+            groups |= BY_NAME[name](values)
+        else:
+            groups[name] = values
     return groups
+
+
+def with_model(values: dict) -> dict:
+    """Values with the model in a group of its own; parameters and law may be missing or wrong."""
+    there = {key: values[key] for key in values if key in OF_MODELS}
+    model = {"parameters": list(there), "values": list(there.values())}
+    chain = {key: values[key] for key in ("blocks", "ends") if key in values}
+    name = (CHAIN if "kappa" in there else "") + values["law"] if "law" in values else ""
+    left = {*there, *chain, "law"}
+    rest = {key: value for key, value in values.items() if key not in left}
+    return {"model": {"name": name, **(model if there else {}), **chain}, **rest}
+
+
+def case_of(case: dict) -> dict:
+    history = {"history": HISTORY, "values": [case[key] for key in HISTORY]}
+    return with_model({key: value for key, value in case.items() if key not in HISTORY}) | history
+
+
+def scene_groups(scene: dict) -> dict[str, dict]:
+    rest = {key: value for key, value in scene.items() if key != "history"}
+    history = {"theta": 0.0, "u": 0.0, "v": 1.1} | scene.get("history", {})
+    return {"scene": with_model(rest), "histories": histories_group([history])}
+
+
+def cycles_groups(cycles: dict) -> dict[str, dict]:
+    rest = {key: value for key, value in cycles.items() if key not in ("v", "curves")}
+    # a namelist has no empty lists
+    rest = {key: value for key, value in rest.items() if value != []}
+    if "curves" in cycles:
+        windows = [bound for window in cycles["curves"].values() for bound in window]
+        rest |= {"curves_along": list(cycles["curves"]), "curves_windows": windows}
+    history = {"theta": 0.0, "u": 0.0, "v": cycles.get("v", 1.1)}
+    return {"cycles": with_model(rest), "histories": histories_group([history])}
+
+
+def stability_groups(stability: dict) -> dict[str, dict]:
+    ends = {"tau": (0.0, "tau_most"), "epsilon": (-1.0, "epsilon_most")}
+    given = {axis: (start, key) for axis, (start, key) in ends.items() if key in stability}
+    rest = {key: value for key, value in stability.items() if not key.endswith("_most")}
+    windows = [bound for start, key in given.values() for bound in (start, stability[key])]
+    changes = {"along": list(given), "windows": windows} if given else {}
+    return {"linear_stability": with_model(rest) | changes}
+
+
+def points_groups(points: dict) -> dict[str, dict]:
+    """Axes are epsilon and, unless another one is given, tau; histories are lists."""
+    axes = ("epsilon", points.get("ordinate", "tau"))
+    keys = ("window", "count", "part")
+    of_axes = [{"along": axis, **{key: points[f"{axis}_{key}"] for key in keys}} for axis in axes]
+    left = {*HISTORY, "ordinate", *(f"{axis}_{key}" for axis in (*axes, "tau") for key in keys)}
+    rest = {key: value for key, value in points.items() if key not in left}
+    values = zip(*(points[key] for key in HISTORY), strict=True)
+    histories = [dict(zip(HISTORY, one, strict=True)) for one in values]
+    return {"points": with_model(rest) | {"axes": of_axes}, "histories": histories_group(histories)}
+
+
+def hopf_groups(plane: dict) -> dict[str, dict]:
+    named = {"abscissa": "epsilon", **plane}
+    axes = [named.pop(key) for key in ("abscissa", "ordinate")]
+    windows = [bound for key in ("abscissa", "ordinate") for bound in named.pop(f"{key}_window")]
+    return {"hopf_curves": {**with_model(named), "along": axes, "windows": windows}}
+
+
+BY_NAME = {
+    "scene": scene_groups,
+    "cycles": cycles_groups,
+    "linear_stability": stability_groups,
+    "points": points_groups,
+    "hopf_curves": hopf_groups,
+}
 
 
 OBSERVATION = {

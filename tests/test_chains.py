@@ -1,4 +1,4 @@
-"""Chains of blocks: their modes."""
+"""Chains of blocks: their modes, which several studies use."""
 
 import math
 

@@ -9,26 +9,22 @@ from pathlib import Path
 
 import pytest
 
-from conftest import copy_of_project, write_script
+from conftest import ROOT, copy_of_project, write_script
 
 TOOLS = ["ruff", "snakefmt", "fortitude", "snakemake", "cmake", "ctest", "pytest"]
 """Tools that ./test runs."""
+PARTS = ["quick", "lint", "fortran", "python", "long", "compilers", "slurm"]
 
 
 @pytest.fixture
-def set_up(tmp_path) -> Path:
-    """A copy of the project in which the set-up has nothing to do."""
+def recording(tmp_path) -> Path:
+    """A copy of the project in which the set-up has nothing to do, and tools only write down how
+    they were called."""
     folder = copy_of_project(tmp_path / "project").folder
     write_script(folder / "setup" / "setup.sh", "exit 0")
-    return folder
-
-
-@pytest.fixture
-def recording(set_up) -> Path:
-    """The same with tools that only write down how they were called."""
     for tool in [*TOOLS, "python"]:
-        write_script(set_up / ".venv" / "bin" / tool, 'echo "${0##*/} $*" >>"$CALLS"')
-    return set_up
+        write_script(folder / ".venv" / "bin" / tool, 'echo "${0##*/} $*" >>"$CALLS"')
+    return folder
 
 
 def calls_of(*command: str | Path, **options) -> tuple[int, list[str]]:
@@ -39,36 +35,39 @@ def calls_of(*command: str | Path, **options) -> tuple[int, list[str]]:
         return run.returncode, calls.read().splitlines()
 
 
-@pytest.mark.parametrize(
-    ("arguments", "passed"),
-    [
-        ([], "--cores 2"),
-        (["figure_5"], "--cores 2 figure_5"),
-        (["figure_5", "--cores", "4"], "figure_5 --cores 4"),
-        (["-c1", "a b"], "-c1 a b"),
-        (["mine.yaml", "scenes/a"], "--cores 2 scenes/a --config user_file={here}/mine.yaml"),
-    ],
-)
-def test_reproduce_hands_its_arguments_on(recording, tmp_path, arguments, passed):
-    """Two cores unless said otherwise, from any folder, also through a link."""
+def test_reproduce_hands_its_arguments_on(recording, tmp_path):
+    """Two cores unless said otherwise, from any folder, also through a link; a dry run is shown."""
     (tmp_path / "link").symlink_to(recording / "reproduce")
-    for command in (recording / "reproduce", tmp_path / "link"):
-        status, calls = calls_of(command, *arguments, cwd=tmp_path)
-        assert status == 0
-        words = passed.format(here=tmp_path)
-        assert calls == [f"snakemake --quiet host reason rules --snakefile Snakefile {words}"]
-
-
-def test_reproduce_shows_a_dry_run(recording):
-    status, calls = calls_of(recording / "reproduce", "--dry-run")
-    assert (status, calls) == (0, ["snakemake --snakefile Snakefile --cores 2 --dry-run"])
+    quiet = "--quiet host reason rules "
+    for command, arguments, passed in (
+        ("project/reproduce", [], f"{quiet}--snakefile Snakefile --cores 2"),
+        ("link", ["figure_5"], f"{quiet}--snakefile Snakefile --cores 2 figure_5"),
+        ("link", ["a", "--cores", "4"], f"{quiet}--snakefile Snakefile a --cores 4"),
+        ("link", ["-c1", "a b"], f"{quiet}--snakefile Snakefile -c1 a b"),
+        (
+            "link",
+            ["mine.yaml", "scenes/a"],
+            f"{quiet}--snakefile Snakefile --cores 2 scenes/a"
+            f" --config user_file={tmp_path}/mine.yaml",
+        ),
+        ("link", ["--dry-run"], "--snakefile Snakefile --cores 2 --dry-run"),
+    ):
+        called = calls_of(tmp_path / command, *arguments, cwd=tmp_path)
+        assert called == (0, [f"snakemake {passed}"])
 
 
 def test_second_run_of_the_same_file_says_so(recording):
-    """Another file is run beside it, and a dry run is none."""
-    (recording / ".snakemake").mkdir()
-    with open(recording / ".snakemake" / "run of the paper", "a") as run:
+    """Another file is run beside it, and a dry run is none. Locks of Snakemake stay until no run of
+    ./reproduce is left, each of which holds a lock of the operating system."""
+    lock = recording / ".snakemake" / "locks" / "0.input.lock"
+    lock.parent.mkdir(parents=True)
+    lock.touch()
+    with (
+        open(recording / ".snakemake" / "run of the paper", "a") as run,
+        open(recording / ".snakemake" / "runs", "a") as runs,
+    ):
         fcntl.flock(run, fcntl.LOCK_EX)
+        fcntl.flock(runs, fcntl.LOCK_SH)
         refused = subprocess.run([recording / "reproduce"], capture_output=True, text=True)
         assert (refused.returncode, refused.stdout) == (1, "")
         (line,) = refused.stderr.splitlines()
@@ -76,20 +75,21 @@ def test_second_run_of_the_same_file_says_so(recording):
         for words in (["--dry-run"], ["--list-target-rules"], ["mine.yaml"]):
             status, calls = calls_of(recording / "reproduce", *words)
             assert (status, len(calls)) == (0, 1)
-    assert len(calls_of(recording / "reproduce")[1]) == 1
-
-
-def test_locks_of_a_live_run_stay(recording):
-    """A run of ./reproduce holds a lock of the operating system."""
-    lock = recording / ".snakemake" / "locks" / "0.input.lock"
-    lock.parent.mkdir(parents=True)
-    lock.touch()
-    with open(recording / ".snakemake" / "runs", "a") as runs:
-        fcntl.flock(runs, fcntl.LOCK_SH)
-        assert calls_of(recording / "reproduce")[0] == 0
         assert lock.exists()
     assert calls_of(recording / "reproduce")[0] == 0
     assert not lock.exists()
+
+
+def test_help_and_wrong_words(tmp_path):
+    """From any folder; ./test names its parts."""
+    run = subprocess.run(
+        [ROOT / "reproduce", "--help"], cwd=tmp_path, capture_output=True, text=True
+    )
+    assert run.returncode == 0
+    assert "./reproduce [FILE.yaml] [TARGET...]" in run.stdout
+    run = subprocess.run([ROOT / "test", "nonsense"], capture_output=True, text=True)
+    assert (run.returncode, run.stdout) == (2, "")
+    assert all(part in run.stderr for part in ["'nonsense'", *PARTS])
 
 
 @pytest.mark.parametrize(
@@ -114,19 +114,17 @@ def test_test_runs_a_part(recording, tmp_path, arguments, tools, last):
     assert re.fullmatch(last, calls[-1])
 
 
-@pytest.mark.parametrize(
-    ("part", "missing"),
-    [("compilers", "compilers/*"), ("slurm", "tests/slurm"), ("slurm", "profiles/slurm")],
-)
-def test_part_whose_packages_are_missing_is_refused(recording, part, missing):
-    write_script(recording / "setup" / "setup.sh", f"[[ ${{1-}} != {missing} ]] || exit 7")
-    assert calls_of(recording / "test", part) == (7, [])
-
-
-@pytest.mark.parametrize("tool", ["ruff", "ctest"])
-def test_test_stops_at_the_first_failure(recording, tool):
-    """With its exit status, whichever tool it is; nothing runs after it."""
-    write_script(recording / ".venv" / "bin" / tool, 'echo "${0##*/}" >>"$CALLS"; exit 3')
-    status, calls = calls_of(recording / "test")
-    assert status != 0
-    assert calls[-1] == tool
+def test_test_stops_at_the_first_failure(recording):
+    """With its exit status, be it a tool or the set-up of a part; nothing runs after it."""
+    for part, missing in (
+        ("compilers", "compilers/*"),
+        ("slurm", "tests/slurm"),
+        ("slurm", "profiles/slurm"),
+    ):
+        write_script(recording / "setup" / "setup.sh", f"[[ ${{1-}} != {missing} ]] || exit 7")
+        assert calls_of(recording / "test", part) == (7, [])
+    for tool in ("ctest", "ruff"):
+        write_script(recording / ".venv" / "bin" / tool, 'echo "${0##*/}" >>"$CALLS"; exit 3')
+        status, calls = calls_of(recording / "test")
+        assert status == 3
+        assert calls[-1] == tool

@@ -1,89 +1,105 @@
 """Full and read-only disks: one message that says what to do, and nothing half-written."""
 
 import shutil
+import subprocess
 import sys
 import time
 from pathlib import Path
 
 import pytest
-from disks import FULL, READ_ONLY, on_disk
 
 from conftest import SMOKE, rules_in
 
 REMEDY = "; check that its folder exists, is writable and has free space, then run again\n"
 SNAKEMAKE = Path(sys.executable).parent / "snakemake"
+NAMESPACE = ["unshare", "--map-root-user", "--mount"]
+READ_ONLY = "mount --bind {0} {0} && mount -o remount,ro,bind {0}"
+
+
+def full(size: str) -> str:
+    """Mounts a disk of this size; one of a page has no room for a NetCDF file."""
+    return f"mount -t tmpfs -o size={size} none {{0}}"
+
+
+def on_disk(
+    kind: str, place: str, folder: Path, *command: str | Path
+) -> subprocess.CompletedProcess[str]:
+    """Run a command in `folder`, with a disk of this kind at `place` below it, which is made for it
+    in a namespace of its own.
+
+    What the command says is in stderr; stdout lists the files on the disk afterwards.
+    """
+    tried = [*NAMESPACE, "mount", "-t", "tmpfs", "none", "/mnt"]
+    if (said := subprocess.run(tried, capture_output=True, text=True)).returncode != 0:
+        pytest.skip(f"no disk can be mounted here: {said.stderr.strip()}")
+    (folder / place).mkdir(exist_ok=True)
+    mounted = f'{kind.format(place)} && {{ "$@" >&2; status=$?; ls -A {place}; exit $status; }}'
+    words = [*NAMESPACE, "sh", "-c", mounted, "sh", *command]
+    return subprocess.run(words, cwd=folder, capture_output=True, text=True, timeout=120)
 
 
 @pytest.mark.parametrize(
-    ("disk", "reason"), [(FULL, "No space left on device"), (READ_ONLY, "Read-only file system")]
+    ("program", "disk", "reason"),
+    [
+        ("hopf", full("4k"), "No space left on device"),
+        # no room for a file, and room for a part of it
+        ("reference", full("4k,nr_inodes=1"), "No space left on device"),
+        ("reference", full("4k"), "No space left on device"),
+        ("reference", READ_ONLY, "Read-only file system"),
+    ],
 )
-@pytest.mark.parametrize("program", ["hopf", "reference"])
 def test_program_on_such_a_disk(programs, good_groups, program, disk, reason):
     """It gives the system's reason in one line and ends with status 1; the disk is empty."""
     programs.write(good_groups[program])
-    if program == "reference":
-        # a long table: a small one has room
-        disk = disk.replace("size=4k", "size=4k,nr_inodes=1")
     command = programs.command(program)
     run = on_disk(disk, "disk", programs.folder, *command, "input.nml", "disk/output")
-    assert run.returncode == 1
+    assert (run.returncode, run.stdout) == (1, "")
     assert run.stderr == f"error: disk/output: cannot write: {reason}{REMEDY}"
-    assert run.stdout == ""
 
 
 def test_disk_that_fills_up_ends_a_trajectory(programs, good_inputs):
     """At once: all of it would take minutes."""
     values = {**good_inputs["trajectory"], "t_end": 1e8, "sample_interval": 1.0}
     programs.write({"scene": values})
-    command = programs.command("trajectory")
+    command = [*programs.command("trajectory"), "input.nml", "disk/output"]
     begun = time.monotonic()
-    disk = FULL.replace("4k", "1m")
-    run = on_disk(disk, "disk", programs.folder, *command, "input.nml", "disk/output")
+    run = on_disk(full("1m"), "disk", programs.folder, *command)
     assert time.monotonic() - begun < 20
-    assert run.returncode == 1
+    assert (run.returncode, run.stdout) == (1, "")
     last = run.stderr.splitlines(keepends=True)[-1]
     assert last == f"error: disk/output: cannot write: No space left on device{REMEDY}"
-    assert run.stdout == ""
 
 
-def test_script_on_a_full_disk(scratch):
-    """The same from the workflow, without a traceback of the script."""
+def test_jobs_on_a_full_disk(scratch, tmp_path):
+    """The same from the workflow: of a script without its traceback; of a program whose log fills
+    the same disk."""
+    words = f"cannot write: No space left on device{REMEDY}"
     place = "results/figures"
     shutil.rmtree(scratch.folder / place)
-    run = on_disk(FULL, place, scratch.folder, SNAKEMAKE, "--cores", "2", "figure_1", *SMOKE)
+    run = on_disk(full("4k"), place, scratch.folder, SNAKEMAKE, "--cores", "2", "figure_1", *SMOKE)
     assert run.returncode != 0
-    assert (
-        f"error: {place}/figure_1.pdf: cannot write: No space left on device{REMEDY}" in run.stderr
-    )
+    assert f"error: {place}/figure_1.pdf: {words}" in run.stderr
     assert 'figure_1.py", line' not in run.stderr
     assert run.stdout == ""
-
-
-def test_reason_reaches_the_screen_where_the_log_has_no_room(scratch, tmp_path):
-    """Log and result fill the same disk."""
     settings = tmp_path / "full.yaml"
     settings.write_text("{ pathvars: { results: full/run }, scenes: { torus: { t_end: 8000.0 } } }")
     target = "full/run/trajectories/torus.nc"
     command = [SNAKEMAKE, "--cores", "1", target, *SMOKE, settings]
-    run = on_disk(FULL.replace("4k", "200k"), "full", scratch.folder, *command)
+    run = on_disk(full("200k"), "full", scratch.folder, *command)
     assert run.returncode != 0
-    assert f"error: {target}: cannot write: No space left on device{REMEDY}" in run.stderr
+    assert f"error: {target}: {words}" in run.stderr
 
 
-def test_home_that_cannot_be_written_is_not_needed(scratch, monkeypatch):
-    """Snakemake keeps a cache there, and Matplotlib another."""
+def test_places_that_cannot_be_written(scratch, monkeypatch):
+    """A home is not needed: Snakemake keeps a cache there, and Matplotlib another. Results are."""
     monkeypatch.setenv("HOME", "/dev/null")
     for name in ("XDG_CACHE_HOME", "XDG_CONFIG_HOME"):
         monkeypatch.delenv(name, raising=False)
     run = scratch.snakemake("figure_1", "--force", *SMOKE)
     assert run.returncode == 0, run.stdout
     assert "figure_1" in rules_in(run.stdout)
-
-
-def test_results_that_cannot_be_written(scratch):
-    place = "results/logs"
     scratch.use_packages_at_hand()
-    before = scratch.outputs()
+    before, place = scratch.outputs(), "results/logs"
     run = on_disk(READ_ONLY, place, scratch.folder, "./reproduce", "--forceall", "figure_1", *SMOKE)
     assert run.returncode == 1
     (line,) = run.stderr.splitlines()

@@ -28,6 +28,7 @@ DOCUMENTS = [
     "config/README.md",
     RESULTS,
     "fortran/dde/README.md",
+    "fortran/src/methods/README.md",
     "generator/README.md",
     *(name for name in project_files() if fnmatch(name, "docs/*.md") and name != "docs/ford.md"),
 ]

@@ -15,10 +15,10 @@ import sympy
 from conftest import ROOT
 from generator.compile import compile_module
 from generator.definition import ModelError, overlaid, read_model
+from generator.flow import flow_of
 from generator.fortran import in_words, literal, text_of, wrapped
 from generator.module import write_module
 from generator.rest import characteristic_terms
-from generator.series import flow_of
 from generator.slow import balance_of
 from scripts.files.read_config import read
 from scripts.namelists.laws import BLOCK, PAPER, built_in

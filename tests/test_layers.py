@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from conftest import ROOT, project_files
+from scripts.files.read_config import read
 
 FORTRAN = ROOT / "fortran"
 GENERATOR = ROOT / "generator"
@@ -16,7 +17,7 @@ MAY_USE = {
     "dde": {"dde", "api"},
     "generator": {"generator", "api"},
     "model": {"model", "generator", "api"},
-    "methods": {"methods", "bindings", "api"},
+    "methods": {"methods", "generator", "bindings", "api"},
     "study": {"study", "methods", "model", "generator", "bindings", "api"},
     "io": {"io", "study", "methods", "model", "generator", "files", "api"},
     "app": {"app", "io", "study", "methods", "model", "api"},
@@ -24,7 +25,7 @@ MAY_USE = {
 """For each layer: the layers that its modules may use; `api` is what a user of the solver sees,
 `files` is what of the bindings reads and writes."""
 API = ("dde", "dde_errors", "dde_kinds")
-FILES = ("file_system", "process")
+FILES = ("process", "unfinished_file")
 """Modules that others may use: layers of their own."""
 LIBRARIES = {
     "bindings": {"iso_c_binding"},
@@ -165,19 +166,52 @@ def test_only_one_module_opens_models():
 
 
 def test_versions_agree():
-    build = re.search(r"project\(.* VERSION (\S+)", (FORTRAN / "CMakeLists.txt").read_text())[1]
-    citation = re.search(
-        r"^version: \"?([\d.]+)", (ROOT / "CITATION.cff").read_text(), re.MULTILINE
-    )[1]
-    entries = re.findall(r"^## \[?v?(\d[\d.]*)", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE)
-    assert build == citation == entries[0]
+    """In all files that name that of the project, of the solver, or of generator and methods."""
+    released = r"(?m)^## v?(\d[\d.]*)"
+    built = r"project\(.* VERSION (\S+)"
+    for places in (
+        {"fortran/CMakeLists.txt": built, "CITATION.cff": r"(?m)^version: ([\d.]+)"}
+        | {"CHANGELOG.md": released},
+        {"fortran/dde/CMakeLists.txt": built, "fortran/dde/fpm.toml": r'(?m)^version = "([\d.]+)'},
+        {"generator/__init__.py": r'__version__ = "([\d.]+)', "generator/CHANGELOG.md": released},
+    ):
+        found = {
+            name: re.search(line, (ROOT / name).read_text())[1] for name, line in places.items()
+        }
+        assert len(set(found.values())) == 1, found
+
+
+def words_of_the_block() -> re.Pattern:
+    """Its names, those of its laws, and its parameters and states as components and in quotes."""
+    model = FORTRAN / "src" / "model"
+    names = [path.stem for path in (model / "laws").glob("*.yaml")]
+    block = read(model / "spring_block.yaml")
+    keys = "|".join([*block["parameters"], *block["states"], "ln_v"])
+    alone = "|".join(["spring", "friction", "earthquake", *names])
+    return re.compile(rf"(?i){alone}|%({keys})\b|[\"']({keys})[\"']")
+
+
+def test_models_and_methods_know_no_block():
+    """The package of generator and methods; which modules it uses is a matter of layers."""
+    files = [
+        *(path for path in GENERATOR.rglob("*.*") if "test" not in path.parts),
+        *(FORTRAN / "src" / "methods").rglob("*.*"),
+    ]
+    code = {
+        path: path.read_text() for path in files if path.suffix in {".f90", ".py", ".c", ".jinja"}
+    }
+    assert len(code) > 50
+    met = {path.name: words_of_the_block().search(text) for path, text in code.items()}
+    assert {name: word for name, word in met.items() if word} == {}
+    for line in ("use spring_block", 'name == "tau"', "parameters%xi", "slip_cut_off.yaml"):
+        assert words_of_the_block().search(line)
 
 
 PYTHON_LAYERS = [
-    *("files", "namelists", "config", "results", "plans", "tables", "claims", "drawing"),
-    *("figures", "page", "workflow"),
+    *("files", "namelists", "plans", "config", "tables", "claims", "drawing", "page", "workflow")
 ]
-"""Folders of scripts/, from the lowest to the highest."""
+"""Rooms of scripts/ that studies share, from the lowest to the highest."""
+STUDIES = ROOT / "scripts" / "studies"
 SCRIPTS = {path: path.read_text() for path in sorted((ROOT / "scripts").glob("*/*.py"))}
 
 
@@ -188,11 +222,45 @@ def layers_imported(text: str) -> set[str]:
 
 
 def test_no_python_module_imports_from_a_higher_layer():
+    """Nor from a study: what studies have is found by its name."""
     assert {path.parent.name for path in SCRIPTS} == set(PYTHON_LAYERS)
     wrong = {
         (path.relative_to(ROOT).as_posix(), layer)
         for path, text in SCRIPTS.items()
         for layer in layers_imported(text)
-        if PYTHON_LAYERS.index(layer) > PYTHON_LAYERS.index(path.parent.name)
+        if layer not in PYTHON_LAYERS[: PYTHON_LAYERS.index(path.parent.name) + 1]
     }
     assert wrong == set()
+
+
+def imports_of_study(path: Path, text: str) -> set[str]:
+    """Rooms and other studies from which a file of a study imports and may not.
+
+    Tests may plan a run.
+    """
+    studies = set(re.findall(r"^\s*(?:from|import) scripts\.studies\.(\w+)", text, re.MULTILINE))
+    others = re.findall(r"^\s*from scripts\.studies import (\w+)", text, re.MULTILINE)
+    rooms = layers_imported(text) - {*PYTHON_LAYERS, "studies"}
+    highest = set() if path.name.startswith("test_") else layers_imported(text) & {"workflow"}
+    return (studies - {path.parent.name}) | {*others} | rooms | highest
+
+
+def test_study_imports_from_shared_rooms_alone():
+    files = {path: path.read_text() for path in sorted(STUDIES.glob("*/*.py"))}
+    wrong = {path: found for path, text in files.items() if (found := imports_of_study(path, text))}
+    assert wrong == {}
+
+
+@pytest.mark.parametrize(
+    ("name", "line", "wrong"),
+    [
+        ("table.py", "from scripts.studies.hopf.table import rows_of", {"hopf"}),
+        ("test_mine.py", "from scripts.studies import hopf", {"hopf"}),
+        ("table.py", "    from scripts.workflow.plan import read_plan", {"workflow"}),
+        ("test_mine.py", "from scripts.workflow.plan import read_plan", set()),
+        ("figure.py", "from scripts.studies.mine.table import rows_of", set()),
+        ("figure.py", "from scripts.drawing.style import INK", set()),
+    ],
+)
+def test_import_from_another_study_is_caught(name, line, wrong):
+    assert imports_of_study(STUDIES / "mine" / name, line) == wrong

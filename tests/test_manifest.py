@@ -8,10 +8,18 @@ from pathlib import Path
 
 import pytest
 
-from conftest import ROOT, Project
+from conftest import ROOT
 from scripts.workflow import manifest
 
 LISTS = ("results/manifest.sha256", "results/measured.sha256")
+KEPT = [f"results/{name}" for name in ("tables/a.tsv", "figures/a.svg", "index.html")]
+MEASURED = [
+    f"results/{name}"
+    for name in ("measurements/stability/a.nc", "figures/work_precision.svg", "times.html")
+]
+OTHERS = [
+    f"results/{name}" for name in ("logs/a.log", "benchmarks/a.tsv", "README.md", "mine/index.html")
+]
 
 
 def write(path: str, text: str, age: float = 0.0) -> None:
@@ -22,79 +30,66 @@ def write(path: str, text: str, age: float = 0.0) -> None:
     os.utime(path, (changed, changed))
 
 
-@pytest.fixture
-def results(tmp_path, monkeypatch) -> list[str]:
-    """A folder of results of one run, and those of them that a list holds."""
+@pytest.fixture(autouse=True)
+def run_done(tmp_path, monkeypatch) -> None:
+    """A folder of results of one run."""
     monkeypatch.chdir(tmp_path)
-    kept = ["tables/a.tsv", "figures/a.svg", "index.html"]
-    measured = ["measurements/stability/a.nc", "figures/work_precision.svg", "times.html"]
-    others = ["logs/a.log", "benchmarks/a.tsv", "README.md", "mine/index.html"]
-    for name in [*kept, *measured, *others]:
-        write(f"results/{name}", name, age=100.0)
+    for path in [*KEPT, *MEASURED, *OTHERS]:
+        write(path, path, age=100.0)
     manifest.record_run("results")
-    return [f"results/{name}" for name in kept + measured]
 
 
 def verify(folder: Path, *lists: str) -> tuple[int, list[str]]:
     """Exit status and lines of ./reproduce --verify, called from another folder."""
-    run = subprocess.run(
-        [folder / "reproduce", "--verify", *lists],
-        cwd=folder.parent,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-    )
-    return run.returncode, run.stdout.splitlines()
+    command = [folder / "reproduce", "--verify", *lists]
+    run = subprocess.run(command, cwd=folder.parent, capture_output=True, text=True)
+    return run.returncode, (run.stdout + run.stderr).splitlines()
 
 
-def test_lists_hold_all_results(results):
+def test_lists_hold_all_results():
+    """Each once, and nothing else."""
     listed = [Path(path).read_text().splitlines() for path in LISTS]
-    kept, measured = ({line.split("  ")[1] for line in lines} for lines in listed)
-    assert (kept, measured) == (set(results[:3]), set(results[3:]))
+    assert [{line.split("  ")[1] for line in lines} for lines in listed] == [
+        set(KEPT),
+        set(MEASURED),
+    ]
     shutil.copy(ROOT / "reproduce", "reproduce")
     assert verify(Path.cwd()) == (0, ["all 6 results agree"])
-    Path(results[0]).unlink()
+    Path(KEPT[0]).unlink()
     status, lines = verify(Path.cwd())
     assert status == 1
-    assert f"{results[0]}: FAILED open or read" in lines
+    assert f"{KEPT[0]}: FAILED open or read" in lines
+    Path(LISTS[0]).unlink()
+    status, (line,) = verify(Path.cwd())
+    assert status == 1
+    assert "cannot be read; a run of ./reproduce writes" in line
 
 
-def test_result_that_changed_between_runs_is_removed(results):
-    """Damaged with its old time, or edited; no run records it before it is made again."""
-    flipped, edited, *_ = results
+@pytest.mark.parametrize("is_killed", [False, True])
+def test_what_a_run_made_is_kept_and_what_was_damaged_is_removed(is_killed):
+    """Of a run that was killed, too. Damaged with its old time, or edited: no run records it before
+    it is made again. What is gone leaves the list, what is new is added."""
+    flipped, made, edited, gone = KEPT[0], KEPT[1], KEPT[2], MEASURED[0]
     write(flipped, "flipped", age=100.0)
     write(edited, "edited", age=50.0)
     manifest.begin_run("results")
-    manifest.record_run("results")
-    assert set(manifest.remove_damaged("results")) == {flipped, edited}
-    assert not Path(flipped).exists()
-    assert manifest.remove_damaged("results") == []
-
-
-def test_results_of_a_run_are_recorded(results):
-    """What it made anew has a new digest, what is gone leaves the list, what is new is added."""
-    changed, gone, *_ = results
-    manifest.begin_run("results")
-    write(changed, "made by the run", age=-1.0)
-    write("results/tables/b.tsv", "new")
+    write("results/.run-began", "", age=20.0)
+    write(made, "made by the run", age=10.0)
+    write("results/tables/b.tsv", "new", age=10.0)
     Path(gone).unlink()
+    if is_killed:
+        assert set(manifest.remove_damaged("results")) == {flipped, edited}
+        manifest.begin_run("results")
     manifest.record_run("results")
+    assert set(manifest.remove_damaged("results")) == (set() if is_killed else {flipped, edited})
     assert manifest.remove_damaged("results") == []
-    assert gone not in manifest.read_digests("results")
-    assert "results/tables/b.tsv" in manifest.read_digests("results")
-
-
-def test_results_of_a_killed_run_stay(results):
-    """The next run records them; what was damaged before it began is removed."""
-    made, damaged, *_ = results
-    write(damaged, "damaged", age=50.0)
-    manifest.begin_run("results")
-    write(made, "made by the killed run", age=-1.0)
-    assert manifest.remove_damaged("results") == [damaged]
-    manifest.begin_run("results")
-    manifest.record_run("results")
-    assert manifest.remove_damaged("results") == []
-    assert Path(made).exists()
+    assert not Path(flipped).exists()
+    assert Path(made).read_text() == "made by the run"
+    listed = manifest.read_digests("results")
+    assert gone not in listed
+    assert {made, "results/tables/b.tsv"} <= set(listed)
+    write(made, "edited after the run", age=5.0)
+    assert manifest.remove_damaged("results") == [made]
 
 
 def test_run_makes_damaged_and_removed_results_again(smoke, scratch):
@@ -109,7 +104,8 @@ def test_run_makes_damaged_and_removed_results_again(smoke, scratch):
     part, other = (results / "attractors" / "atlas" / "xi_08" / f"000{i}.nc" for i in (2, 1))
     for path in (part, results / "tables" / "atlas.tsv", results / "page" / "style.css"):
         path.unlink()
-    (scratch.folder / "build" / "release" / "bin" / "spring_block_quad").unlink()
+    # the same bytes with a new time
+    os.utime(scratch.folder / "build" / "release" / "bin" / "spring_block")
     written = other.stat().st_mtime_ns
     run = scratch.reproduce("--configfile", "config/smoke.yaml")
     assert run.returncode == 0, run.stdout
@@ -119,9 +115,3 @@ def test_run_makes_damaged_and_removed_results_again(smoke, scratch):
     assert other.stat().st_mtime_ns == written
     assert verify(scratch.folder)[0] == 0
     assert verify(scratch.folder, str(smoke.folder / LISTS[0]))[0] == 0
-
-
-def test_results_without_lists_cannot_be_compared(fresh: Project):
-    status, lines = verify(fresh.folder)
-    assert (status, len(lines)) == (1, 1)
-    assert "cannot be read; a run of ./reproduce writes" in lines[0]

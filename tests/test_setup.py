@@ -19,11 +19,6 @@ LOCKS = [
 """Folders with a lock of Python packages."""
 
 
-def run(*command: str, **options) -> subprocess.CompletedProcess[str]:
-    """Run a command and keep what it says."""
-    return subprocess.run(command, capture_output=True, text=True, timeout=60, **options)
-
-
 def locked_packages(folder: str) -> list[str]:
     """Each package of the lock with its hashes, as one line."""
     text = (ROOT / folder / "requirements.lock").read_text()
@@ -35,7 +30,7 @@ def locked_packages(folder: str) -> list[str]:
 def test_shell_script_is_sound(script):
     """Its syntax, its run bit, and that it stops at the first failure."""
     path = ROOT / script
-    assert run("bash", "-n", str(path)).returncode == 0
+    assert subprocess.run(["bash", "-n", path]).returncode == 0
     assert path.stat().st_mode & 0o111
     text = path.read_text()
     assert text.startswith("#!/usr/bin/env bash\n")
@@ -81,24 +76,6 @@ def test_no_file_names_a_package_index():
     assert [name for name, text in texts.items() if address.search(text)] == []
 
 
-def test_test_names_its_parts():
-    result = run(str(ROOT / "test"), "nonsense")
-    assert result.returncode == 2
-    assert result.stdout == ""
-    assert "'nonsense'" in result.stderr
-    assert all(
-        part in result.stderr
-        for part in ("quick", "lint", "fortran", "python", "long", "compilers", "slurm")
-    )
-
-
-def test_reproduce_says_how_it_is_used(tmp_path):
-    result = run(str(ROOT / "reproduce"), "--help", cwd=tmp_path)
-    assert result.returncode == 0
-    assert "./reproduce [FILE.yaml] [TARGET...]" in result.stdout
-    assert "./test" in result.stdout
-
-
 def test_continuous_integration_calls_the_tests():
     """And nothing else, in a container of each Debian that is supported. Images and actions are
     named by digest: a tag may be moved to other contents."""
@@ -120,12 +97,8 @@ def test_continuous_integration_calls_the_tests():
 
 NUMBERS = {"threads"}
 """Names in braces whose values Snakemake itself makes, without characters of a shell."""
-COMMANDS = [
-    (path.name, command)
-    for path in [ROOT / "Snakefile", *sorted((ROOT / "rules").glob("*.smk"))]
-    for command in re.findall(r"^ +shell:\n((?: {8,}.*\n)+)", path.read_text(), re.MULTILINE)
-]
-"""Each command with the file of its rule."""
+RULES = "".join(path.read_text() for path in [ROOT / "Snakefile", *ROOT.glob("rules/*.smk")])
+COMMANDS = re.findall(r"^ +shell:\n((?: {8,}.*\n)+)", RULES, re.MULTILINE)
 
 
 def unquoted(command: str) -> set[str]:
@@ -134,12 +107,7 @@ def unquoted(command: str) -> set[str]:
     return {name for name in names if not name.endswith(":q")} - NUMBERS
 
 
-def test_every_command_is_found():
-    texts = [path.read_text() for path in [ROOT / "Snakefile", *(ROOT / "rules").glob("*.smk")]]
-    assert len(COMMANDS) == len(re.findall(r"\bshell\b\s*[:(]", "".join(texts))) > 2
-
-
-@pytest.mark.parametrize(("file", "command"), COMMANDS)
-def test_command_quotes_paths_and_texts(file, command):
-    """A folder may hold spaces, a file what a shell would run."""
-    assert unquoted(command) == set()
+def test_commands_quote_paths_and_texts():
+    """A folder may hold spaces, a file what a shell would run. Every command is looked at."""
+    assert {command: unquoted(command) for command in COMMANDS if unquoted(command)} == {}
+    assert len(COMMANDS) == len(re.findall(r"\bshell\b\s*[:(]", RULES)) > 2

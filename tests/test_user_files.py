@@ -211,14 +211,7 @@ def test_paper_can_be_run_with_other_settings_in_another_folder(smoke, tmp_path)
     assert run.returncode == 0, run.stdout
     assert "moved/figures/figure_6.svg" in run.stdout
     assert {"trajectory", "spectrum", "figure_6"} <= rules_in(run.stdout)
-    assert "results/" not in re.sub("/results/", "", run.stdout).replace("scripts/results", "")
-
-
-def test_scene_of_the_paper_can_be_measured_alone(tmp_path):
-    (tmp_path / "mine.yaml").write_text("work_precision: { scenes: { torus: { t_end: 20.0 } } }")
-    config = read_plan({"user_file": str(tmp_path / "mine.yaml")}).config
-    assert list(config["work_precision"]["scenes"]) == ["torus"]
-    assert list(config["scenes"]) == ["torus"]
+    assert "results/" not in re.sub("/results/", "", run.stdout)
 
 
 @pytest.mark.parametrize("folder", ["scripts", "docs/mine", "README.md"])

@@ -44,8 +44,8 @@ contains
       else
          call sweep_attractors(model, list, settings, options, findings, report)
       end if
-      call write_attractors(output_path, points, model, history, list, settings, options, findings, &
-                            error)
+      call write_attractors(output_path, points, model, history, list, settings, options, &
+                            findings, error)
       call stop_on(error)
    end subroutine run_attractors
 end module attractors_command

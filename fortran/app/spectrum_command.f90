@@ -44,7 +44,8 @@ contains
       if (allocated(trajectory%u)) then
          interval = interval/finer
          associate (rest => trajectory%slope_at_rest)
-            v = rest + smoothed_slope(trajectory%t(first:), trajectory%u(first:), v - rest, interval)
+            v = rest + smoothed_slope(trajectory%t(first:), trajectory%u(first:), v - rest, &
+                                      interval)
          end associate
       end if
       call power_spectrum(v, interval, settings%window, settings%segments, settings%overlap, &

@@ -17,7 +17,7 @@ program spring_block_program
                     command_type("trajectory", run_trajectory, &
                                  "Trajectory of a scene, or of a chain of blocks"), &
                     command_type("spectrum", run_spectrum, &
-                                 "Power spectrum of the signal over a trajectory, with its peaks"), &
+                                 "Power spectrum of the signal of a trajectory, with its peaks"), &
                     command_type("slip_events", run_slip_events, &
                                  "Events of the blocks of a scene"), &
                     command_type("exponents", run_exponents, &

@@ -50,7 +50,8 @@ contains
       call stop_on(error)
       call find_transverse_cycle(model, settings%t_end, scene%options(), settings%values(parts), &
                                  on_cycle)
-      call write_synchrony(output_path, scene, model, history, settings, growth, zeros, on_cycle, error)
+      call write_synchrony(output_path, scene, model, history, settings, growth, zeros, on_cycle, &
+                           error)
       call stop_on(error)
    end subroutine run_synchrony
 end module synchrony_command

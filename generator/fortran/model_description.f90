@@ -5,8 +5,8 @@ module model_description
    use model_border, only: describe_line, letters => line_length
    implicit none (type, external)
    private
-   public :: at_rest, auxiliary_type, description_of, description_type, line_length, observed_type, &
-             parameter_type, sizes_of, sizes_type, unbounded, word_length
+   public :: at_rest, auxiliary_type, description_of, description_type, line_length, &
+             observed_type, parameter_type, sizes_of, sizes_type, unbounded, word_length
 
    !> Letters of names; of meanings and equations.
    integer, parameter :: word_length = 64, line_length = 512

@@ -193,10 +193,10 @@ contains
    end function number_of
 
    !> Number of states of a block.
-   pure integer function states(self)
+   pure integer function states(self) result(number)
       class(model_type), intent(in) :: self
 
-      states = self%n/self%shape%blocks
+      number = self%n/self%shape%blocks
    end function states
 
    !> Value of the signal's component at rest.

@@ -25,8 +25,15 @@ studies.load_parts("claims")  # they declare their claims and tests
 
 
 def paper_claims() -> dict[str, dict]:
-    """Claims of the paper and our questions, of all studies and of none, by name."""
-    return declared_claims()
+    """Claims of the paper and our questions, of all studies and of none, by name.
+
+    There is nothing to look at if the study with the figure is not there.
+    """
+    shown = {*studies.paper_figures(), *tables_to_look_at()}
+    return {
+        name: {key: value for key, value in about.items() if key != "look_at" or value in shown}
+        for name, about in declared_claims().items()
+    }
 
 
 def tables_to_look_at() -> list[str]:

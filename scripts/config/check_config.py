@@ -94,7 +94,9 @@ def in_words(error: jsonschema.ValidationError) -> str:
     if "propertyNames" in error.absolute_schema_path:
         expected = expected if isinstance(value, str) else "text (quote it)"
         return f"{place_of(path)}: name {value!r}; expected {expected}"
-    line = f"{place_of(path[:-1])}: {path[-1] if path else 'value'} = {value!r}; expected {expected}"
+    line = (
+        f"{place_of(path[:-1])}: {path[-1] if path else 'value'} = {value!r}; expected {expected}"
+    )
     if isinstance(value, str) and _is_number(value):
         line += f" (this is text; write {value} without quotes for the number)"
     return line

@@ -30,7 +30,9 @@ def edges_of(centres: list[float]) -> np.ndarray:
     return np.array([centres[0], *middles, centres[-1]])
 
 
-def table_of(rows: list[dict], axes: tuple[str, str], value) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def table_of(
+    rows: list[dict], axes: tuple[str, str], value
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Edges along abscissa and ordinate, and a value of each row on the grid."""
     x, y = axes
     columns, lines = (sorted({row[key] for row in rows}) for key in axes)

@@ -45,7 +45,8 @@ def render(text: str, claims: list[dict] | None, **numbers) -> str:
     verdicts = {claim["id"]: IN_WORDS[claim["verdict"]] for claim in claims or []}
     # a run that failed may have no ledger of claims
     verdict = "**was not tested in this run**".format if claims is None else verdicts.__getitem__
-    return ENVIRONMENT.from_string(text).render(verdict=verdict, **numbers)
+    template = ENVIRONMENT.from_string(text)
+    return template.render(verdict=verdict, verdicts=verdicts, **numbers)
 
 
 if __name__ == "__main__":

@@ -1,10 +1,10 @@
 """Files that scripts write appear only when complete; failures are reported in one line."""
 
 import contextlib
+import glob
 import os
-import re
-import time
 import traceback
+import uuid
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -15,38 +15,28 @@ class FileError(Exception):
     """A file that cannot be read or written: which, why, and what to do."""
 
 
-def send_to_disk(path: Path) -> None:
-    """Return when a file or folder is on the disk, where it outlasts a loss of power."""
-    descriptor = os.open(path, os.O_RDONLY)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)
-
-
 @contextlib.contextmanager
 def written(path: str | Path) -> Iterator[Path]:
-    """A path to write to: the file there becomes `path` at the end; a failure leaves nothing.
+    """A path to write to: the file there becomes `path` when it is on the disk; a failure leaves
+    nothing.
 
-    Each run has a path of its own and removes those of earlier runs, as the Fortran programs do: of
-    several runs the one that began last writes the file. Raises FileError.
+    Each run has a path of its own and removes those of earlier runs, so that of several runs the
+    one that began last writes the file. Raises FileError.
     """
     path = Path(path)
-    unfinished = path.with_name(f"{path.name}.{os.getpid()}-{time.monotonic_ns()}.part")
+    unfinished = path.with_name(f"{path.name}.{uuid.uuid4().hex}.part")
     try:
-        for name in os.listdir(path.parent):
-            if re.fullmatch(rf"{re.escape(path.name)}\.[0-9-]+\.part", name):
-                path.with_name(name).unlink(missing_ok=True)
+        for left in path.parent.glob(f"{glob.escape(path.name)}.*.part"):
+            left.unlink(missing_ok=True)
         yield unfinished
         if not unfinished.exists():
             raise FileError(
-                f"{path}: another run has started to write this file; only the last one keeps it"
+                f"{path}: cannot write: another run has started to write this file; only the last"
+                " one keeps it"
             )
-        send_to_disk(unfinished)
+        with open(unfinished, "rb") as file:
+            os.fsync(file.fileno())
         os.replace(unfinished, path)
-        # not all file systems can send a folder to the disk
-        with contextlib.suppress(OSError):
-            send_to_disk(path.parent)
     except OSError as problem:
         raise FileError(f"{path}: cannot write: {problem.strerror}; {REMEDY}") from problem
     finally:

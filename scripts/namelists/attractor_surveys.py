@@ -22,6 +22,11 @@ def drawn_histories(count: int, ranges: dict, names: Iterable[str]) -> list[dict
     ]
 
 
+def evenly_spaced(window: list[float], count: int) -> list[float]:
+    """Values from one end of a window to the other."""
+    return np.linspace(*window, count).tolist()
+
+
 def survey_groups(
     config: dict,
     section: str,

@@ -98,11 +98,12 @@ class Figure:
 
     name: str
     """Name of the figure; a figure of a kind is KIND/ENTRY, for example scenes/strong_delay."""
-    title: str
     category: str
     """The heading on the page and in the report."""
     place: int
     """Figures stand on the page in ascending order of their places."""
+    title: str = ""
+    """What is drawn; by default the first line of the plan."""
     inputs: Callable[[dict], dict] = lambda _config: {}
     """Results that it reads, by name: a path or a list of paths."""
     params: Callable[[dict], dict] = lambda _config: {}
@@ -157,7 +158,7 @@ class Study:
     """All that planning knows of a study."""
 
     reads: tuple[str, ...] = ()
-    """Other studies whose results or sections it reads: it cannot be without them."""
+    """Other studies whose results, sections or verdicts it reads: it cannot be without them."""
     entries: dict[str, tuple[str, ...]] = field(default_factory=dict)
     """Keys of the sections with entries that a user names, by the wildcard for their names."""
     wildcards: dict[str, str | Callable[[dict], list[str]]] = field(default_factory=dict)
@@ -173,6 +174,8 @@ class Study:
     """Entries of other sections that its own entries need, by the wildcards for their names."""
     of_user: Callable[[dict], None] = lambda _config: None
     """What it changes in the configuration of a user's file."""
+    title: str = ""
+    """The first line of its plan; filled in by what finds the studies."""
 
 
 def stem_of(path: str) -> str:

@@ -38,14 +38,15 @@ def load_parts(part: str) -> dict[str, ModuleType]:
 @cache
 def studies() -> dict[str, Study]:
     """All studies by name; raise ConfigError if one is missing that another one reads."""
-    found = {name: module.STUDY for name, module in load_parts("plan").items()}
-    for name, study in found.items():
-        for other in study.reads:
-            if other not in found:
-                raise ConfigError(
-                    f"scripts/studies/{name}/plan.py: reads the study '{other}'; expected its folder"
-                    f" scripts/studies/{other}/, or scripts/studies/{name}/ to be removed, too"
-                )
+    found = {
+        name: replace(module.STUDY, title=module.__doc__.splitlines()[0])
+        for name, module in load_parts("plan").items()
+    }
+    for other in {other for study in found.values() for other in study.reads} - set(found):
+        readers = [name for name, study in found.items() if other in study.reads]
+        raise ConfigError(
+            f"scripts/studies/{other}/ is missing: the plans of {', '.join(readers)} read it"
+        )
     return found
 
 
@@ -80,13 +81,18 @@ def wildcards(config: dict) -> dict[str, str]:
 @cache
 def paper_figures() -> dict[str, Figure]:
     """The figures by name, in the order of the page."""
-    found = [replace(one, study=name) for name, each in studies().items() for one in each.figures]
+    found = [placed(one, name) for name, each in studies().items() for one in each.figures]
     return {figure.name: figure for figure in sorted(found, key=lambda figure: figure.place)}
+
+
+def placed(figure: Figure, study: str) -> Figure:
+    """A figure with its study, and a title."""
+    return replace(figure, study=study, title=figure.title or studies()[study].title)
 
 
 def user_figures(config: dict, names: dict[str, list[str]]) -> dict[str, Figure]:
     """Figures of what a file adds, given its names by the wildcards of their sections."""
-    kinds = [replace(one, study=name) for name, each in studies().items() for one in each.kinds]
+    kinds = [placed(one, name) for name, each in studies().items() for one in each.kinds]
     wildcard_of = {keys: kind for kind, keys in entries().items()}
     return {
         f"{kind.name}/{entry}": replace(
@@ -129,17 +135,23 @@ def inside(config: dict, keys: tuple[str, ...]) -> dict:
     return config if isinstance(config, dict) else {}
 
 
+@cache
+def values_in(path: Path) -> dict:
+    """The values of a file of the project, not to be changed."""
+    return read(path)
+
+
 def merged(name: str) -> dict:
     """The file of this name in config/ with those of all studies."""
-    return merge(read(PROJECT / "config" / name), *map(read, files_of(name)))
+    return merge(values_in(PROJECT / "config" / name), *map(values_in, files_of(name)))
 
 
 @cache
 def schema() -> dict:
     """The schema of the configuration: that of config/ with those of all studies."""
-    whole = read(PROJECT / "config" / "schema.yaml")
+    whole = copy.deepcopy(values_in(PROJECT / "config" / "schema.yaml"))
     for path in files_of("schema.yaml"):
-        add_rules(whole, read(path))
+        add_rules(whole, values_in(path))
     return whole
 
 

@@ -51,7 +51,7 @@ def states_of(row: dict) -> list[str]:
 
 
 def read_runs(path: str | Path) -> list[dict]:
-    """Runs of a file: words, numbers, and samples as `time` and `state`, shape (states, samples)."""
+    """Runs of a file: words, numbers, samples as `time` and `state`, shape (states, samples)."""
     data = read(path)
     states = [name for name in data.data_vars if data[name].dims == data.time.dims]
     numbers = {name for name, values in data.variables.items() if values.dims == ("run",)}

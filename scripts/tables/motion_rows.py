@@ -6,7 +6,6 @@ from collections.abc import Mapping
 import numpy as np
 
 from scripts.namelists.laws import law_in_file, law_of
-from scripts.namelists.parameters import HISTORY, PARAMETERS
 
 UNDECIDED = "undecided"
 AXES_FIRST = ("epsilon", "tau", "xi", "gamma")

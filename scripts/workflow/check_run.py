@@ -32,5 +32,6 @@ def problem_of(workflow, results: str, files: list[str]) -> str:
             paths = [path.replace("<results>", results) for path in files]
             near = get_close_matches(target, [*known, *paths], n=1, cutoff=0.5)
             hint = f"; the nearest one is {near[0]}" if near else ""
-            return f"no target is named {target}{hint} (./reproduce --help lists the targets)"
+            listed = "(./reproduce --list-target-rules lists the targets)"
+            return f"no target is named {target}{hint} {listed}"
     return ""

@@ -76,12 +76,8 @@ def _is_of_run(folder: str | Path, path: str) -> bool:
 
 
 def _digest_of(path: str) -> str:
-    """SHA-256 of a file; empty if it cannot be read."""
-    try:
-        with open(path, "rb") as file:
-            return hashlib.file_digest(file, "sha256").hexdigest()
-    except OSError:
-        return ""
+    with open(path, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 if __name__ == "__main__":

@@ -204,8 +204,8 @@ contains
       end subroutine put_exponents
    end subroutine write_attractors
 
-   !> Smallest and largest maximum of the signal, of a cycle the last quarter: the others may belong to the
-   !> approach; NaN where there is none.
+   !> Smallest and largest maximum of the signal, of a cycle the last quarter: the others may belong
+   !> to the approach; NaN where there is none.
    pure subroutine reach(finding, least, most)
       type(finding_type), intent(in) :: finding
       real(wp), intent(out) :: least
@@ -274,7 +274,8 @@ contains
          end associate
       end do
       dimensions = [file%dimension("kept", kept), rows]
-      call file%table(dimensions, "maximum", maxima, "maxima of "//signal_name(model)//", in order of time")
+      call file%table(dimensions, "maximum", maxima, &
+                      "maxima of "//signal_name(model)//", in order of time")
       call put_coordinate(1, first_coordinate)
       call put_coordinate(2, second_coordinate)
 

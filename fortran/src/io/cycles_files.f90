@@ -40,8 +40,8 @@ module cycles_files
       real(wp) :: longest_period = missing
       !> Most orbits of a branch
       integer :: most_orbits = missing_count
-      !> Two parameters over which curves of special points are followed, and windows on them; none are
-      !> if these are left out
+      !> Two parameters over which curves of special points are followed, and windows on them; none
+      !> are if these are left out
       character(len=word_length) :: curves_along(2) = ""
       real(wp) :: curves_windows(2, 2) = 0.0_wp
    end type cycles_section_type
@@ -267,7 +267,7 @@ contains
       call file%column(rows, "special_coefficient_error", columns(:, 9), &
                        "difference of it on two meshes")
       call file%column(rows, "special_amplitude", columns(:, 10), &
-                       "half range of maxima of the component of the signal of tori, over root of distance")
+                       "half range of maxima of the signal of tori, over root of distance")
       call file%column(rows, "special_branch", numbers(:, 1), "its branch, from 1")
       call file%column(rows, "special_unstable_before", numbers(:, 2), &
                        "unstable multipliers before it")

@@ -91,7 +91,8 @@ contains
       end do
    end function runs_of_methods
 
-   !> Write all runs of all cases, which have one model; a case with fewer samples than another is filled up with NaN.
+   !> Write all runs of all cases, which have one model; a case with fewer samples than another is
+   !> filled up with NaN.
    subroutine write_measured_runs(path, measured, error)
       !> Path of the file
       character(len=*), intent(in) :: path

@@ -5,10 +5,10 @@ module netcdf_output
    use dde_errors, only: error_type, raise
    use dde_kinds, only: int64, wp
    use netcdf, only: nf90_char, nf90_close, nf90_create, nf90_def_dim, nf90_def_var, nf90_double, &
-                     nf90_global, nf90_int, nf90_netcdf4, nf90_noclobber, nf90_noerr, &
-                     nf90_put_att, nf90_put_var, nf90_strerror
+                     nf90_global, nf90_int, nf90_netcdf4, nf90_noerr, nf90_put_att, &
+                     nf90_put_var, nf90_strerror
    use program_arguments, only: command_name
-   use unfinished_file, only: remedy, unfinished_type
+   use unfinished_file, only: unfinished_type
    use version, only: project_version
    implicit none (type, external)
    private
@@ -61,7 +61,7 @@ contains
 
       call self%place%begin(path, self%error)
       if (allocated(self%error)) return
-      call self%note(nf90_create(self%place%other_path, ior(nf90_netcdf4, nf90_noclobber), self%id))
+      call self%note(nf90_create(self%place%part, nf90_netcdf4, self%id))
       allocate (self%axes(0))
       call self%attribute("Conventions", "CF-1.8")
       call self%attribute("title", title)
@@ -78,13 +78,9 @@ contains
    subroutine note(self, status)
       class(output_file_type), intent(inout) :: self
       integer, intent(in) :: status
-      character(len=:), allocatable :: reason
 
       if (status == nf90_noerr .or. allocated(self%error)) return
-      ! a positive status is the system's own number of an error
-      reason = trim(nf90_strerror(status))
-      if (status < 0) reason = self%place%why_not_written(reason)
-      call raise(self%error, self%place%path//": cannot write: "//reason//remedy)
+      call self%place%fail(trim(nf90_strerror(status)), self%error)
       call self%discard()
    end subroutine note
 
@@ -325,7 +321,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       if (.not. allocated(self%error)) call self%note(nf90_close(self%id))
-      if (.not. allocated(self%error)) call self%place%publish(self%error)
+      if (.not. allocated(self%error)) call self%place%publish("", self%error)
       if (allocated(self%error)) allocate (error, source=self%error)
    end subroutine finish
 

@@ -3,7 +3,6 @@
 module program_arguments
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use dde_errors, only: error_type, raise
-   use file_system, only: file_is_same, file_is_special, nul
    use namelist_input, only: help
    use process, only: end_at_once
    use unfinished_file, only: check_place
@@ -99,21 +98,23 @@ contains
       end if
    end subroutine check_paths
 
-   !> Refuse to read what may have no end, and to replace what the program reads: the program ends.
+   !> Refuse to replace what the program reads: the program ends.
    subroutine check_input(input_path, output_path)
       !> Path of the file to read
       character(len=*), intent(in) :: input_path
       !> Path of the file to write
       character(len=*), intent(in) :: output_path
       type(error_type), allocatable :: error
+      logical :: is_same
+      integer :: status, unit
 
-      if (file_is_special(input_path//nul) == 1) then
-         call raise(error, input_path//": cannot be read: a folder, a device or a pipe is there; " &
-                    //"expected a file")
-      else if (file_is_same(input_path//nul, output_path//nul) == 1) then
-         call raise(error, output_path//": cannot write: it is the input "//input_path &
-                    //"; expected another path")
-      end if
+      open (newunit=unit, file=input_path, status="old", action="read", iostat=status)
+      ! who reads it says why it cannot be opened
+      if (status /= 0) return
+      inquire (file=output_path, opened=is_same)
+      close (unit)
+      if (is_same) call raise(error, output_path//": cannot write: it is the input "//input_path &
+                              //"; expected another path")
       call stop_on(error)
    end subroutine check_input
 

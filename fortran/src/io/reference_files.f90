@@ -88,7 +88,6 @@ contains
          self%content = self%content//tab//shown_name(case%model, i)
       end do
       self%content = self%content//tab//"uncertainty"//tab//"amplification"//line_end
-      call self%place%write(self%content, error)
    end subroutine create
 
    !> A case at its sample times: the state, how far the state at a larger tolerance is from it, and
@@ -157,7 +156,6 @@ contains
       class(reference_file_type), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
 
-      call self%place%write(self%content, error)
-      if (.not. allocated(error)) call self%place%publish(error)
+      call self%place%publish(self%content, error)
    end subroutine finish
 end module reference_files

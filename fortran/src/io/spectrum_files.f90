@@ -7,8 +7,8 @@ module spectrum_files
    use dde_kinds, only: int64, wp
    use namelist_input, only: namelist_file_type, word_length
    use netcdf, only: nf90_close, nf90_get_att, nf90_get_var, nf90_global, nf90_inq_dimid, &
-                     nf90_inq_varid, nf90_inquire_dimension, nf90_inquire_variable, nf90_noerr, nf90_nowrite, nf90_open, &
-                     nf90_strerror
+                     nf90_inq_varid, nf90_inquire_dimension, nf90_inquire_variable, nf90_noerr, &
+                     nf90_nowrite, nf90_open, nf90_strerror
    use netcdf_output, only: output_file_type
    use spectral_peaks, only: base_peak, combination_peak, harmonic_peak, other_peak, peak_type, &
                              second_base_peak
@@ -148,7 +148,8 @@ contains
                     //"' (add it to the variables of its scene)")
          if (allocated(error)) return
          allocate (values(length))
-         call check(nf90_inquire_variable(file, id, ndims=dimensions), "variable '"//name//"'"//unread)
+         call check(nf90_inquire_variable(file, id, ndims=dimensions), &
+                    "variable '"//name//"'"//unread)
          if (allocated(error)) return
          if (dimensions == 1) then
             call check(nf90_get_var(file, id, values), "variable '"//name//"'"//unread)
@@ -173,8 +174,8 @@ contains
    end subroutine read_trajectory
 
    !> Write a spectrum with its labelled peaks and what it is.
-   subroutine write_spectrum(path, scene, signal, settings, frequency, power, variance, peaks, bases, &
-                             error)
+   subroutine write_spectrum(path, scene, signal, settings, frequency, power, variance, peaks, &
+                             bases, error)
       !> Path of the file
       character(len=*), intent(in) :: path
       !> Name of the scene

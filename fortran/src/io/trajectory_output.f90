@@ -1,7 +1,7 @@
 !> Trajectory files: samples go to disk in blocks while the integration runs, only the variables
-!> that the scene lists. Where the fast state of a block alone relaxes within the sample interval, they
-!> also follow the steps of the solver, so that events shorter than the interval are resolved. Those of
-!> a chain are over time and block.
+!> that the scene lists. Where the fast state of a block alone relaxes within the sample interval,
+!> they also follow the steps of the solver, so that events shorter than the interval are resolved.
+!> Those of a chain are over time and block.
 module trajectory_output
    use dde, only: integration_result, sampler_type
    use dde_errors, only: error_type, text
@@ -22,8 +22,8 @@ module trajectory_output
    !> Samples held before they are written: of one block, and at least.
    integer, parameter :: most_held = 8192, least_held = 32
 
-   !> Longest time between samples as a share of the step, where they follow the steps. The largest sample of a
-   !> slip event is within 0.2 % of its maximum, measured for gamma from 100 to 1e10.
+   !> Longest time between samples as a share of the step, where they follow the steps. The largest
+   !> sample of a slip event is within 0.2 % of its maximum, measured for gamma from 100 to 1e10.
    real(wp), parameter :: largest_share = 0.25_wp
 
    !> Sampler that writes a trajectory file.
@@ -78,7 +78,9 @@ contains
       writer%model = model
       writer%history = history
       about = model%describe()
-      if (all(scene%variables == "")) writer%scene%variables(:size(about%states)) = display_names(about)
+      if (all(scene%variables == "")) then
+         writer%scene%variables(:size(about%states)) = display_names(about)
+      end if
       variables = count(writer%scene%variables /= "")
       call find_components(path, about, writer%scene%variables(:variables), components, &
                            writer%exponential, writer%file%error)
@@ -87,7 +89,8 @@ contains
          ! the quotient may be one rounding below a whole number
          writer%times = floor(scene%t_end/scene%sample_interval*(1.0_wp + epsilon(1.0_wp))) + 1
          refined = blocks == 1 .and. model%sizes%observed%integral > 0 .and. &
-                   model%relaxation_rate(0.0_wp, model%steady_state())*scene%sample_interval > 1.0_wp
+                   model%relaxation_rate(0.0_wp, model%steady_state()) &
+                  *scene%sample_interval > 1.0_wp
          if (refined) writer%share_of_step = largest_share
          length = max(least_held, most_held/blocks)
          allocate (writer%ids(0:variables), places(blocks))

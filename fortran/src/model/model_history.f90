@@ -84,7 +84,8 @@ contains
       integer, intent(in) :: number
       real(wp) :: past(model%n)
 
-      past = reshape(self%states(:, blocks_in_order(model%shape%blocks, trim(model%ends)), number), &
+      past = reshape(self%states(:, blocks_in_order(model%shape%blocks, trim(model%ends)), &
+                                 number), &
                      [model%n])
    end function past_of_history
 

@@ -14,8 +14,8 @@ module attractor_points
    private
    public :: finding_type, find_attractors, point_type, sweep_attractors
 
-   !> Change of a state from point to point: of the last coordinate of the section, or of the signal.
-   !> Without it the motion would stay at rest where that is unstable.
+   !> Change of a state from point to point: of the last coordinate of the section, or of the
+   !> signal. Without it the motion would stay at rest where that is unstable.
    real(wp), parameter :: disturbance = 1.0e-2_wp
 
    !> A point at which an attractor is looked for.

@@ -110,8 +110,8 @@ contains
                        search%options, attractor%path)
    end subroutine keep_path
 
-   !> Wait until the motion is at rest or on a cycle, but not longer than the approach may take. Near
-   !> unstable rest wait as long as a motion may be observed.
+   !> Wait until the motion is at rest or on a cycle, but not longer than the approach may take.
+   !> Near unstable rest wait as long as a motion may be observed.
    subroutine approach(search, attractor, error)
       type(search_type), intent(in) :: search
       type(attractor_type), intent(inout) :: attractor

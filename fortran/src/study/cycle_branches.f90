@@ -237,8 +237,8 @@ contains
 
       call integrate(model, 0.0_wp, time, options, outcome, error, continuation=arrived)
       if (allocated(error)) return
-      call orbit_of_trajectory(model, options, arrived, model%sizes%observed%component, search_time, &
-                               basis, intervals, orbit, error)
+      call orbit_of_trajectory(model, options, arrived, model%sizes%observed%component, &
+                               search_time, basis, intervals, orbit, error)
       orbit%parameters = model%numbers
    end subroutine find_reached_orbit
 

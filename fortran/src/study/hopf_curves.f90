@@ -22,7 +22,8 @@ module hopf_curves
    integer, parameter :: most_points = 20000
    real(wp), parameter :: least_share = 1.0e-8_wp
 
-   !> An unbroken piece of a curve, from one end to the other, the one with the lower frequency first.
+   !> An unbroken piece of a curve, from one end to the other, the one with the lower frequency
+   !> first.
    type :: piece_type
       !> Its points
       type(axis_point_type), allocatable :: points(:)
@@ -83,8 +84,8 @@ contains
       points = points_of(plane, pieces)
    end subroutine trace_curves
 
-   !> Follow the curves between two neighbours of the grid whose numbers of pairs differ by more than
-   !> the known curves that pass.
+   !> Follow the curves between two neighbours of the grid whose numbers of pairs differ by more
+   !> than the known curves that pass.
    subroutine explain(plane, from, to, pairs_from, pairs_to, pieces, error)
       type(curve_plane_type), intent(in) :: plane
       real(wp), intent(in) :: from(2), to(2)
@@ -262,10 +263,10 @@ contains
    contains
 
       !> Length of a chord times the sine of its angle to a tangent.
-      pure real(wp) function bend(along, chord)
+      pure real(wp) function bend(along, chord) result(value)
          real(wp), intent(in) :: along(2), chord(2)
 
-         bend = abs(along(1)*chord(2) - along(2)*chord(1))/max(norm2(along), tiny(1.0_wp))
+         value = abs(along(1)*chord(2) - along(2)*chord(1))/max(norm2(along), tiny(1.0_wp))
       end function bend
    end function is_smooth
 
@@ -325,8 +326,8 @@ contains
          key(i) = first%branch + first%at%omega/(1.0_wp + first%at%omega)
       end do
       do i = 1, size(pieces)
-         number(i) = count(key < key(i)) + count([(j, j=1, i)] < i .and. .not. abs(key(:i) - key(i)) &
-                                                 > 0.0_wp) + 1
+         number(i) = count(key < key(i)) + 1 &
+                     + count([(j, j=1, i)] < i .and. .not. abs(key(:i) - key(i)) > 0.0_wp)
       end do
       allocate (points(0))
       do k = 1, size(pieces)

@@ -156,8 +156,8 @@ contains
             matrix = reshape([real(slopes)/scale, aimag(slopes)/scale, direction], [3, 3], &
                              order=[2, 1])
             if (found) exit
-            step = solution(matrix, [-real(delta)/scale, -aimag(delta)/scale, &
-                                     value - dot_product(direction, [point%place, log(point%omega)])])
+            step = solution(matrix, [-real(delta)/scale, -aimag(delta)/scale, value &
+                                     - dot_product(direction, [point%place, log(point%omega)])])
          end associate
          if (.not. all(abs(step) < 1.0_wp)) return
          point%place = point%place + step(:2)

@@ -1,6 +1,6 @@
 !> A case to measure: a model with its parameters, its history and its sample times. A program
-!> compiled in quadruple precision rounds them to double precision, so that it solves the very problem
-!> that the program in double precision solves.
+!> compiled in quadruple precision rounds them to double precision, so that it solves the very
+!> problem that the program in double precision solves.
 module measured_case
    use dde_kinds, only: wp
    use model_history, only: history_type
@@ -33,7 +33,8 @@ contains
    !> The model with this case's parameters, rounded to double precision in any precision.
    function problem(self, disturbance) result(model)
       class(case_type), intent(in) :: self
-      !> Change of the values before the initial time, relative where they are exponentials of states
+      !> Change of the values before the initial time, relative where they are exponentials of
+      !> states
       real(wp), intent(in) :: disturbance
       type(model_type) :: model
       type(history_type) :: history

@@ -40,8 +40,8 @@ module measured_run
       type(integration_result) :: outcome = integration_result()
       !> States, shape (n, times); not a number at times not reached
       real(wp), allocatable :: samples(:, :)
-      !> Smallest and largest value of the component of the signal over a grid eight times as fine as
-      !> the samples
+      !> Smallest and largest value of the component of the signal over a grid eight times as fine
+      !> as the samples
       real(wp) :: least = 0.0_wp, most = 0.0_wp
       !> CPU seconds; with its samples where the run was not repeated
       real(wp) :: seconds = 0.0_wp
@@ -75,7 +75,8 @@ contains
    subroutine measure_run(case, disturbance, most_steps, run, progress)
       !> The case
       type(case_type), intent(in) :: case
-      !> Change of the values before the initial time, relative where they are exponentials of states
+      !> Change of the values before the initial time, relative where they are exponentials of
+      !> states
       real(wp), intent(in) :: disturbance
       !> Most steps of the solver
       integer(int64), intent(in) :: most_steps

@@ -1,5 +1,5 @@
-!> A piece of a motion to be drawn: the signal over time, and over the last coordinate of the section,
-!> as a line through few points.
+!> A piece of a motion to be drawn: the signal over time, and over the last coordinate of the
+!> section, as a line through few points.
 module motion_path
    use dde, only: continuation_type, event_table, integrate, integration_options, &
                   integration_result, sampler_type
@@ -31,8 +31,9 @@ module motion_path
 
 contains
 
-   !> Follow a motion for a time, from its next passage of the section, if there is one in that time. There is no path if the run ends before its time: that of the class of the motion
-   !> was another.
+   !> Follow a motion for a time, from its next passage of the section, if there is one in that
+   !> time. There is no path if the run ends before its time: that of the class of the motion was
+   !> another.
    subroutine follow_path(model, from, time, closeness, options, path)
       !> The model
       class(model_type), intent(in) :: model
@@ -40,12 +41,13 @@ contains
       type(continuation_type), intent(in) :: from
       !> How long
       real(wp), intent(in) :: time
-      !> How close the line is to the motion, as a share of its extent in the signal and the coordinate. In time it is
-      !> half of that: plots over time are wide.
+      !> How close the line is to the motion, as a share of its extent in the signal and the
+      !> coordinate. In time it is half of that: plots over time are wide.
       real(wp), intent(in) :: closeness
       !> Method and tolerances
       type(integration_options), intent(in) :: options
-      !> Time from the beginning of the piece, coordinate and component of the signal, shape (3, points)
+      !> Time from the beginning of the piece, coordinate and component of the signal, shape (3,
+      !> points)
       real(wp), allocatable, intent(out) :: path(:, :)
       type(continuation_type) :: here
       type(error_type), allocatable :: error

@@ -286,11 +286,11 @@ contains
    end function scale
 
    !> Standard deviation, not 0.
-   pure real(wp) function deviation(values)
+   pure real(wp) function deviation(values) result(value)
       real(wp), intent(in) :: values(:)
 
       associate (n => max(1, size(values)))
-         deviation = max(norm2(values - sum(values)/n)/sqrt(real(n, wp)), tiny(1.0_wp))
+         value = max(norm2(values - sum(values)/n)/sqrt(real(n, wp)), tiny(1.0_wp))
       end associate
    end function deviation
 end module observed_motion

@@ -11,17 +11,17 @@ module rest
    private
    public :: comes_to_rest, exponents_at_rest, settles
 
-   !> A motion approaches rest if, in the second half of the observation, the component of the signal
-   !> differs from its value at rest by at most `small`, or by at most `near` and at most `shrunk`
-   !> times the largest difference in the first half.
+   !> A motion approaches rest if, in the second half of the observation, the component of the
+   !> signal differs from its value at rest by at most `small`, or by at most `near` and at most
+   !> `shrunk` times the largest difference in the first half.
    real(wp), parameter :: small = 1.0e-3_wp, near = 0.2_wp, shrunk = 0.8_wp
    !> Samples of a motion that may come to rest: of all blocks, and at least of each.
    integer, parameter :: samples_of_rest = 10000, least_samples = 500
 
 contains
 
-   !> Whether a motion from the model's own past comes to rest: its signal settles between two times,
-   !> and rest is stable, for a chain to all of its modes.
+   !> Whether a motion from the model's own past comes to rest: its signal settles between two
+   !> times, and rest is stable, for a chain to all of its modes.
    subroutine comes_to_rest(model, t_begin, t_end, options, rest, error)
       !> The model and its past
       class(model_type), intent(in) :: model

@@ -1,5 +1,5 @@
-!> Events: the times in which the signal of a block is above a threshold. Of the spring block they are
-!> slips: with v > 1 it is faster than the plate, and its spring unloads.
+!> Events: the times in which the signal of a block is above a threshold. Of the spring block they
+!> are slips: with v > 1 it is faster than the plate, and its spring unloads.
 module slip_events
    use dde, only: event_watcher_type, instant, integrate, integration_options, &
                   integration_result
@@ -35,8 +35,9 @@ module slip_events
       real(wp) :: least_velocity = huge(1.0_wp)
    end type slip_event_type
 
-   !> The events of all blocks in the order of their onsets. The functions of a block are the component
-   !> of the signal less that of each threshold, whose zeros begin and end events, and its slope.
+   !> The events of all blocks in the order of their onsets. The functions of a block are the
+   !> component of the signal less that of each threshold, whose zeros begin and end events, and its
+   !> slope.
    type, extends(event_watcher_type) :: slip_watcher_type
       !> Events that begin before this time are left out
       real(wp) :: t_transient = 0.0_wp

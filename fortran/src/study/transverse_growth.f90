@@ -1,7 +1,7 @@
 !> Whether blocks that move alike stay alike: the master stability function (Pecora and Carroll
-!> 1998, Phys. Rev. Lett. 80, 2109). Along the motion of one block, disturbances of a mode of a chain
-!> have second differences of -mu times the disturbance, where mu is the eigenvalue of the mode. They
-!> are given by s = 1 + kappa mu, s = 1 for the block itself.
+!> 1998, Phys. Rev. Lett. 80, 2109). Along the motion of one block, disturbances of a mode of a
+!> chain have second differences of -mu times the disturbance, where mu is the eigenvalue of the
+!> mode. They are given by s = 1 + kappa mu, s = 1 for the block itself.
 module transverse_growth
    use dde, only: integration_options
    use dde_errors, only: error_type, raise, text

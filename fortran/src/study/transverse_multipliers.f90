@@ -238,11 +238,11 @@ contains
    end function exponent_at
 
    !> A model that keeps delays of 0.
-   pure type(model_type) function kept(model)
+   pure type(model_type) function kept(model) result(keeping)
       type(model_type), intent(in) :: model
 
-      kept = model
-      kept%keeps_delays = .true.
-      call kept%put(model%numbers)
+      keeping = model
+      keeping%keeps_delays = .true.
+      call keeping%put(model%numbers)
    end function kept
 end module transverse_multipliers

@@ -35,6 +35,7 @@ contains
                    new_unittest("enzyme kinetics", test_enzyme), &
                    new_unittest("laws of friction", test_laws), &
                    new_unittest("chains", test_chains), &
+                   new_unittest("a chain with time", test_row), &
                    new_unittest("modes of chains", test_modes)]
    end subroutine collect_generated_models
 
@@ -358,11 +359,37 @@ contains
             call expect_close(error, [c%coefficient], [expected%coefficient], 1.0e-32_wp, "modes")
          end do
       end do
+      call open_there(error, "made_row_near", model)
+      if (allocated(error)) return
+      call put_neighbours(model, 1, 0)
+      call model%set([0.7_wp, 0.9_wp, 1.3_wp], [0.0_wp, 0.0_wp])
+      model%shape%mode = 0.8_wp
+      call check_rest(error, model, "mode of a row")
       ! blocks are alike
-      call put_neighbours(model, 4, 0)
-      call model%set(model%numbers, [(0.0_wp, i=1, 12)])
-      call expect_close(error, model%steady_state(), [(0.0_wp, i=1, 12)], 0.0_wp, "chain at rest")
+      associate (rest => model%steady_state())
+         call put_neighbours(model, 4, 0)
+         call model%set(model%numbers, [(0.0_wp, i=1, 8)])
+         call expect_close(error, model%steady_state(), [rest, rest, rest, rest], 0.0_wp, "blocks")
+      end associate
    end subroutine test_modes
+
+   !> A chain with time and several second differences.
+   subroutine test_row(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(model_type) :: row
+      integer, parameter :: lengths(3) = [1, 2, 7]
+      integer :: i, n
+
+      call open_there(error, "made_row", row)
+      if (allocated(error)) return
+      do i = 1, 6
+         n = lengths(1 + modulo(i, 3))
+         call put_neighbours(row, n, modulo(i, 2))
+         call row%set([0.7_wp, 0.9_wp*modulo(i, 2), 1.3_wp], uniform(i, 2*n, -1.0_wp, 1.0_wp))
+         call check_model(error, row, uniform(10 + i, 2*n, -1.0_wp, 1.0_wp), &
+                          uniform(20 + i, size(row%lag), -1.0_wp, 1.0_wp), "row")
+      end do
+   end subroutine test_row
 
    !> A model that the build has made.
    subroutine open_there(error, name, model)

@@ -1,4 +1,8 @@
-"""The atlas: classes of motion over planes of epsilon and another parameter."""
+"""Figure of the atlas: classes of motion and the largest exponent over epsilon and tau.
+
+Formulas and sources: `attractors.f90`, `motion_classes.f90`, `section_motion.f90`,
+`refined_grid.f90`; motions on the page `motion_path.f90`.
+"""
 
 from pathlib import PurePath
 
@@ -87,13 +91,12 @@ def inputs_of_play(config: dict) -> dict:
 
 
 FIGURE = {
-    "title": "Figure of the atlas: classes of motion and the largest exponent over epsilon and tau.",
     "category": "Atlas",
     "inputs": inputs,
     "params": lambda config: {"scenes": marked_scenes(config)},
 }
 STUDY = Study(
-    reads=("attractors", "basins", "cycles", "hopf", "scenes"),
+    reads=("attractors", "basins", "cycles", "hopf", "routes", "scenes"),
     entries={"atlas_plane": ("atlas", "planes")},
     wildcards={"part": r"\d+"},
     runs=(

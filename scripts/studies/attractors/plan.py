@@ -1,4 +1,7 @@
-"""Where the motions of scenes end: classes of attractors from the scene's own history and others."""
+"""Where the motions of scenes end: classes of attractors from the scene's own history and others.
+
+Formulas and sources: `attractors.f90`, `motion_classes.f90`, `section_motion.f90`.
+"""
 
 from scripts.namelists.attractor_surveys import drawn_histories, survey_groups
 from scripts.namelists.chains import histories_of

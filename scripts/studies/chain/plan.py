@@ -1,4 +1,7 @@
-"""Chains of blocks with springs to their neighbours."""
+"""Chains of blocks: ln v over time and block, how far blocks are apart, and which modes move.
+
+Formulas and sources: `chain.yaml`, `model_chain.f90`.
+"""
 
 from scripts.plans.declare import Figure, Study
 from scripts.plans.scenes import is_chain, paths_of_scenes, scenes_of
@@ -13,8 +16,6 @@ def inputs_of(scenes: list[str]) -> dict:
 
 
 FIGURE = {
-    "title": "Chains of blocks: ln v over time and block, how far blocks are apart, and which modes"
-    " move.",
     "category": "Chains",
     "variables": ("v",),
 }

@@ -13,7 +13,9 @@ def contradictions(config: dict) -> Iterator[str]:
     yield from check_ends("config chain_modes", modes)
     for name, plane in modes["planes"].items():
         place = f"config chain_modes planes {name}"
-        yield from window(place, "epsilon_window", plane["epsilon_window"], **range_of(known["epsilon"]))
+        yield from window(
+            place, "epsilon_window", plane["epsilon_window"], **range_of(known["epsilon"])
+        )
         yield from window(place, "tau_window", plane["tau_window"], **range_of(known["tau"]))
         if plane["law"].startswith(PREFIX) or not is_law(config, plane["law"]):
             yield wrong(place, plane, "law", "a law with inertia, which chains have")

@@ -42,7 +42,6 @@ def params(config: dict) -> dict:
 
 
 FIGURE = {
-    "title": "Where modes of a chain are unstable: Hopf curves of all modes over epsilon and tau.",
     "category": "Chains",
     "inputs": lambda config: {"curves": curves(config)},
     "params": params,

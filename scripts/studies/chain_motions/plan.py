@@ -1,4 +1,4 @@
-"""What chains of blocks do, and how many of their exponents are positive."""
+"""Exponents of chaotic chains: their spectra over the blocks, and how many are positive."""
 
 from scripts.plans.declare import Figure, Study, Table
 from scripts.plans.scenes import is_chain, paths_of_scenes, scenes_with
@@ -29,7 +29,6 @@ STUDY = Study(
     figures=(
         Figure(
             "chain_exponents",
-            "Exponents of chaotic chains: their spectra over the blocks, and how many are positive.",
             category="Chains",
             place=430,
             inputs=lambda _config: {"motions": "<results>/tables/chain-motions.tsv"},

@@ -1,4 +1,8 @@
-"""Cycles followed along a parameter, stable or not, and their special points."""
+"""Figure of the cycles followed: their greatest v along a parameter, stable or not.
+
+Formulas and sources: `orbit_equations.f90`, `floquet_multipliers.f90`, `orbit_branch.f90`,
+`orbit_points.f90`, `torus_normal_form.f90`, `block_cycles.f90`.
+"""
 
 from itertools import chain
 from pathlib import PurePath
@@ -80,7 +84,6 @@ def params(config: dict) -> dict:
 
 
 FIGURE = {
-    "title": "Figure of the cycles followed: their greatest v along a parameter, stable or not.",
     "inputs": inputs,
     "params": params,
 }

@@ -1,4 +1,7 @@
-"""Slip events of chains: their sizes by several definitions, cut-offs, and aftershocks."""
+"""Slip events of chains: their sizes by several definitions, cut-offs, and aftershocks.
+
+Formulas and sources: `slip_events.f90`, `laws.py`.
+"""
 
 from scripts.namelists.program_groups import scene_groups
 from scripts.plans.declare import LONG, Figure, Run, Study, Table
@@ -41,7 +44,6 @@ def inputs(config: dict) -> dict:
 
 
 FIGURE = {
-    "title": "Slip events of chains: their sizes by several definitions, cut-offs, and aftershocks.",
     "category": "Chains",
     "inputs": inputs,
     "params": lambda config: {"names": names(config)},

@@ -1,4 +1,7 @@
-"""Slip events of one block: recurrence times, durations and slips."""
+"""Figure of slip events: their recurrence times in turn, the distribution of these, and slips.
+
+Formulas and sources: `slip_events.f90`.
+"""
 
 from scripts.namelists.program_groups import scene_groups
 from scripts.plans.declare import Figure, Run, Study
@@ -26,8 +29,6 @@ STUDY = Study(
     figures=(
         Figure(
             "events",
-            "Figure of slip events: their recurrence times in turn, the distribution of these, and"
-            " slips.",
             category="Supplement",
             place=130,
             inputs=inputs,

@@ -1,4 +1,8 @@
-"""Lyapunov exponents of scenes: running averages, by tolerance and by resolution of the history."""
+"""Figure of exponents: running averages; values by tolerance and by resolution of the history.
+
+Formulas and sources: `lyapunov_spectrum.f90`, `tangent_problem.f90`, `tangent_vectors.f90`,
+`exponent_averages.f90`.
+"""
 
 from scripts.namelists.parameters import zero_of
 from scripts.namelists.program_groups import scene_groups
@@ -30,15 +34,13 @@ def runs_shown(config: dict) -> list[str]:
 
 
 FIGURE = {
-    "title": "Figure of exponents: running averages; values by tolerance and by resolution of the"
-    " history.",
     "inputs": lambda config: {
         "runs": runs_shown(config),
         "table": "<results>/tables/exponents.tsv",
     },
 }
 STUDY = Study(
-    reads=("attractors", "scenes"),
+    reads=("attractors", "cycles", "scenes"),
     runs=(
         Run(
             *("exponents_runs", "exponents", "exponents/{scene}.nc", groups),

@@ -1,4 +1,7 @@
-"""Whether a delay matters at the gamma of real faults: the least epsilon of all Hopf curves."""
+"""Figure of the fault limit: where Hopf bifurcations begin over gamma, with and without delay.
+
+Formulas and sources: `table.py`.
+"""
 
 from scripts.plans.declare import Figure, Study, Table
 
@@ -13,8 +16,6 @@ STUDY = Study(
     figures=(
         Figure(
             "fault_limit",
-            "Figure of the fault limit: where Hopf bifurcations begin over gamma, with and without"
-            " delay.",
             category="Supplement",
             place=120,
             inputs=lambda _config: {"table": "<results>/tables/fault-limit.tsv"},

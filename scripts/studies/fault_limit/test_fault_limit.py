@@ -58,7 +58,7 @@ def test_least_epsilon_is_on_a_curve_of_the_program(programs, gamma):
     row = fault_limit_table.row_of(0.5, gamma)
     window = [row["least"] - row["depth"], row["least"] + 0.9 * row["depth"]]
     plane = CONFIG["hopf_curves"]["tau_of_epsilon"] | {"gamma": gamma, "cells": 4}
-    curves = programs.made_by("hopf", plane | {"epsilon_window": window})
+    curves = programs.made_by("hopf", plane | {"abscissa_window": window})
     lowest = curves.isel(point=int(curves.epsilon.values.argmin()))
     assert 0 <= float(lowest.epsilon) - row["least"] + 1e-14 < 1e-4 * row["depth"]
     assert set(curves.branch.values) == set(range(1, curves.branch.values.max() + 1))

@@ -1,4 +1,4 @@
-"""The model as the paper draws it."""
+"""Figure 1: block and spring between loader plate and rough surface (a drawing, no data)."""
 
 from scripts.plans.declare import MAIN, Figure, Study
 
@@ -6,7 +6,6 @@ STUDY = Study(
     figures=(
         Figure(
             "figure_1",
-            "Figure 1: block and spring between loader plate and rough surface (a drawing, no data).",
             category=MAIN,
             place=10,
         ),

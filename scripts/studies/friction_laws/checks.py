@@ -13,7 +13,9 @@ def contradictions(config: dict) -> Iterator[str]:
     known = block_parameters()
     yield from check_values(f"{place} history", study["history"], HISTORY)
     yield from check_observation(f"{place} observation", study["observation"], config["spectra"])
-    yield from window(place, "epsilon_window", study["epsilon_window"], **range_of(known["epsilon"]))
+    yield from window(
+        place, "epsilon_window", study["epsilon_window"], **range_of(known["epsilon"])
+    )
     for name, plane in study["planes"].items():
         inside, fixed = f"{place} planes {name}", plane.keys() - {"tau_window"}
         yield from window(inside, "tau_window", plane["tau_window"], **range_of(known["tau"]))

@@ -1,4 +1,7 @@
-"""The paper's question under other laws of friction: coarse planes, and scenes of the paper."""
+"""Figure of other laws of friction: classes of motion over epsilon and tau, and fastest slip.
+
+Formulas and sources: `fortran/src/model/laws/`.
+"""
 
 from scripts.namelists.attractor_surveys import survey_groups
 from scripts.plans.declare import LONG_RUN, Figure, Run, Study, Table
@@ -45,7 +48,7 @@ def params(config: dict) -> dict:
 
 
 STUDY = Study(
-    reads=("attractors", "scenes"),
+    reads=("attractors", "routes", "scenes"),
     wildcards={
         "friction_law": lambda config: config["friction_laws"]["laws"],
         "part_of_laws": parts,
@@ -67,8 +70,6 @@ STUDY = Study(
     figures=(
         Figure(
             "friction_laws",
-            "Figure of other laws of friction: classes of motion over epsilon and tau, and fastest"
-            " slip.",
             category="Atlas",
             place=350,
             inputs=lambda _config: {"table": "<results>/tables/friction-laws.tsv"},

@@ -26,7 +26,6 @@ from scripts.claims.declare import (
     tested_with,
 )
 from scripts.claims.words import boundary
-from scripts.studies.hopf import formula_claims  # noqa: F401  (it declares claims)
 
 KINDS = {"supercritical": -1, "subcritical": 1}
 """Kinds of a Hopf bifurcation by the sign of the first Lyapunov coefficient."""

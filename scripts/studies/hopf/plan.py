@@ -1,4 +1,9 @@
-"""Hopf curves of steady sliding in planes of epsilon and another parameter."""
+"""Hopf curves in a plane of epsilon and another parameter.
+
+Formulas and sources: (5) `characteristic_function.f90`; (7) to (10) `hopf_condition.f90`;
+supercritical or subcritical `normal_form.f90`; special points `hopf_points.f90`,
+`hopf_unfoldings.f90`, `double_hopf.f90`.
+"""
 
 from scripts.namelists.parameters import plane_group
 from scripts.plans.declare import MAIN, PAPER, Figure, Run, Study, Table
@@ -34,7 +39,7 @@ def figure(number: int, title: str, plane: str) -> Figure:
     """One of the paper's two figures of Hopf curves."""
     return Figure(
         f"figure_{number}",
-        f"Figure {number}: {title}.",
+        title=f"Figure {number}: {title}.",
         category=MAIN,
         place=10 * number,
         inputs=inputs,
@@ -45,7 +50,7 @@ def figure(number: int, title: str, plane: str) -> Figure:
 
 
 STUDY = Study(
-    reads=("linear_stability", "scenes"),
+    reads=("formulas", "linear_stability", "routes", "scenes"),
     entries={"plane": ("hopf_curves",)},
     runs=(Run("hopf_curves", "hopf", "hopf/{plane}.nc", groups, data="curves", priority=PAPER),),
     tables=(
@@ -61,7 +66,6 @@ STUDY = Study(
     kinds=(
         Figure(
             "planes",
-            "Hopf curves in a plane of epsilon and another parameter.",
             category="Hopf curves",
             place=30,
             inputs=inputs,

@@ -11,7 +11,6 @@ from characteristic_equation import closed_form, count_by_crossings, residual
 
 from scripts.files.tsv import read_table
 from scripts.namelists.laws import PAPER
-from scripts.studies.hopf.printed_formulas import points_of, tau_of_10
 from scripts.studies.hopf.table import rows_of
 
 PLANES = ["tau_of_epsilon", "xi_of_epsilon"]
@@ -49,14 +48,6 @@ def test_every_point_solves_the_characteristic_equation(curves, plane):
     assert curves.attrs.items() >= known.items()
 
 
-def test_printed_formula_does_not_solve_the_equation(curves):
-    """(10) as printed does not solve (5)."""
-    omega, branch = curves.omega.values, curves.branch.values
-    epsilon, _, xi, gamma = parameters(curves)
-    printed = tau_of_10(points_of(curves), branch)
-    assert np.median(residual(1j * omega, epsilon, printed, xi, gamma)) > 1e-3
-
-
 def test_window_without_a_curve_makes_an_empty_file(programs, filled_config):
     """Below epsilon = 0.1 nothing oscillates by itself at small delays."""
     plane = filled_config["hopf_curves"]["tau_of_epsilon"] | {"cells": 20}
@@ -68,7 +59,7 @@ def test_window_without_a_curve_makes_an_empty_file(programs, filled_config):
 
 def test_map_counts_the_crossings(curves, plane):
     """In every cell: pairs at tau = 0 plus crossings of all curves below."""
-    for i, epsilon in enumerate(curves.map_epsilon.values):
+    for i, epsilon in enumerate(curves.map_abscissa.values):
         for j, ordinate in enumerate(curves.map_ordinate.values):
             place = {**plane, plane["ordinate"]: ordinate}
             expected = count_by_crossings(epsilon, place["tau"], place["xi"], plane["gamma"])
@@ -107,21 +98,20 @@ def test_any_parameter_is_an_ordinate(programs, along):
     fixed.pop(along, None)
     plane = {"ordinate": along, "abscissa_window": [0.0, 1.2], "ordinate_window": window}
     curves = programs.made_by("hopf", {**plane, **fixed, "cells": 16})
-    key = {"c": "law_c"}.get(along, along)
-    assert (curves.attrs["ordinate"], key in curves.attrs) == (key, False)
-    varied = curves[key].values
+    assert (curves.attrs["ordinate"], along in curves.attrs) == (along, False)
+    varied = curves[along].values
     assert varied.size > 50
     xi, gamma = (0.5, varied) if along == "gamma" else (0.5 * (1 + varied), 0.8)
     assert residual(1j * curves.omega.values, curves.epsilon.values, 7.0, xi, gamma).max() < 1e-10
-    for i, epsilon in enumerate(curves.map_epsilon.values):
+    for i, epsilon in enumerate(curves.map_abscissa.values):
         for j, y in enumerate(curves.map_ordinate.values):
             place = (0.5, y) if along == "gamma" else (0.5 * (1 + y), 0.8)
             counted = count_by_crossings(epsilon, 7.0, *place)
             assert curves.map_unstable_pairs.values[j, i] == counted
             # a pair becomes unstable at each curve
             pieces = [curves.isel(point=curves.piece.values == k) for k in set(curves.piece.values)]
-            here = [one for one in pieces if one[key].min() <= y <= one[key].max()]
-            assert counted == sum(np.interp(y, one[key], one.epsilon) < epsilon for one in here)
+            here = [one for one in pieces if one[along].min() <= y <= one[along].max()]
+            assert counted == sum(np.interp(y, one[along], one.epsilon) < epsilon for one in here)
 
 
 def test_table_of_the_workflow(smoke):

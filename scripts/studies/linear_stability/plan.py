@@ -1,4 +1,7 @@
-"""Linear stability of steady sliding: roots of (5) and changes of stability of every scene."""
+"""Linear stability of steady sliding: roots of (5) and changes of stability of every scene.
+
+Formulas and sources: (5) `characteristic_roots.f90`, `stability_changes.f90`.
+"""
 
 from scripts.namelists.laws import is_law
 from scripts.namelists.parameters import with_model

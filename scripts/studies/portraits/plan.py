@@ -23,7 +23,7 @@ def figure(number: int, rows: str) -> Figure:
     name = f"figure_{number}"
     return Figure(
         name,
-        f"Figure {number}: velocity and phase portrait, rows {rows}.",
+        title=f"Figure {number}: velocity and phase portrait, rows {rows}.",
         category=MAIN,
         place=10 * number,
         inputs=inputs,
@@ -35,7 +35,7 @@ def figure(number: int, rows: str) -> Figure:
 
 
 STUDY = Study(
-    reads=("attractors", "scenes"),
+    reads=("attractors", "cycles", "scenes"),
     figures=(
         figure(4, "a (fixed point) and b (oscillations)"),
         figure(5, "a (the paper's torus) and b (chaos)"),

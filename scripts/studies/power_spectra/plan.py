@@ -1,4 +1,8 @@
-"""Power spectra of the paper's scenes."""
+"""Power spectra of the paper's scenes.
+
+Formulas and sources: `spectrum.f90`, `spectral_peaks.f90`, `base_frequencies.f90`,
+`spectrum_verdict.f90`.
+"""
 
 from scripts.plans.declare import MAIN, Figure, Study
 from scripts.plans.scenes import paths_of_scenes, scenes_of
@@ -20,7 +24,7 @@ def figure(number: int, title: str) -> Figure:
     name = f"figure_{number}"
     return Figure(
         name,
-        f"Figure {number}: {title}.",
+        title=f"Figure {number}: {title}.",
         category=MAIN,
         place=10 * number,
         inputs=inputs,

@@ -1,8 +1,9 @@
-"""Routes: attractors along lines in one parameter, from several histories and by sweeps."""
+"""Figure of the routes: maxima of v, classes, and the largest exponent along a parameter.
 
-import numpy as np
+Formulas and sources: as of the attractors; sweeps `attractor_points.f90`.
+"""
 
-from scripts.namelists.attractor_surveys import survey_groups
+from scripts.namelists.attractor_surveys import evenly_spaced, survey_groups
 from scripts.plans.declare import LONG_RUN, Figure, Run, Study, Table
 from scripts.plans.scenes import marked_scenes
 
@@ -20,7 +21,7 @@ def groups(config: dict, route: str, run: str) -> dict:
     histories = [by_run.get(run, by_run[first])]
     of_history = along in histories[0]
     if of_history:
-        values = np.linspace(*window, count).tolist()
+        values = evenly_spaced(window, count)
         histories = [{**histories[0], along: value} for value in values]
     varied = {} if of_history else {along: {"window": window, "count": count}}
     place = {**settings, **varied}
@@ -55,8 +56,6 @@ def inputs(config: dict) -> dict:
 
 
 FIGURE = {
-    "title": "Figure of the routes: maxima of v, classes, and the largest exponent along a"
-    " parameter.",
     "inputs": inputs,
     "params": lambda config: {"scenes": marked_scenes(config)},
 }

@@ -1,4 +1,7 @@
-"""Scenes: parameter sets with a trajectory and its spectrum each."""
+"""Figure of one scene: in time, phase portrait, section, exponents, and spectrum.
+
+Formulas and sources: (3), (4) `spring_block.yaml`, `slip_delayed_logarithm.yaml`; `spectrum.f90`.
+"""
 
 from scripts.namelists.program_groups import scene_groups
 from scripts.plans.declare import PAPER, Figure, Run, Study
@@ -46,7 +49,6 @@ STUDY = Study(
     kinds=(
         Figure(
             "scenes",
-            "Figure of one scene: in time, phase portrait, section, exponents, and spectrum.",
             category="Scenes",
             place=10,
             inputs=inputs,

@@ -1,4 +1,7 @@
-"""Scenes in SI: their units, and their slip events in metres, seconds and pascals."""
+"""Scenes in SI: their units, and their slip events in metres, seconds and pascals.
+
+Formulas and sources: (2) `scripts/config/si.py`.
+"""
 
 from scripts.plans.declare import Study, Table
 from scripts.plans.scenes import is_block, scenes_with

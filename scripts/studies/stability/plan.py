@@ -1,4 +1,4 @@
-"""Stiff and extreme cases, solved by several methods and compared with references."""
+"""Figure of stability: the grid of frequency and delay by two methods, and all other cases."""
 
 from scripts.namelists.program_groups import REFERENCE_STEPS, case_groups
 from scripts.plans.declare import LONG_RUN, Figure, Run, Study, Table
@@ -65,8 +65,6 @@ STUDY = Study(
     figures=(
         Figure(
             "stability",
-            "Figure of stability: the grid of frequency and delay by two methods, and all other"
-            " cases.",
             category="Solver",
             place=210,
             inputs=lambda _config: {"table": "<results>/tables/stability.tsv"},

@@ -1,9 +1,14 @@
 """Stiff and extreme cases: families, their table, and verdicts on them."""
 
+import copy
+
 import numpy as np
 import pytest
 from made_up_results import NO, PARTLY, YES, Results, run_row
 
+from scripts.claims.ledger import check_user_claims
+from scripts.config.check_config import checked
+from scripts.files.read_config import ConfigError
 from scripts.files.tsv import read_table
 from scripts.namelists.laws import PAPER
 from scripts.namelists.program_groups import case_groups
@@ -106,3 +111,12 @@ def test_finding_follows_the_table(holds):
     found = describe({"stability": rows if holds else rows[1:]})
     assert ("not" in found["title"]) is not holds
     assert ("In 1 of them the problem magnifies errors beyond 0.001" in found["words"]) is holds
+
+
+def test_claim_about_an_empty_range_is_refused(default_config):
+    values = {"method": "auto", "least": 1e13, "most": 1e12}
+    claim = {"place": "here", "claim": "So.", "look_at": "stability.tsv"}
+    said = {"mine": {**claim, "test": {"out_of_reach": values}}}
+    words = "least = 10000000000000.0; expected a finite number <= most = 1000000000000.0"
+    with pytest.raises(ConfigError, match=words):
+        check_user_claims(said, checked(copy.deepcopy(default_config)), set())

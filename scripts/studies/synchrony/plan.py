@@ -1,4 +1,7 @@
-"""Whether blocks that move alike stay alike: growth of disturbances over the stiffness of modes."""
+"""Whether blocks that move alike stay alike: growth of disturbances over the stiffness of modes.
+
+Formulas and sources: `transverse_growth.f90`, `transverse_multipliers.f90`.
+"""
 
 from scripts.namelists.program_groups import scene_groups
 from scripts.plans.declare import LONG_RUN, Figure, Run, Study
@@ -24,8 +27,6 @@ STUDY = Study(
     figures=(
         Figure(
             "synchrony",
-            "Whether blocks that move alike stay alike: growth of disturbances over the stiffness"
-            " of modes.",
             category="Chains",
             place=420,
             inputs=inputs,

@@ -1,4 +1,4 @@
-"""The true torus beside the paper's: in time, spectrum and section."""
+"""Figure of the true torus beside the paper's: in time, spectrum and section."""
 
 from scripts.plans.declare import Figure, Study
 from scripts.plans.scenes import paths_of_scenes, scenes_of
@@ -17,11 +17,10 @@ def inputs(config: dict) -> dict:
 
 
 STUDY = Study(
-    reads=("attractors", "linear_stability", "scenes"),
+    reads=("attractors", "cycles", "linear_stability", "scenes"),
     figures=(
         Figure(
             "true_torus",
-            "Figure of the true torus beside the paper's: in time, spectrum and section.",
             category="Atlas",
             place=320,
             inputs=inputs,

@@ -1,4 +1,7 @@
-"""The friction of Figure 8: its response to steps of an imposed velocity."""
+"""Figure 8: response of friction to an up-step and a down-step of the imposed velocity.
+
+Formulas and sources: (1.1), (1.2) `table.py`.
+"""
 
 from scripts.plans.declare import MAIN, PAPER, Figure, Study, Table
 
@@ -13,7 +16,6 @@ STUDY = Study(
     figures=(
         Figure(
             "figure_8",
-            "Figure 8: response of friction to an up-step and a down-step of the imposed velocity.",
             category=MAIN,
             place=80,
             inputs=lambda _config: {"response": "<results>/tables/velocity-step.tsv"},

@@ -1,4 +1,4 @@
-"""Work against precision: error against run time of all methods, and of other solvers."""
+"""Figure of work against precision: one panel a scene, one line a solver."""
 
 import re
 from pathlib import Path
@@ -113,7 +113,6 @@ STUDY = Study(
     figures=(
         Figure(
             "work_precision",
-            "Figure of work against precision: one panel a scene, one line a solver.",
             category="Solver",
             place=220,
             inputs=lambda _config: {

@@ -15,6 +15,7 @@ from scripts.studies.work_precision.table import proportionality
 from scripts.tables.accuracy import (
     Reference,
 )
+from scripts.workflow.plan import read_plan
 
 
 @pytest.fixture
@@ -116,3 +117,10 @@ def test_scenes_of_the_paper_are_measured_as_they_are(config):
     measured = case_of("torus", cases["torus"])
     assert (measured["tau"], measured["epsilon"], measured["v"]) == (10.0, 0.4, 1.3)
     assert measured["t_end"] == 1000.0
+
+
+def test_scene_of_the_paper_can_be_measured_alone(tmp_path):
+    (tmp_path / "mine.yaml").write_text("work_precision: { scenes: { torus: { t_end: 20.0 } } }")
+    config = read_plan({"user_file": str(tmp_path / "mine.yaml")}).config
+    assert list(config["work_precision"]["scenes"]) == ["torus"]
+    assert list(config["scenes"]) == ["torus"]

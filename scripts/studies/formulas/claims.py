@@ -6,7 +6,7 @@ import numpy as np
 
 from scripts.claims.claims_results import Finding, Results, decided, decided_after_correction, short
 from scripts.claims.declare import Plane, Planes, Residual, claim, reads, says, tested_with
-from scripts.studies.hopf.printed_formulas import (
+from scripts.studies.formulas.printed_formulas import (
     epsilon_of_8,
     friction_corrected,
     friction_of_3,

@@ -1,4 +1,4 @@
-"""Laws of friction in the configuration: what is refused, and what programs get."""
+"""Laws of friction and models in the configuration: what is refused, and what programs get."""
 
 import copy
 
@@ -29,6 +29,18 @@ MINE = {
 }
 
 
+MACKEY_GLASS = {
+    "parameters": {
+        **{"beta": {"above": 0}, "n": {"above": 0}, "rate": {"above": 0}},
+        "tau": {"meaning": "delay", "at_least": 0},
+    },
+    "states": {"y": "concentration"},
+    "equations": {"y": "beta*y(t - tau)/(1 + y(t - tau)**n) - rate*y"},
+    "steady_state": {"near": {"y": 1}},
+}
+PLACE = {"beta": 0.2, "n": 10.0, "rate": 0.1, "tau": 17.0}
+
+
 @pytest.fixture
 def with_law(config) -> dict:
     config["laws"] = {"mine": copy.deepcopy(MINE)}
@@ -36,18 +48,104 @@ def with_law(config) -> dict:
     return config
 
 
+@pytest.fixture
+def with_model(config) -> dict:
+    config["models"] = {"mackey_glass": copy.deepcopy(MACKEY_GLASS)}
+    place = {"model": "mackey_glass", **PLACE, "history": {"y": 1.2}}
+    config["scenes"]["mg"] = {**place, "t_end": 100.0}
+    config["atlas"]["planes"]["mg"] = {
+        **{key: place[key] for key in ("model", "beta", "rate", "history")},
+        **{"abscissa": "n", "abscissa_window": [6, 12]},
+        **{"ordinate": "tau", "ordinate_window": [4, 20]},
+    }
+    return config
+
+
 def test_default_of_a_parameter_reaches_the_program(with_law):
     groups = scene_groups(checked(with_law), "torus")
-    assert groups["scene"]["parameters"]["law"] == "mine"
-    assert groups["scene"]["parameters"]["own"] == [1.0]
+    model = groups["scene"]["model"]
+    assert dict(zip(model["parameters"], model["values"], strict=True))["speed"] == 1.0
     assert "speed" not in groups["scene"]
-    assert models_in(groups) == {"mine"}
+    assert models_in(groups) == {model["name"]} == {"mine"}
+
+
+def test_model_of_a_user_reaches_the_program(with_model):
+    """Its parameters in the order of the definition, its states in the history, its axes."""
+    config = checked(with_model)
+    groups = scene_groups(config, "mg")
+    model = {"name": "mackey_glass", "parameters": list(PLACE), "values": list(PLACE.values())}
+    assert groups["scene"]["model"] == model
+    assert groups["histories"] == {"names": ["y"], "values": [1.2]}
+    plane = atlas.groups(config, "mg", "1")
+    assert [axis["along"] for axis in plane["points"]["axes"]] == ["n", "tau"]
+    assert plane["points"]["model"]["parameters"] == ["beta", "rate"]
+    assert plane["histories"] == groups["histories"]
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "line"),
+    [
+        (("scenes", "mg", "model"), "glass", "scene 'mg': model = 'glass'; expected one of: mack"),
+        (("scenes", "mg", "law"), "mine", "scene 'mg': law = 'mine'; expected none beside model ="),
+        (("scenes", "mg", "beta"), 0, "scene 'mg': beta = 0; expected beta, nondimensional, a fin"),
+        (("scenes", "mg", "tau"), -1, "scene 'mg': tau = -1; expected delay, nondimensional, a f"),
+        (("scenes", "mg", "xi"), 1.0, "scene 'mg': xi is no parameter of the model mackey_glass;"),
+        (("scenes", "mg", "history"), {}, "scene 'mg' history: key ['y'] is missing"),
+        (
+            ("scenes", "mg", "history"),
+            {"y": 1, "v": 1},
+            "scene 'mg' history: unknown key ['v']; al",
+        ),
+        (
+            ("scenes", "mg", "variables"),
+            ["u"],
+            "scene 'mg': variables = ['u']; expected some of: y",
+        ),
+        (("scenes", "mg", "attractors"), {"histories": 2}, "scene 'mg' attractors: histories = 2;"),
+        (("synchrony", "scenes"), ["mg"], "config synchrony scenes: 'mg' has the law mackey_glass"),
+        (("atlas", "planes", "mg", "abscissa"), "tau", "config atlas planes mg: "),
+        (("atlas", "planes", "mg", "n"), 1.0, "config atlas planes mg: n = 1.0; expected no value"),
+        (("models", "mackey_glass", "equations"), {"y": "-z"}, "config models mackey_glass: equat"),
+        (("models", "mackey_glass", "states"), {}, "config models mackey_glass: states = {}; exp"),
+        (("models", "slip_cut_off"), MACKEY_GLASS, "config models slip_cut_off: the project has a"),
+        (("laws", "mackey_glass"), MINE, "config models mackey_glass: a law has this name"),
+        (
+            ("models", "mackey_glass", "parameters"),
+            {"t_end": {}},
+            "config models mackey_glass: parameters t_end: keys of all that has a model",
+        ),
+    ],
+)
+def test_wrong_model_is_refused(with_model, path, value, line):
+    """Place, what was met, and what is expected."""
+    *place, key = path
+    section = with_model
+    for step in place:
+        section = section.setdefault(step, {})
+    section[key] = copy.deepcopy(value)
+    with pytest.raises(ConfigError, match="config") as refused:
+        checked(with_model)
+    assert line in str(refused.value)
+
+
+@pytest.mark.parametrize(("section", "name"), [("routes", "lines"), ("cycles", "lines")])
+def test_line_of_a_model_has_its_own_history(with_model, section, name):
+    line = {"model": "mackey_glass", **PLACE, "along": "tau", "window": [5, 20], "count": 2}
+    del line["tau"]
+    if section == "cycles":
+        del line["count"]
+    with_model[section][name]["mine"] = line
+    with pytest.raises(ConfigError) as refused:
+        checked(with_model)
+    assert f"config {section} lines mine: key ['history'] is missing: y of" in str(refused.value)
 
 
 def test_law_without_inertia_has_one_parameter_more(with_law):
     with_law["hopf_curves"]["tau_of_epsilon"] |= {"law": "quasistatic_mine", "zeta": 0.1}
     groups = hopf.groups(checked(with_law), "tau_of_epsilon")
-    assert groups["hopf_curves"]["parameters"]["own"] == [1.0, 0.1]
+    model = groups["hopf_curves"]["model"]
+    assert model["parameters"] == ["xi", "gamma", "speed", "zeta"]
+    assert model["values"][2:] == [1.0, 0.1]
     assert models_in(groups) == {"quasistatic_mine"}
     words = laws.law_in_words(with_law, with_law["hopf_curves"]["tau_of_epsilon"])
     assert words == "quasistatic_mine (speed = 1, zeta = 0.1)"
@@ -87,7 +185,7 @@ def test_own_parameter_is_an_axis(with_law, axis):
     assert "speed" not in axis
     if axis is config["hopf_curves"].get("mine"):
         group = hopf.groups(config, "mine")["hopf_curves"]
-        named = group["ordinate"]
+        named = group["along"][1]
     elif axis is config["cycles"]["lines"].get("mine"):
         group = cycles.groups(config, "mine")["cycles"]
         named = group["along"]
@@ -96,7 +194,7 @@ def test_own_parameter_is_an_axis(with_law, axis):
         group = survey.groups(config, "mine", part)["points"]
         named = group["axes"][-1]["along"]
     assert named == "speed"
-    assert "own" not in group["parameters"]
+    assert "speed" not in group["model"]["parameters"]
 
 
 def test_wrong_axis_is_refused(with_law, axis):
@@ -122,47 +220,56 @@ def test_wrong_axis_is_refused(with_law, axis):
         axis |= before
 
 
-def test_values_of_own_parameters_go_by_name():
-    """A law's file may say more of the block's own parameters, in whatever order."""
-    law = {"evolution": "-speed*v", "source": "", "parameters": {"tau": {}, "speed": {}}}
-    group = laws.law_group({"laws": {"mine": law}}, {"law": "mine", "speed": 2.0, "tau": 7.0})
-    assert group == {"law": "mine", "own_names": ["speed"], "own": [2.0]}
-
-
 @pytest.mark.parametrize(
     ("path", "value", "line"),
     [
         (
             ("scenes", "torus", "law"),
             "yours",
-            "scenes torus: law = 'yours'; expected one of:",
+            "scene 'torus': law = 'yours'; expected one of:",
         ),
-        (("scenes", "torus", "speed"), 0, "scenes torus: speed = 0; expected a finite number > 0"),
+        (("scenes", "torus", "speed"), 0, "scene 'torus': speed = 0; expected speed, nondim"),
         (
             ("scenes", "chaos", "speed"),
             1,
-            "scenes chaos: speed is no parameter of the law slip_delayed_logarithm; it has none",
+            "scene 'chaos': speed is no parameter of the law slip_delayed_logarithm; it has none",
         ),
         (
             ("scenes", "torus", "law"),
             "quasistatic_mine",
-            "scenes torus: key ['zeta'] is missing: a parameter of the law quasistatic_mine",
+            "scene 'torus': key ['zeta'] is missing: a parameter of the law quasistatic_mine",
         ),
-        (("laws", "mine", "evolution"), "1 - theta", "laws mine: equation of theta at the steady"),
+        (
+            ("laws", "mine", "evolution"),
+            "1 - theta",
+            "config laws mine: equation of theta at the steady",
+        ),
         (
             ("laws", "mine", "evolution"),
             "-max(v, 1)",
-            "laws mine: definition of evolution: 'max(v, 1)'",
+            "config laws mine: definition of evolution: 'max(v, 1)'",
         ),
-        (("laws", "slip_cut_off"), MINE, "laws slip_cut_off: the project has a law of this name"),
-        (("laws", "quasistatic_a"), MINE, "laws quasistatic_a: quasistatic_NAME is the law NAME"),
+        (
+            ("laws", "slip_cut_off"),
+            MINE,
+            "config laws slip_cut_off: the project has a law of this name",
+        ),
+        (
+            ("laws", "quasistatic_a"),
+            MINE,
+            "config laws quasistatic_a: quasistatic_NAME is the law NAME",
+        ),
         (
             ("laws", "mine", "parameters"),
             {"tau": {}, "speed": {"default": 1.0}},
-            "laws mine: parameters tau: keys of all that has a law have these names",
+            "config laws mine: parameters tau: keys of all that has a model have these names",
         ),
-        (("laws", "mine", "parameters"), {"t_end": {}}, "laws mine: parameters t_end: keys of"),
-        (("laws", "mine", "colour"), 1, "laws mine: unknown key ['colour']"),
+        (
+            ("laws", "mine", "parameters"),
+            {"t_end": {}},
+            "config laws mine: parameters t_end: keys of",
+        ),
+        (("laws", "mine", "colour"), 1, "config laws mine: unknown key ['colour']"),
     ],
 )
 def test_wrong_law_is_refused(with_law, path, value, line):
@@ -174,38 +281,42 @@ def test_wrong_law_is_refused(with_law, path, value, line):
     section[key] = copy.deepcopy(value)
     with pytest.raises(ConfigError, match="config") as refused:
         checked(with_law)
-    assert f"config {line}" in str(refused.value)
+    assert line in str(refused.value)
 
 
 def test_results_say_which_law_they_have(programs, filled_config):
     """Name, source, equations and the values of its parameters."""
     values = torus(filled_config, t_end=5.0, t_transient=1.0, variables=["v"])
-    values["law"] = "slip_cut_off"
-    groups = {"scene": values}
-    folder = programs.write(groups)
-    own = "    scene%parameters%own_names = 'c'\n    scene%parameters%own = 0.25\n/\n"
-    text = folder.read_text().replace("/\n", own)
-    folder.write_text(text)
-    run = programs.run("trajectory", folder.name, programs.output.name)
-    assert (run.returncode, run.stderr) == (0, "")
+    programs.made_by("trajectory", {**values, "law": "slip_cut_off", "c": 0.25})
     attributes = read(programs.output).attrs
     assert attributes["law"] == "slip_cut_off (c = 0.25)"
-    assert attributes["law_c"] == 0.25
-    assert "log1p(c/(1 + c)*expm1(w(t - tau)))" in attributes["law_equations"]
+    assert (attributes["model"], attributes["c"]) == ("slip_cut_off", 0.25)
+    assert "log1p(c/(1 + c)*expm1(w(t - tau)))" in attributes["model_equations"]
 
 
 @pytest.mark.parametrize("delayed", ["theta + (1 + epsilon)*w(t - 2*tau)", "theta(t - tau) + w"])
-def test_hopf_curves_of_no_other_form_are_drawn(programs, good_groups, monkeypatch, delayed):
-    """Another delay is not taken for tau; one line names the law and the form."""
+def test_hopf_curves_of_any_linear_part(programs, good_groups, monkeypatch, delayed):
+    """Another delay, and a delayed state: points solve the characteristic equation by hand."""
     path = programs.folder / "odd.yaml"
     path.write_text(f'definitions: {{ evolution: "-v*({delayed})" }}')
     compile_module(write_module(read_files([laws.BLOCK, path], "odd")), path.with_suffix(".so"))
     monkeypatch.setenv("MODELS", str(programs.folder))
-    good_groups["hopf"]["hopf_curves"]["law"] = "odd"
-    run = programs.run_groups("hopf", good_groups["hopf"])
-    assert run.returncode == 1
-    assert "error: Hopf points of the law 'odd': its linear part is not of their form" in run.stderr
-    assert not programs.output.exists()
+    good_groups["hopf"]["hopf_curves"] |= {"law": "odd", "ordinate_window": [0.1, 15.0]}
+    curves = programs.made_of("hopf", good_groups["hopf"])
+    s = 1j * curves.omega.values
+    xi, square = curves.attrs["xi"], curves.attrs["gamma"] ** 2
+    late = np.exp(-s * curves.tau.values)
+    epsilon = curves.epsilon.values
+    of_theta, of_w = (-1, -(1 + epsilon) * late**2) if "2*tau" in delayed else (-late, -1)
+    # theta' = of_theta theta + of_w w, u' = w, w' = -gamma^2 (u + (theta + w)/xi)
+    terms = [
+        s * (s - of_theta) * (s + square / xi),
+        square * (s - of_theta),
+        s * of_w * square / xi,
+    ]
+    assert curves.sizes["point"] > ("2*tau" in delayed)
+    residual = np.abs(sum(terms)) / np.maximum.reduce(list(map(np.abs, terms)))
+    assert residual.max(initial=0.0) < 1e-9
 
 
 EXPONENTS = {
@@ -277,8 +388,7 @@ def test_passages_near_steady_sliding_keep_their_digits(programs, good_groups, l
     groups["scene"] |= {"law": law, "tau": 0.0, "gamma": gamma}
     groups["scene"] |= {"epsilon": 0.6, "xi": 0.5, "history": {"theta": 0.0, "u": 0.0, "v": 1.1}}
     groups["scene"] |= {"t_end": 40.0, "t_transient": 1.0, "tolerance": 1e-9}
-    if own:  # a namelist has no empty lists
-        groups["scene"]["own"] = list(own.values())
+    groups["scene"] |= own
     passage = programs.made_of("slip_events", groups).onset.values[0]
     expected = first_passage(law, 0.6, 0.5, own.get("c", 0.0), own.get("zeta", 0.0), 1.1)
     # the absolute tolerance is far above the motion

@@ -6,8 +6,13 @@ import numpy as np
 import pytest
 from made_up_results import NO, PARTLY, YES, changed, hopf_curve, on_plane
 
-from scripts.studies.hopf import formula_claims
-from scripts.studies.hopf.printed_formulas import epsilon_of_8, points_of, residual_of_5, xi_of_9
+from scripts.studies.formulas import claims as formula_claims
+from scripts.studies.formulas.printed_formulas import (
+    epsilon_of_8,
+    points_of,
+    residual_of_5,
+    xi_of_9,
+)
 
 LIMIT = 1e-10
 BELOW_ROUNDING = 1e-20

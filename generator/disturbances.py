@@ -1,0 +1,284 @@
+"""Taylor series of small disturbances: the derivatives of the recurrences.
+
+    p = a b       dp = a db + b da            e = exp(a)    de = e da
+    q = a/b       b dq = da - q db            l = log(a)    a dl = da
+    p = a**c      dp = (c p/a) da             f = f(a)      df = g da with its slope g
+    v = exp(w), integrated    v dw = dv
+
+Disturbances are computed in lanes, several at a time: the recurrences of one wait for their own
+last terms, those of several overlap. One product of each sum is one statement: compilers then keep
+the sums in registers.
+"""
+
+from dataclasses import dataclass, field
+
+from generator.address import Address
+from generator.definition import Model
+from generator.flow import Flow, exponential_lines, integral_of
+from generator.fortran import indented, text_of
+from generator.graph import Node, in_order
+from generator.recurrences import Constants, Recurrences, weighted_sum
+
+
+@dataclass
+class Disturbances:
+    """Statements for the disturbance of each node at order k, and the sums and series they take.
+
+    A disturbance is early where it follows at order k without sums over lower orders: those of
+    states do, and sums of early ones. The sums then hold their newest terms. Of the others the
+    newest terms are added later, and stand as zeros before.
+    """
+
+    flow: Flow
+    nodes: list[Node]
+    roots: list[Node]
+    constants: Constants
+    at: Address
+    sums: list[tuple[str, str]] = field(default_factory=list)
+    series: dict[Node, None] = field(default_factory=dict)
+    """Nodes whose own series are needed."""
+    stored: dict[Node, None] = field(default_factory=dict)
+    """Nodes whose disturbances sums take."""
+    lanes: list[str] = field(default_factory=list)
+    early: list[Node] = field(default_factory=list)
+
+    def __post_init__(self):
+        # which sums stand alone, and which within the expression that takes them
+        self.inlined = Recurrences(self.nodes, self.roots, Constants(self.constants.model)).inlined
+        for node in self.nodes:
+            if self.is_early(node):
+                self.early.append(node)
+        for node in self.nodes:
+            if node.is_convolution:
+                self.formula(node)
+        self.alone = [
+            node
+            for node in self.nodes
+            if node.kind != "input" and node not in self.inlined and not self.is_constant(node)
+        ]
+        self.lanes = [f"d_{node.name}" for node in self.alone if node not in self.stored]
+
+    def is_constant(self, node: Node) -> bool:
+        """Whether a node does not change in time."""
+        return node.kind == "sum" and not node.args
+
+    def is_early(self, node: Node) -> bool:
+        """Whether the disturbance follows without sums over lower orders."""
+        return node.kind == "input" or (node.kind == "sum" and all(map(self.is_early, node.args)))
+
+    def text(self, node: Node, order: str = "k", lanes: str = ":") -> str:
+        """The disturbance of a node at an order, that of the present one if it is not stored."""
+        if node in self.inlined:
+            text = self.sum_text(node)
+            return text if text.replace("_", "").isalnum() else f"({text})"
+        if node in self.stored:
+            return self.at.kept(f"d_{node.name}_all", lanes, order)
+        return f"d_{node.name}" + (f"({lanes})" if lanes != ":" else "")
+
+    def series_text(self, node: Node, order: str) -> str:
+        """A coefficient of the series of a node."""
+        return self.at.kept(f"{node.name}_series", order)
+
+    def sum_text(self, node: Node) -> str:
+        """The sum of a node."""
+        parts = [
+            (weight, self.text(one)) for weight, one in zip(node.weights, node.args, strict=True)
+        ]
+        return weighted_sum(parts, self.constants) or "0.0_wp"
+
+    def rate_text(self, node: Node) -> str:
+        """The disturbance of a rate, without brackets around a sum."""
+        return self.sum_text(node) if node in self.inlined else self.text(node)
+
+    def total(self, series: Node, of: Node, shift: str = "k - j") -> str:
+        """The name of the sum of series_(k-j) disturbance_j, the newest term left out if late."""
+        self.series.setdefault(series)
+        self.stored.setdefault(of)
+        pair = (self.series_text(series, shift), self.text(of, "j"))
+        if pair not in self.sums:
+            self.sums.append(pair)
+        return f"d_total_{self.sums.index(pair) + 1}"
+
+    def times(self, series: Node, of: Node) -> str:
+        """The whole sum over j <= k."""
+        total = self.total(series, of)
+        if of in self.early:
+            return total
+        return f"{total} + {self.series_text(series, '0')}*{self.text(of)}"
+
+    def statement(self, node: Node) -> str:
+        """The statement that sets the disturbance of a node."""
+        return f"{self.text(node)} = {self.formula(node)}"
+
+    def formula(self, node: Node) -> str:
+        """The disturbance of a node from those of its arguments."""
+        a = node.args[0] if node.args else node
+        match node.kind:
+            case "sum":
+                return self.sum_text(node)
+            case "product":
+                b = node.args[1]
+                if a is b:
+                    return f"2.0_wp*({self.times(a, a)})"
+                return f"{self.times(a, b)} + {self.times(b, a)}"
+            case "quotient":
+                b = node.args[1]
+                # the newest term of the quotient itself is a zero here
+                own = self.total(b, node)
+                above = "" if self.is_constant(a) else f"{self.text(a)} - "
+                minus = "" if above else "-"
+                return f"{minus}({above}({self.times(node, b)} + {own}))/{self.series_text(b, '0')}"
+            case "exp":
+                return self.times(node, a)
+            case "log":
+                own = self.total(a, node)
+                return f"({self.text(a)} - {own})/{self.series_text(a, '0')}"
+            case "power":
+                ratio = self.ratio(node, a)
+                exponent = (
+                    text_of(node.exponent)
+                    if node.exponent.is_Integer
+                    else self.constants.text(node.exponent)
+                )
+                return f"{exponent}*({self.times(ratio, a)})"
+        product = self.times(node.slope, a)
+        return f"-({product})" if node.sign else product
+
+    def ratio(self, power: Node, base: Node) -> Node:
+        """The node a**c/a."""
+        known = [one for one in self.series if one.kind == "quotient" and one.args == (power, base)]
+        return known[0] if known else self.flow.graph.add("quotient", power, base)
+
+    def loop(self) -> list[str]:
+        """The sums, and zeros for the terms that come later."""
+        if not self.sums:
+            return []
+        names = [f"d_total_{i + 1}" for i in range(len(self.sums))]
+        return [
+            *(f"{self.text(node)} = 0.0_wp" for node in self.stored if node not in self.early),
+            *(f"{name} = 0.0_wp" for name in names),
+            "do j = 0, k",
+            *(
+                f"   {n} = {n} + {left}*{right}"
+                for n, (left, right) in zip(names, self.sums, strict=True)
+            ),
+            "end do",
+        ]
+
+    def before_loop(self) -> list[str]:
+        """Statements of early nodes."""
+        return [self.statement(node) for node in self.alone if node in self.early]
+
+    def after_loop(self) -> list[str]:
+        """Statements of the others."""
+        return [self.statement(node) for node in self.alone if node not in self.early]
+
+    def lane_names(self) -> list[str]:
+        """Scalars of each lane."""
+        return [*self.lanes, *(f"d_total_{i + 1}" for i in range(len(self.sums)))]
+
+    def arrays(self) -> list[str]:
+        """Arrays of each lane."""
+        return [f"d_{node.name}_all" for node in self.stored]
+
+
+@dataclass
+class Base:
+    """Statements that compute series of the solution, and the names that they set."""
+
+    lines: list[str]
+    reals: list[str]
+    arrays: list[str]
+    """Those that are needed while the statements run."""
+    series: list[str]
+
+
+def base_series(model: Model, wanted: list[Node], flow: Flow, constants: Constants) -> Base:
+    """The series of nodes from those of the states."""
+    at = Address(model)
+    given = frozenset(flow.graph.known[model.symbol(name)] for name in model.auxiliary)
+    auxiliaries = [node.name for node in given if node in in_order(wanted)]
+    lines = [
+        line
+        for name in auxiliaries
+        for line in exponential_lines(
+            model,
+            name,
+            lambda order, state: at.state("y", order, state=state),
+            lambda order, name=name: at.kept(f"{name}_series", order),
+            constants,
+        )
+    ]
+    reals = ["by_unit"] * any(integral_of(model, name) for name in auxiliaries)
+    kept = [f"{name}_series" for name in [*auxiliaries, *(node.name for node in wanted)]]
+    rest = [node for node in wanted if node not in given]
+    if not rest:
+        return Base(lines, reals, [], kept)
+    # auxiliaries are inputs here
+    nodes = in_order(rest, given)
+    recurrences = Recurrences([one for one in nodes if one not in given], rest, constants, k="i")
+    inputs = {node.name for node in nodes if node.kind == "input" or node in given}
+    delayed = [(i, one) for i, one in enumerate(model.delayed, 1) if one.symbol.name in inputs]
+    inputs |= {one.state for _, one in delayed}
+    wanted_differences = any(one.name in inputs for one in model.differences.values())
+    inputs |= set(model.differences) if wanted_differences else set()
+
+    def fetched(order: str, end: str) -> list[str]:
+        found = [(name, at.state("y", order, state=name)) for name in model.states]
+        found += [(name, at.kept(f"{name}_series", order)) for name in model.auxiliary]
+        found = [(name, text) for name, text in found if name in inputs]
+        if "time" in inputs:
+            found.append(("time", "t" if order == "0" else "merge(unit, 0.0_wp, i == 1)"))
+        reals.extend(f"{name}{end}" for name, _ in found)
+        statements = [f"{name}{end} = {text}" for name, text in found]
+        for number, one in delayed:
+            name = f"{one.symbol.name}{end}"
+            reals.append(name)
+            value = at.delayed("z", order, number=number)
+            statements.append(f"{name} = {one.state}{end}")
+            statements.append(f"if (place_{number} > 0) {name} = {value}")
+        if wanted_differences:
+            reals.extend(f"{one.name}{end}" for one in model.differences.values())
+            statements += at.differences(lambda column: f"y({order}, {column})", end)
+        return statements
+
+    def stored(order: str) -> list[str]:
+        return [
+            f"{at.kept(f'{node.name}_series', order)} = "
+            f"{recurrences.rate_text(node, first=order == '0')}"
+            for node in rest
+        ]
+
+    lines += [
+        *fetched("0", "_0"),
+        *recurrences.at_0(),
+        *stored("0"),
+        "do i = 1, degree",
+        *indented([*recurrences.at_k(fetched("i", "")), *stored("i")]),
+        "end do",
+    ]
+    return Base(lines, [*reals, *recurrences.scalars], recurrences.arrays(), kept)
+
+
+def lane_inputs(model: Model, steps: Disturbances) -> tuple[list[str], list[str], list[str]]:
+    """Statements that set delayed disturbances before all orders and at order k; their arrays."""
+    at, before, at_order, arrays = steps.at, [], [], []
+    used = {node.name: node for node in steps.nodes if node.kind == "input"}
+    for number, one in enumerate(model.delayed, 1):
+        if one.symbol.name not in used:
+            continue
+        node = used[one.symbol.name]
+        steps.stored.setdefault(node)
+        arrays.append(f"d_{node.name}_all")
+        value = at.delayed("dz", ":", number=number, rest="first:last")
+        before += [
+            f"if (place_{number} > 0) then",
+            f"   {at.kept(arrays[-1], ':', ':')} = 0.0_wp",
+            f"   {at.kept(arrays[-1], ':used', '0:degree')} = transpose({value})",
+            "end if",
+        ]
+        present = steps.text(steps.flow.graph.known[model.symbol(one.state)])
+        at_order.append(f"if (place_{number} == 0) {steps.text(node)} = {present}")
+    if "time" in used:
+        at_order.append(f"{steps.text(used['time'])} = 0.0_wp")
+    return before, at_order, arrays
