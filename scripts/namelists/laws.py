@@ -99,6 +99,13 @@ def block_parameters() -> dict[str, dict]:
 
 
 @cache
+def chain_parameters() -> dict[str, dict]:
+    """The parameters by name that a chain has beside those of its blocks, 0 of one block."""
+    own = read(MODEL / "chain.yaml")["parameters"]
+    return {key: {**entry, "default": 0.0} for key, entry in own.items()}
+
+
+@cache
 def _damping() -> dict[str, dict]:
     """The parameters that a law without inertia has beside its own."""
     own = read(MODEL / "quasistatic.yaml")["parameters"]
