@@ -149,7 +149,8 @@ def check_blocks(config: dict, place: str, scene: dict) -> Iterator[str]:
     blocks, disturbance = scene["blocks"], scene["disturbance"]
     known = [name for key in history_of(config, scene["law"]) for name in (key, f"ln_{key}")]
     if unknown := sorted(set(disturbance) - {*known, "seed", "block"}):
-        yield f"{place} disturbance: unknown key {unknown}; allowed: seed, block, {', '.join(known)}"
+        allowed = ", ".join(["seed", "block", *known])
+        yield f"{place} disturbance: unknown key {unknown}; allowed: {allowed}"
     for key, value in scene["history"].items():
         if isinstance(value, list) and (blocks == 1 or len(value) != blocks):
             expected = "one number" + f", or {blocks}, one for each block" * (blocks > 1)
