@@ -83,7 +83,9 @@ def test_default_config_is_accepted_as_it_stands(config, default_config):
     scenes = checked(config)["scenes"]
     for name, scene in default_config["scenes"].items():
         given = {key: value for key, value in scene.items() if not isinstance(value, str)}
-        assert {key: scenes[name][key] for key in given} == given
+        found = {key: scenes[name][key] for key in given}
+        inside = {key: {**found[key], **one} for key, one in given.items() if isinstance(one, dict)}
+        assert found == given | inside
 
 
 @pytest.mark.parametrize("name", ["smoke", "fine_atlas"])
@@ -94,7 +96,7 @@ def test_overlays_name_only_keys_that_there_are(config, name):
 
 
 def test_smoke_config_has_all_scenes(config):
-    assert set(read(ROOT / "config" / "smoke.yaml")["scenes"]) == set(config["scenes"])
+    assert set(studies.merged("smoke.yaml")["scenes"]) == set(config["scenes"])
 
 
 def test_missing_keys_get_their_defaults(config):
@@ -104,6 +106,7 @@ def test_missing_keys_get_their_defaults(config):
     scenes = checked(config)["scenes"]
     assert scenes["mine"] == {
         **{"tau": 1, "epsilon": 0.5, "xi": 1, "gamma": 1, "t_end": 10},
+        **{"blocks": 1, "kappa": 0.0, "ends": "free", "disturbance": {"seed": 1, "block": 0}},
         "history": {"theta": 0.0, "u": 0.0, "v": 1.1},
         **{"t_transient": 0.0, "sample_interval": 0.05, "tolerance": 1e-9, "method": "auto"},
         "law": "slip_delayed_logarithm",
@@ -207,7 +210,7 @@ def test_bad_value_is_refused(whole, path, value, words):
 
 def test_unknown_keys_are_refused(whole):
     """In every section of fixed keys: the line names section and key, and lists what is known."""
-    named = ["scenes", "hopf_curves", "si", "claims", "laws"]
+    named = ["scenes", "disturbance", "hopf_curves", "si", "claims", "laws"]
     named += ["parameters", "planes", "families", "histories", "lines", "places", "cases", "rows"]
     sections = [path for path in sections_in(whole) if not path or path[-1] not in named]
     sections = [path for path in sections if path[:1] != ("claims",)]
