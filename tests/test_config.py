@@ -210,13 +210,13 @@ def test_bad_value_is_refused(whole, path, value, words):
 
 def test_unknown_keys_are_refused(whole):
     """In every section of fixed keys: the line names section and key, and lists what is known."""
-    named = ["scenes", "disturbance", "hopf_curves", "si", "claims", "laws"]
+    named = ["scenes", "hopf_curves", "si", "claims", "laws"]
     named += ["parameters", "planes", "families", "histories", "lines", "places", "cases", "rows"]
     sections = [path for path in sections_in(whole) if not path or path[-1] not in named]
     sections = [path for path in sections if path[:1] != ("claims",)]
     sections = [path for path in sections if path != ("work_precision", "scenes")]
     # of histories: tests/test_models.py; of curves: the parameters of a model
-    beside = {"history", "histories", "curves"}
+    beside = {"history", "histories", "curves", "disturbance"}
     sections = [path for path in sections if not beside & {*path[-1:], *path[-2:-1]}]
     for path in sections:
         section = whole
