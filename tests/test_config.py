@@ -6,10 +6,9 @@ from collections.abc import Iterator
 
 import pytest
 
-from conftest import ROOT
 from scripts.config.check_config import checked
 from scripts.config.checks import FEWEST_SAMPLES
-from scripts.files.read_config import ConfigError, read
+from scripts.files.read_config import ConfigError
 from scripts.plans import studies
 
 NO_NUMBERS = ["0.5", True, None, [0.5], {"a": 0.5}, math.nan, math.inf, -math.inf]
