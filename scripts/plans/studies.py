@@ -37,7 +37,7 @@ def load_parts(part: str) -> dict[str, ModuleType]:
 
 @cache
 def studies() -> dict[str, Study]:
-    """All studies by name; raise ConfigError if a study that one reads, or a caption, is missing."""
+    """All studies by name; raise ConfigError if one that others read, or a caption, is missing."""
     found = {
         name: replace(module.STUDY, title=module.__doc__.splitlines()[0])
         for name, module in load_parts("plan").items()
