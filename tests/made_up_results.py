@@ -18,9 +18,11 @@ SCENE = {"tau": 3.0, "epsilon": 0.4, "xi": 0.8, "gamma": 0.8}
 """Parameters of a scene."""
 
 
-def hopf_curve(gamma: float = 0.8, xi: float = 0.5, k: int = 1, ordinate: str = "tau"):
+def hopf_curve(
+    gamma: float = 0.8, xi: float = 0.5, k: int = 1, ordinate: str = "tau", scale: float = 1.0
+):
     """A curve by its closed form, independent of (7) to (10), as in results/hopf/."""
-    omega = np.linspace(0.31, 1.43, 12)
+    omega = scale * np.linspace(0.31, 1.43, 12)
     b = xi * (gamma**2 - omega**2) / (gamma**2 * omega)
     values = {
         "epsilon": np.sqrt((1 + omega**2) * (1 + b**2)) - 1,
@@ -30,8 +32,6 @@ def hopf_curve(gamma: float = 0.8, xi: float = 0.5, k: int = 1, ordinate: str = 
         "branch": np.full(omega.size, k),
         "crossing": np.ones(omega.size, dtype=int),
         "residual": np.full(omega.size, 1e-15),
-        "printed_tau": np.ones(omega.size),
-        "printed_residual": np.full(omega.size, 0.5),
         "l1": np.full(omega.size, -0.1),
         "unstable_pairs": np.zeros(omega.size, dtype=int),
     }
@@ -130,7 +130,7 @@ def followed_cycles(along: str = "tau", **fixed: float) -> xr.Dataset:
             f"hopf_{along}": ("hopf", [0.1]),
             f"hopf_{other}": ("hopf", [place[other]]),
         },
-        attrs={"along": along, **place},
+        attrs={"along": along, "signal": "v", **place},
     )
 
 
@@ -178,7 +178,7 @@ def cycles_to_a_torus(along: str = "tau", cusps: int = 0, **fixed: float) -> xr.
             "branch_origin": ("branches", ["hopf"]),
             "branch_ending": ("branches", ["window"]),
         },
-        attrs={"along": along, **place},
+        attrs={"along": along, "signal": "v", **place},
     )
 
 
@@ -187,6 +187,12 @@ def torus_point(at: float = 0.25, **given) -> dict:
     stable = {"kind": "torus", "unstable_before": 0.0, "unstable_behind": 2.0}
     stable |= {"criticality": "supercritical"}
     return {"of": "mine", **PLACE, "tau": at, **stable, **given}
+
+
+def trajectory(t: np.ndarray, **variables: np.ndarray) -> xr.Dataset:
+    """A trajectory at these times, the first variable its signal."""
+    data = {name: ("t", one, {"long_name": f"the {name}"}) for name, one in variables.items()}
+    return xr.Dataset(data, {"t": t}, {"t_transient": 0.0, "signal": next(iter(variables))})
 
 
 def spectrum(kind: str = "periodic", **heights: float) -> xr.Dataset:
@@ -256,4 +262,4 @@ def survey_run(classes: list[str], **given) -> xr.Dataset:
         data[key] = (("point", "exponent"), np.stack([first, first - 1], axis=1))
     data["sign"] = (("point", "exponent"), np.sign(data["lyapunov_exponent"][1]))
     data["problem"] = ("point", words.astype(object))
-    return xr.Dataset(data)
+    return xr.Dataset(data, attrs={"signal": "v"})

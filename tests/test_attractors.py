@@ -16,9 +16,9 @@ from scripts.tables.motion_rows import count_in_words, kind_of, parameter_of
 def test_histories_fill_their_ranges():
     """Evenly in theta, u and ln v; another seed gives others, more begin with the same."""
     ranges = {"seed": 3, "theta": [-1.0, 0.0], "u": [5.0, 7.0], "ln_v": [-4.0, -2.0]}
-    drawn = drawn_histories(2000, ranges)
-    assert drawn[:5] == drawn_histories(5, ranges)
-    assert drawn[:5] != drawn_histories(5, {**ranges, "seed": 4})
+    drawn = drawn_histories(2000, ranges, HISTORY)
+    assert drawn[:5] == drawn_histories(5, ranges, HISTORY)
+    assert drawn[:5] != drawn_histories(5, {**ranges, "seed": 4}, HISTORY)
     for key, values in (
         ("theta", [history["theta"] for history in drawn]),
         ("u", [history["u"] for history in drawn]),

@@ -14,6 +14,7 @@ from made_up_results import (
     hopf_curve,
     route_rows,
     stability_row,
+    survey_run,
     torus_point,
 )
 
@@ -225,11 +226,14 @@ def test_caption_of_a_route(tmp_path):
     # a cycle of another size
     rows[7] |= {"smallest_maximum": 4.0, "largest_maximum": 5.0}
     write_table(tmp_path / "route.tsv", rows)
+    survey_run(["cycle"]).to_netcdf(tmp_path / "run.nc")
     claims = [{"id": name, "verdict": VERDICTS[0]} for name in paper_claims()]
+    inputs = {"tables": [tmp_path / "route.tsv"], "runs": 3 * [tmp_path / "run.nc"]}
     figure = {
         **{"template": studies.FOLDER / "routes" / "caption.rst", "drawing": "routes.figure"},
-        **{"inputs": {"tables": [tmp_path / "route.tsv"]}, "params": {}, "paper": False},
+        **{"inputs": inputs, "params": {}, "paper": False},
     }
     words = " ".join(caption_of(figure, claims).split())
     assert "15 points. In runs near and up each class first appears at this value" in words
+    assert "maxima of v on the attractor." in words
     assert "motions at 2 of 5 values of :math:`\\tau`: 0.3 and 0.5." in words
