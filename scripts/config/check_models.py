@@ -4,7 +4,7 @@ import copy
 from collections.abc import Iterator
 
 from scripts.config.checks import check_values, place_of
-from scripts.config.ranges import expected_of, is_inside
+from scripts.config.ranges import expected_of, is_inside, range_of
 from scripts.files.read_config import ConfigError
 from scripts.namelists.laws import (
     block_parameters,
@@ -17,6 +17,8 @@ from scripts.namelists.laws import (
     parameters_of,
 )
 
+KEYWORDS = {"above": "exclusiveMinimum", "at_least": "minimum"}
+"""Of the schema, for bounds in definitions."""
 OUTSIDE = ("laws", "models", "claims")
 """Sections whose parts have no model."""
 
@@ -47,11 +49,10 @@ def with_parameters(schema: dict, config: dict) -> dict:
         for name, entry in part.items()
     }
     known = [block_parameters(), *(dict(_entries(law)) for law in definitions({}).values())]
-    every = {
-        name: str((entry or {}).get("meaning", name))
-        for parameters in [*own.values(), *reversed(known)]
-        for name, entry in parameters.items()
-    }
+    every: dict[str, list[dict]] = {}
+    for parameters in [*known, *own.values()]:
+        for name, entry in parameters.items():
+            every.setdefault(name, []).append(entry or {})
     whole = copy.deepcopy(schema)
     taken = {key for place in _with_law(whole) for key in place}
     for (kind, name), parameters in own.items():
@@ -62,11 +63,25 @@ def with_parameters(schema: dict, config: dict) -> dict:
                 f" a model have these names; expected none of {', '.join(sorted(not_own))}"
             )
     for place in _with_law(whole):
-        lists = place["law"].get("lists")
-        for name, meaning in every.items():
-            rules = {"$ref": "#/$defs/numbers"} if lists else {"type": "number"}
-            place[name] = {**rules, "description": meaning}
+        # messages list parameters first
+        others = dict(place)
+        place.clear()
+        lists = others["law"].get("lists", False)
+        place |= {name: _rules(name, entries, lists) for name, entries in every.items()} | others
     return whole
+
+
+def _rules(name: str, entries: list[dict], lists: bool) -> dict:
+    """What the schema says of a parameter: the range of all models that have it, if it is one."""
+    shared = entries[0] if all(range_of(one) == range_of(entries[0]) for one in entries) else {}
+    bounds = {KEYWORDS[key]: shared[key] for key in KEYWORDS if key in shared}
+    described = {**shared, "meaning": entries[0].get("meaning", name)}
+    rules = {"type": "number", "description": expected_of(name, described), **bounds}
+    if not lists:
+        return rules
+    words = rules["description"].replace("a finite", "at least one finite")
+    several = {"type": ["number", "array"], "minItems": 1, "uniqueItems": True, "items": rules}
+    return {**bounds, **several, "description": f"{words}, each once"}
 
 
 def _entries(model):

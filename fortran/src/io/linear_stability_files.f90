@@ -2,17 +2,16 @@
 module linear_stability_files
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
-   use hopf_lines, only: hopf_on_line_type
    use model_attributes, only: put_model
    use model_problem, only: model_type
    use model_settings, only: model_settings_type
    use namelist_input, only: namelist_file_type, word_length
    use netcdf_output, only: output_file_type
+   use stability_changes, only: changes_type
    use value_checks, only: check_choice, missing
    implicit none (type, external)
    private
-   public :: changes_type, linear_stability_settings_type, read_linear_stability, &
-             write_linear_stability
+   public :: linear_stability_settings_type, read_linear_stability, write_linear_stability
 
    !> Most parameters along which changes are looked for.
    integer, parameter :: most = 16
@@ -27,14 +26,6 @@ module linear_stability_files
       character(len=word_length) :: along(most) = ""
       real(wp) :: windows(2, most) = 0.0_wp
    end type linear_stability_settings_type
-
-   !> Changes of stability along a parameter.
-   type :: changes_type
-      !> Number of the parameter
-      integer :: along = 0
-      !> The Hopf points, the parameter ascending
-      type(hopf_on_line_type), allocatable :: points(:)
-   end type changes_type
 
 contains
 
