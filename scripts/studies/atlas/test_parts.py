@@ -53,6 +53,7 @@ def test_parts_of_the_atlas_divide_its_delays(full):
 )
 def test_first_lines_of_a_small_atlas_are_not_too_far_apart(full, columns, lines, refinements):
     """At least six distances in each direction, and never more refinements than asked for."""
-    full["atlas"] |= {"abscissa_count": columns, "ordinate_count": lines, "parts": 1, "refinements": 2}
+    counts = {"abscissa_count": columns, "ordinate_count": lines}
+    full["atlas"] |= {**counts, "parts": 1, "refinements": 2}
     points = groups(full, "fault", "1")["points"]
     assert points["refinements"] == refinements
