@@ -1,17 +1,23 @@
 """Results made up for tests of the ledger: curves, spectra and events, and rows of tables."""
 
 import math
+import re
+from collections.abc import Iterable
 
 import numpy as np
 import xarray as xr
 
 from scripts.claims import declare
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED, Results
+from scripts.files.inputs import with_law_in_words
+from scripts.namelists.laws import PAPER
 from scripts.namelists.parameters import HISTORY, PARAMETERS
 
 YES, PARTLY, NO = REPRODUCED, CORRECTED, NOT_REPRODUCED
 """Verdicts, short for tables of expected ones."""
 CLASSES = ["fixed point", "cycle", "torus", "chaos", "undecided"]
+BLOCK = {"model": PAPER, "parameters": " ".join(PARAMETERS), "signal": "v"}
+"""What a file says of the block."""
 PLACE = {"tau": 10.0, "epsilon": 0.5, "xi": 0.8, "gamma": 0.8}
 """Parameters of a line, but for the one along it."""
 SCENE = {"tau": 3.0, "epsilon": 0.4, "xi": 0.8, "gamma": 0.8}
@@ -130,7 +136,7 @@ def followed_cycles(along: str = "tau", **fixed: float) -> xr.Dataset:
             f"hopf_{along}": ("hopf", [0.1]),
             f"hopf_{other}": ("hopf", [place[other]]),
         },
-        attrs={"along": along, "signal": "v", **place},
+        attrs={"along": along, **BLOCK, **place},
     )
 
 
@@ -178,7 +184,7 @@ def cycles_to_a_torus(along: str = "tau", cusps: int = 0, **fixed: float) -> xr.
             "branch_origin": ("branches", ["hopf"]),
             "branch_ending": ("branches", ["window"]),
         },
-        attrs={"along": along, "signal": "v", **place},
+        attrs={"along": along, **BLOCK, **place},
     )
 
 
@@ -262,4 +268,24 @@ def survey_run(classes: list[str], **given) -> xr.Dataset:
         data[key] = (("point", "exponent"), np.stack([first, first - 1], axis=1))
     data["sign"] = (("point", "exponent"), np.sign(data["lyapunov_exponent"][1]))
     data["problem"] = ("point", words.astype(object))
-    return xr.Dataset(data, attrs={"signal": "v"})
+    return xr.Dataset(data, attrs=BLOCK)
+
+
+def of_other_model(data: xr.Dataset) -> xr.Dataset:
+    """The same of a model that is not the block: beta is in the place of epsilon and y in that of
+    v; it has no xi, gamma, theta and u, and n = 10."""
+
+    def renamed(name: str) -> str:
+        return re.sub(r"(?<![^_])epsilon$", "beta", re.sub(r"(?<![^_])v(?![^_])", "y", name))
+
+    def own(names: Iterable) -> dict[str, str]:
+        kept = [name for name in map(str, names) if not re.search("(^|_)(xi|gamma|theta|u)$", name)]
+        return {name: renamed(name) for name in kept}
+
+    attributes = {new: data.attrs[name] for name, new in own(data.attrs).items()}
+    attributes |= {key: renamed(str(attributes[key])) for key in ("along",) if key in attributes}
+    attributes |= {"model": "mackey_glass", "parameters": "beta n tau", "n": 10.0, "signal": "y"}
+    names = own(data.variables)
+    return with_law_in_words(
+        data[list(names)].rename(names).drop_attrs(deep=False).assign_attrs(attributes)
+    )
