@@ -116,8 +116,9 @@ def sweeps_over(cycles: xr.Dataset, routes: list[dict]) -> list[dict]:
         row
         for row in routes
         if row["run"] in ("up", "down")
-        and all(row[key] == cycles.attrs[key] for key in fixed if key in cycles.attrs)
+        # rows of other models have other parameters
         and law_of(row) == law_of(cycles.attrs)
+        and all(row[key] == cycles.attrs[key] for key in fixed if key in cycles.attrs)
     ]
 
 

@@ -126,6 +126,9 @@ def test_table_of_a_model_that_is_not_the_block():
     )
     assert (cusp["law"], cusp["beta"], cusp["n"]) == ("model mackey_glass", "0.5", "7")
     assert not {"epsilon", "xi", "gamma"} & {*torus, *cusp}
+    swept = {"run": "up", "law": torus["law"], "beta": 0.2, "tau": 10.0, "class": "cycle"}
+    assert sweeps_over(of_other_model(cycles), [swept]) == [swept]
+    assert sweeps_over(cycles_to_a_torus("epsilon"), [swept]) == []
 
 
 def test_cycles_at_a_value_of_the_parameter():
