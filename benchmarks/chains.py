@@ -16,7 +16,8 @@ from project import PROGRAM, TABLES, configuration
 from workers import SOLVERS, Scene, SolverError, TimeLimitError, Worker, peak_memory_of
 
 from scripts.config.check_config import checked
-from scripts.namelists.chains import groups_of_chain, histories_of
+from scripts.namelists.chains import histories_of
+from scripts.namelists.program_groups import scene_groups
 from scripts.namelists.write_namelist import write_namelist
 
 PLACES = {
@@ -48,13 +49,14 @@ def settings_of(blocks: int, gamma: float, **given) -> dict:
     """A chain with the defaults of the configuration; one block alone is one, too."""
     own = {"t_end": T_SAMPLED, "sample_interval": SAMPLE_INTERVAL, "blocks": max(blocks, 2)}
     config = configuration()
-    config["chains"]["chain"] = {**PLACES[gamma], "gamma": gamma, **own, **given}
-    return {**checked(config)["chains"]["chain"], "blocks": blocks}
+    config["scenes"]["chain"] = {**PLACES[gamma], "gamma": gamma, **own, **given}
+    return {**checked(config)["scenes"]["chain"], "blocks": blocks}
 
 
 def groups_of(chain: dict, tolerance: float, **times: float) -> dict[str, dict]:
     """The namelist groups of the program."""
-    return groups_of_chain(configuration(), "chain", {**chain, "tolerance": tolerance, **times})
+    scenes = {"chain": {**chain, "tolerance": tolerance, **times}}
+    return scene_groups({**configuration(), "scenes": scenes}, "chain")
 
 
 def jitcdde_worker(chain: dict, t_end: float = T_SAMPLED) -> Worker:

@@ -1,5 +1,6 @@
 # The page.
 from scripts.page import findings, page_assets
+from scripts.plans.scenes import scenes_with
 from scripts.workflow.git_commit import commit_of
 
 PAPERS = [
@@ -38,7 +39,7 @@ rule page:
         figures=expand("<results>/figures/{figure}.svg", figure=plan.figures),
         captions=expand("<results>/figures/{figure}.rst", figure=plan.figures),
         claims="<results>/tables/claims.json" if plan.claims else [],
-        attractors=made("<results>/tables/attractors.tsv") if config["scenes"] else [],
+        attractors=made("<results>/tables/attractors.tsv") if scenes_with(config, "attractors") else [],
         tables=[path for path in plan.tables() if plan.is_users and made(path)],
         trajectories=plan.trajectories(),
         play=made(PLAY) if studies.inside(config, ("atlas", "planes")) else [],

@@ -3,8 +3,6 @@
 import numpy as np
 import xarray as xr
 
-from scripts.namelists.laws import PAPER
-
 
 def second_difference(u: np.ndarray, ends: str) -> np.ndarray:
     """u_(j+1) - 2 u_j + u_(j-1), with the neighbours that the ends have."""
@@ -62,15 +60,3 @@ def made_up_chain(values: np.ndarray, ends: str = "free") -> xr.Dataset:
         coords={"t": np.arange(len(values), dtype=float)},
         attrs={"t_transient": 0.0, "ends": ends, "blocks": values.shape[1]},
     )
-
-
-def whole_chain(**given) -> dict:
-    """A chain with the defaults of the schema."""
-    history = {"theta": 0.0, "u": 0.0, "v": 1.1} | given.pop("history", {})
-    disturbance = {"theta": 0.0, "u": 0.0, "ln_v": 0.0, "seed": 1, "block": 0}
-    return {
-        **{"law": PAPER, "ends": "free", "t_transient": 0.0, "method": "auto"},
-        **{"variables": ["theta", "u", "v"], "history": history},
-        "disturbance": disturbance | given.pop("disturbance", {}),
-        **given,
-    }

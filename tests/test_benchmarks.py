@@ -106,14 +106,15 @@ def test_chain_is_the_same_for_both_solvers(blocks):
     apart = {"theta": 0.1, "u": 0.2, "ln_v": 0.3}
     chain = chains.settings_of(blocks, 0.8, disturbance=apart)
     groups, worker = chains.groups_of(chain, 1e-6), chains.jitcdde_worker(chain, 50.0)
-    assert groups["scene"]["parameters"]["blocks"] == blocks
+    assert groups["scene"]["model"]["blocks"] == blocks
     assert worker.command[-3:] == ["1.0", "free", "40.0"]
     *parameters, t_end, interval = map(float, worker.scene.line().split())
     assert (*parameters[:4], t_end, interval) == (10.0, 0.5, 0.8, 0.8, 50.0, 0.5)
     past = np.reshape(parameters[4:], (blocks, 3))
-    histories = groups["blocks"]
-    np.testing.assert_array_equal(past[:, :2].T, [histories["theta"], histories["u"]])
-    np.testing.assert_allclose(np.exp(past[:, 2]), histories["v"])
+    names, values = groups["histories"]["names"], groups["histories"]["values"]
+    assert names == ["theta", "u", "v"]
+    theirs = np.column_stack([past[:, :2], np.exp(past[:, 2])])
+    np.testing.assert_allclose(theirs.ravel(), values, rtol=1e-15)
     assert np.unique(past).size == 3 * blocks
 
 

@@ -6,19 +6,11 @@ import numpy as np
 import pytest
 from independent_chain import made_up_chain, second_difference
 
-from scripts.namelists.chains import eigenvalues
-from scripts.namelists.laws import PAPER
+from scripts.config.check_config import checked
+from scripts.studies.linear_stability.plan import groups
 from scripts.tables.chain_motions import powers_of, strongest_mode
 
 ENDS = ["free", "ring", "plate"]
-
-
-@pytest.mark.parametrize("ends", ENDS)
-def test_eigenvalues_are_those_of_the_matrix(ends):
-    """Of the second difference of a chain, each once."""
-    matrix = np.array([second_difference(row, ends) for row in np.eye(6)])
-    expected = sorted({round(value, 9) for value in -np.linalg.eigvalsh((matrix + matrix.T) / 2)})
-    np.testing.assert_allclose(eigenvalues(6, ends), expected, atol=1e-9)
 
 
 @pytest.mark.parametrize("ends", ENDS)
@@ -37,28 +29,31 @@ def test_strongest_mode(ends):
 
 
 @pytest.mark.parametrize("ends", ENDS)
-def test_roots_of_modes_are_those_of_the_chain(programs, filled_config, ends):
+def test_roots_of_modes_are_those_of_the_chain(programs, config, ends):
     """At each root the characteristic matrix of all blocks, by NumPy, is singular."""
     blocks, kappa, place = 4, 0.7, {"tau": 3.0, "epsilon": 0.9, "xi": 0.5, "gamma": 0.8}
+    config["scenes"]["mine"] = {
+        **place,
+        "blocks": blocks,
+        "kappa": kappa,
+        "ends": ends,
+        "t_end": 1.0,
+    }
+    config["linear_stability"] = {"root_bound": -1.0}
+    found = programs.made_of("linear_stability", groups(checked(config), "mine"))
+    roots = found.root_real.values + 1j * found.root_imag.values
+    assert roots.size > 3 * blocks
     one = np.eye(blocks)
     stiffness = one - kappa * np.array([second_difference(row, ends) for row in one])
-    for mu in eigenvalues(blocks, ends):
-        s = 1 + kappa * mu
-        of_mode = {**place, "xi": s * place["xi"], "gamma": math.sqrt(s) * place["gamma"]}
-        own = {"law": PAPER, **filled_config["linear_stability"]}
-        own["root_bound"] = -1.0
-        found = programs.made_by("linear_stability", {**of_mode, **own})
-        roots = found.root_real.values + 1j * found.root_imag.values
-        assert roots.size > 3
-        for root in roots:
-            delayed = (1 + place["epsilon"]) * np.exp(-root * place["tau"])
-            square = place["gamma"] ** 2
-            friction = square / place["xi"]
-            matrix = np.block(
-                [
-                    [(root + 1) * one, 0 * one, delayed * one],
-                    [0 * one, root * one, -one],
-                    [friction * one, square * stiffness, (root + friction) * one],
-                ]
-            )
-            assert np.linalg.svd(matrix, compute_uv=False)[-1] < 1e-9
+    for root in roots:
+        delayed = (1 + place["epsilon"]) * np.exp(-root * place["tau"])
+        square = place["gamma"] ** 2
+        friction = square / place["xi"]
+        matrix = np.block(
+            [
+                [(root + 1) * one, 0 * one, delayed * one],
+                [0 * one, root * one, -one],
+                [friction * one, square * stiffness, (root + friction) * one],
+            ]
+        )
+        assert np.linalg.svd(matrix, compute_uv=False)[-1] < 1e-9

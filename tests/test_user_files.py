@@ -282,6 +282,15 @@ def test_list_of_what_a_file_adds(default_config):
     }
 
 
+def test_curves_in_planes_of_the_atlas_stay(tmp_path):
+    """The atlas draws the paper's Hopf curves in planes of the user's file."""
+    planes = "my_atlas: { xi: 0.5, gamma: 0.8, ordinate_window: [0.0, 10.0] }"
+    (tmp_path / "mine.yaml").write_text(f"atlas: {{ planes: {{ {planes} }} }}")
+    config = read_plan({"user_file": str(tmp_path / "mine.yaml")}).config
+    assert list(config["atlas"]["planes"]) == ["my_atlas"]
+    assert list(config["hopf_curves"]) == ["tau_of_epsilon"]
+
+
 def test_claims_of_a_user_may_name_scenes_of_the_paper(tmp_path):
     """They are computed, too, in the user's folder; no figure shows them."""
     (tmp_path / "mine.yaml").write_text(

@@ -78,7 +78,7 @@ def test_results_of_an_older_program_are_computed_again(scratch):
     assert not (scratch.folder / "build" / "release" / "bin" / "spring_block_quad").exists()
     lock.rmdir()
     run = scratch.snakemake("--dry-run", result, *SMOKE)
-    assert rules_in(run.stdout) == {"program", "reference"}
+    assert rules_in(run.stdout) == {"program", "stability_reference"}
 
 
 def test_changed_values_make_anew_only_what_depends_on_them(smoke, tmp_path):

@@ -38,15 +38,12 @@ contains
       call stop_on(error)
 
       interval = trajectory%sample_interval
-      first = findloc(trajectory%t >= trajectory%t_transient*(1.0_wp - epsilon(1.0_wp)), .true., &
-                      dim=1)
+      first = count(trajectory%t < trajectory%t_transient*(1.0_wp - epsilon(1.0_wp))) + 1
       v = trajectory%v(first:)
       if (allocated(trajectory%u)) then
          interval = interval/finer
-         associate (rest => trajectory%slope_at_rest)
-            v = rest + smoothed_slope(trajectory%t(first:), trajectory%u(first:), v - rest, &
-                                      interval)
-         end associate
+         v = trajectory%slope_at_rest + smoothed_slope( &
+             trajectory%t(first:), trajectory%u(first:), v - trajectory%slope_at_rest, interval)
       end if
       call power_spectrum(v, interval, settings%window, settings%segments, settings%overlap, &
                           frequency, power, error)
@@ -56,8 +53,8 @@ contains
       peaks = find_peaks(frequency, power, settings%peak_floor, settings%peak_prominence)
       call label_peaks(peaks, frequency(2), bases)
       call write_spectrum(output_path, trim(trajectory%scene), trim(trajectory%signal), settings, &
-                          frequency, power, &
-                          sum((v - sum(v)/size(v))**2)/size(v), peaks, bases, error)
+                          frequency, power, sum((v - sum(v)/size(v))**2)/size(v), peaks, bases, &
+                          error)
       call stop_on(error)
    end subroutine run_spectrum
 end module spectrum_command

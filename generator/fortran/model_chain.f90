@@ -1,4 +1,4 @@
-!> Blocks in a row, each with a spring to the plate and springs to its neighbours (chain.yaml). Here
+!> Blocks in a row, each coupled to its neighbours by second differences of states. Here
 !> is where they stand in the state vector, and which are their neighbours there.
 !>
 !> The blocks of a ring are folded: 1, N, 2, N - 1, ..., so that neighbours are at most two places
@@ -32,7 +32,7 @@ contains
    end function blocks_in_order
 
    !> The places of the neighbours on both sides; 0: the plate. Without a neighbour a block is its
-   !> own, so that the spring between them is not stretched.
+   !> own, so that the difference between them is 0.
    pure subroutine find_neighbours(blocks, ends, left, right)
       !> Number of blocks
       integer, intent(in) :: blocks

@@ -9,8 +9,7 @@ module model_problem
    use model_border, only: describe_line, expand, expand_past, expand_tangents, find_delayed, &
                            find_forms, find_jacobian, find_past, find_rate, find_rhs, find_state, &
                            list_terms, shape_type
-   use model_chain, only: mode_eigenvalue
-   use model_description, only: at_rest, description_of, description_type, sizes_type, word_length
+   use model_description, only: description_of, description_type, sizes_type, word_length
    implicit none (type, external)
    private
    public :: code_type, model_type
@@ -66,12 +65,8 @@ module model_problem
       procedure :: number_of
       !> Number of states of a block
       procedure :: states
-      !> Value of the signal's component at rest, in the section, and above which there is an event
-      procedure :: rest_level, section_level, event_level
       !> Whether it has blocks with neighbours
       procedure :: is_chain
-      !> Number of modes of a chain, and the block whose disturbances are those of a mode
-      procedure :: modes, mode
       procedure :: initial
       procedure :: history
       procedure :: past_series
@@ -199,31 +194,6 @@ contains
       number = self%n/self%shape%blocks
    end function states
 
-   !> Value of the signal's component at rest.
-   pure real(wp) function rest_level(self) result(level)
-      class(model_type), intent(in) :: self
-      real(wp) :: state(self%n)
-
-      state = self%steady_state()
-      level = state(self%sizes%observed%component)
-   end function rest_level
-
-   !> Value of the signal's component in the section.
-   pure real(wp) function section_level(self) result(level)
-      class(model_type), intent(in) :: self
-
-      level = self%sizes%observed%section
-      if (level >= at_rest) level = self%rest_level()
-   end function section_level
-
-   !> Value of the signal's component above which there is an event.
-   pure real(wp) function event_level(self) result(level)
-      class(model_type), intent(in) :: self
-
-      level = self%sizes%observed%event
-      if (level >= at_rest) level = self%rest_level()
-   end function event_level
-
    !> Whether it has blocks with neighbours, even one block.
    pure logical function is_chain(self) result(value)
       class(model_type), intent(in) :: self
@@ -231,37 +201,6 @@ contains
       value = allocated(self%left)
       if (value) value = size(self%left) > 0
    end function is_chain
-
-   !> Number of modes of the linear equations about rest: one for each block.
-   pure integer function modes(self) result(number)
-      class(model_type), intent(in) :: self
-
-      number = self%shape%blocks
-   end function modes
-
-   !> One block at rest whose disturbances are those of a mode of the chain; the model itself, with
-   !> its delays of 0 kept, where it is no chain.
-   function mode(self, number) result(block)
-      class(model_type), intent(in) :: self
-      !> Number of the mode, from 1
-      integer, intent(in) :: number
-      type(model_type) :: block
-      real(wp) :: state(self%n)
-
-      block%code = self%code
-      block%sizes = self%sizes
-      block%names = self%names
-      if (self%is_chain()) then
-         block%left = [1]
-         block%right = [1]
-         block%shape%mode = mode_eigenvalue(number - merge(0, 1, self%ends == "plate"), &
-                                            self%shape%blocks, trim(self%ends))
-         ! blocks that move alike have a mode of their own, as in a chain of one block
-         if (self%shape%blocks == 1) block%shape%mode = self%shape%mode
-      end if
-      state = self%steady_state()
-      call block%set(self%numbers, state(:self%states()), keep_delays=.true.)
-   end function mode
 
    !> The past holds up to the initial time.
    pure subroutine initial(self, y)

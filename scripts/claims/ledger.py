@@ -124,7 +124,7 @@ def _paths(data: str, test: Test, parameters: dict, config: dict) -> list[str]:
     There is no table of what the configuration has no entries of.
     """
     maker = studies.data()[data]
-    if isinstance(maker, Table) and maker.wanted and not maker.wanted(config):
+    if isinstance(maker, Table) and is_empty(maker, config):
         return []
     path = f"<results>/{maker.output}"
     for kind, keys in studies.entries().items():
@@ -132,6 +132,16 @@ def _paths(data: str, test: Test, parameters: dict, config: dict) -> list[str]:
             names = test.names_in(kind, parameters) or inside(config, keys)
             return [path.format(**{kind: name}) for name in names]
     return [path]
+
+
+def is_empty(table: Table, config: dict) -> bool:
+    """Whether the configuration has nothing that the table would list."""
+    if "{" in table.output:
+        return False
+    given = table.inputs(config)
+    if given and not any(given.values()):
+        return True
+    return table.wanted is not None and not table.wanted(config)
 
 
 def names_in(claims: dict) -> dict[str, list[str]]:

@@ -8,13 +8,18 @@ from difflib import get_close_matches
 import jsonschema
 
 from scripts.config import check_models, si
-from scripts.config.checks import check_samples, place_of, wrong
+from scripts.config.checks import check_blocks, check_samples, place_of, wrong
 from scripts.files.read_config import ConfigError, parse
 from scripts.namelists.laws import history_of, is_law
 from scripts.plans import studies
 
 EQUATIONS = 3
-"""Equations of the block: exponents that it has without delay."""
+"""Equations of a block: exponents that it has without delay."""
+MORE_EXPONENTS = 2
+"""Exponents of a chain beyond one a block, and the most of all, where no number is given."""
+MOST_EXPONENTS = 64
+CHAINS = "chain"
+"""The figure whose rows are scenes of more than one block."""
 SIGNS = {"exclusiveMinimum": ">", "minimum": ">=", "exclusiveMaximum": "<", "maximum": "<="}
 """Bounds of numbers in the schema, as messages write them."""
 
@@ -28,7 +33,7 @@ def checked(config: dict) -> dict:
     problems = problems or [in_words(e) for e in validator_for(schema).iter_errors(config)]
     problems = problems or list(check_models.contradictions(config))
     if not problems:
-        _fill_in_ends_of_exponents(config)
+        _fill_in_exponents(config)
         problems = list(_contradictions(config))
     if problems:
         for place, words, text in texts:
@@ -117,12 +122,16 @@ def _is_number(text: str) -> bool:
         return False
 
 
-def _fill_in_ends_of_exponents(config: dict) -> None:
-    """Exponents are measured up to the end of their scene where nothing else is given."""
+def _fill_in_exponents(config: dict) -> None:
+    """Exponents are measured up to the end of their scene, and of one block checked, where nothing
+    else is given."""
     for scene in config["scenes"].values():
         if "exponents" in scene:
-            scene["exponents"].setdefault("count", config["exponents"]["count"])
-            scene["exponents"].setdefault("t_end", scene["t_end"])
+            blocks, alone = scene["blocks"], scene["blocks"] == 1
+            of_chain = min(blocks + MORE_EXPONENTS, MOST_EXPONENTS)
+            count = config["exponents"]["count"] if alone else of_chain
+            defaults = {"count": count, "t_end": scene["t_end"], "checks": alone}
+            scene["exponents"] = defaults | scene["exponents"]
 
 
 def _contradictions(config: dict) -> Iterator[str]:
@@ -132,9 +141,10 @@ def _contradictions(config: dict) -> Iterator[str]:
         yield from _contradictions_of_scene(config, f"scene '{name}'", scene)
     for figure, settings in config["figures"].items():
         for row, shown in settings["rows"].items():
-            if shown["scene"] not in scenes:
+            known = [name for name in scenes if (scenes[name]["blocks"] > 1) == (figure == CHAINS)]
+            if shown["scene"] not in known:
                 place = f"config figures {figure} rows {row}"
-                yield wrong(place, shown, "scene", f"one of: {', '.join(scenes)}")
+                yield wrong(place, shown, "scene", f"one of: {', '.join(known)}")
     for checks in studies.load_parts("checks").values():
         yield from checks.contradictions(config)
 
@@ -148,9 +158,11 @@ def _contradictions_of_scene(config: dict, place: str, scene: dict):
         yield wrong(place, scene, "variables", f"some of: {', '.join(stored)}")
     if transient >= t_end:
         yield wrong(place, scene, "t_transient", f"a finite number >= 0 and < t_end = {t_end}")
-    yield from check_samples(place, scene)
-    if wanted and delay == 0 and wanted["count"] > EQUATIONS:
-        expected = f"a whole number >= 2 and <= {EQUATIONS} without delay"
+    yield from check_samples(place, scene, scene["blocks"])
+    yield from check_blocks(config, place, scene)
+    most = EQUATIONS * scene["blocks"]
+    if wanted and delay == 0 and wanted["count"] > most:
+        expected = f"a whole number >= 2 and <= {most} without delay"
         yield wrong(f"{place} exponents", wanted, "count", expected)
     if wanted and (wanted["t_end"] <= transient or wanted["t_end"] <= delay):
         expected = f"a finite number > t_transient = {transient} and > tau = {delay}"

@@ -8,6 +8,7 @@ from scripts.config.ranges import expected_of, is_inside, range_of
 from scripts.files.read_config import ConfigError
 from scripts.namelists.laws import (
     block_parameters,
+    chain_parameters,
     check_users_models,
     definitions,
     history_of,
@@ -48,7 +49,8 @@ def with_parameters(schema: dict, config: dict) -> dict:
         for kind, part in users.items()
         for name, entry in part.items()
     }
-    known = [block_parameters(), *(dict(_entries(law)) for law in definitions({}).values())]
+    laws = [dict(_entries(law)) for law in definitions({}).values()]
+    known = [block_parameters(), *laws, chain_parameters()]
     every: dict[str, list[dict]] = {}
     for parameters in [*known, *own.values()]:
         for name, entry in parameters.items():
@@ -56,7 +58,7 @@ def with_parameters(schema: dict, config: dict) -> dict:
     whole = copy.deepcopy(schema)
     taken = {key for place in _with_law(whole) for key in place}
     for (kind, name), parameters in own.items():
-        not_own = taken | (set(block_parameters()) if kind == "laws" else set())
+        not_own = taken.union(*[block_parameters(), chain_parameters()] * (kind == "laws"))
         if meant := not_own & set(parameters):
             raise ConfigError(
                 f"config {kind} {name}: parameters {', '.join(sorted(meant))}: keys of all that has"
@@ -113,6 +115,7 @@ def contradictions(config: dict) -> Iterator[str]:
         return
     models = names_of_models(config)
     every = {name for model in models for name in parameters_of(config, model)}
+    every |= set(chain_parameters())
     for path, entry in _parts(config):
         if "law" not in entry:
             continue
@@ -131,6 +134,8 @@ def _parameters(config: dict, place: str, entry: dict, every: set[str]) -> Itera
     model = entry["law"]
     known, own = parameters_of(config, model), own_parameters(config, model)
     kind = "law" if is_law(config, model) else "model"
+    if "blocks" in entry and kind == "law":
+        known = known | chain_parameters()
     shown = own if kind == "law" else known
     for key in sorted((every - set(known)) & set(entry)):
         has = f"it has {', '.join(shown)}" if shown else "it has none of its own"

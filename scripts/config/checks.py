@@ -1,7 +1,7 @@
 """Checks that the studies share, of keys that may contradict each other."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from scripts.config.ranges import expected_of, is_inside, range_of
 from scripts.namelists.laws import HISTORY, PREFIX, history_of, is_law, parameters_of
@@ -143,24 +143,26 @@ def window(
     yield f"{place}: {key} = {values}; expected two ascending numbers{' and'.join(bounds)}"
 
 
-def check_chain(place: str, chain: dict) -> Iterator[str]:
-    """Problems of one chain."""
-    yield from check_ends(place, chain)
-    blocks, t_end = chain["blocks"], chain["t_end"]
-    for key, value in chain["history"].items():
-        if isinstance(value, list) and len(value) != blocks:
-            yield (
-                f"{place} history: {key} has {len(value)} numbers; expected one number, or"
-                f" {blocks}, one for each block"
-            )
-    if chain["disturbance"]["block"] > blocks:
+def check_blocks(config: dict, place: str, scene: dict) -> Iterator[str]:
+    """Keys of a scene that do not fit its model or its number of blocks."""
+    yield from check_ends(place, scene)
+    blocks, disturbance = scene["blocks"], scene["disturbance"]
+    known = [name for key in history_of(config, scene["law"]) for name in (key, f"ln_{key}")]
+    if unknown := sorted(set(disturbance) - {*known, "seed", "block"}):
+        allowed = ", ".join(["seed", "block", *known])
+        yield f"{place} disturbance: unknown key {unknown}; allowed: {allowed}"
+    for key, value in scene["history"].items():
+        if isinstance(value, list) and (blocks == 1 or len(value) != blocks):
+            expected = "one number" + f", or {blocks}, one for each block" * (blocks > 1)
+            yield f"{place} history: {key} has {len(value)} numbers; expected {expected}"
+    if disturbance["block"] > blocks:
         expected = f"a whole number >= 0 and <= blocks = {blocks}"
-        yield wrong(f"{place} disturbance", chain["disturbance"], "block", expected)
-    if chain["t_transient"] >= t_end:
-        yield wrong(place, chain, "t_transient", f"a finite number >= 0 and < t_end = {t_end}")
-    yield from check_samples(place, chain, blocks)
-    if chain["law"].startswith(PREFIX):
-        yield wrong(place, chain, "law", "a law with inertia, which chains have")
+        yield wrong(f"{place} disturbance", disturbance, "block", expected)
+    is_block = is_law(config, scene["law"])
+    if blocks == 1 and is_block and scene["kappa"] != 0:
+        yield wrong(place, scene, "kappa", "0 with blocks = 1")
+    if blocks > 1 and (not is_block or scene["law"].startswith(PREFIX)):
+        yield wrong(place, scene, "law", "a law with inertia, which chains have")
 
 
 def check_ends(place: str, chain: dict) -> Iterator[str]:
@@ -169,14 +171,14 @@ def check_ends(place: str, chain: dict) -> Iterator[str]:
         yield wrong(place, chain, "blocks", f"a whole number >= {LEAST_RING} with ends = ring")
 
 
-def check_scenes_of_chains(place: str, study: dict, scenes: dict) -> Iterator[str]:
-    """Scenes that are not there, or whose law chains have not."""
-    for name in study["scenes"]:
-        if name not in scenes:
-            yield f"{place} scenes: {name!r}; expected one of: {', '.join(scenes)}"
-        elif scenes[name]["law"].startswith(PREFIX) or "epsilon" not in scenes[name]:
-            law = scenes[name]["law"]
-            yield f"{place} scenes: {name!r} has the law {law}; chains have no such law"
+def check_scenes(
+    place: str, names: Iterable[str], scenes: dict, *, chains: bool = False
+) -> Iterator[str]:
+    """Names of no scene of one block, or of no chain where these are expected."""
+    known = [name for name, scene in scenes.items() if (scene["blocks"] > 1) == chains]
+    for name in names:
+        if name not in known:
+            yield f"{place}: {name!r}; expected one of: {', '.join(known)}"
 
 
 def check_reference(place: str, reference: dict) -> Iterator[str]:

@@ -4,7 +4,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 from scripts.files.outputs import FileError
-from scripts.namelists.laws import law_in_file
 
 # takes half a second to load, and planning knows functions of data by name alone
 if TYPE_CHECKING:
@@ -14,19 +13,12 @@ Dataset: TypeAlias = "xarray.Dataset"
 DataArray: TypeAlias = "xarray.DataArray"
 
 
-def with_law_in_words(data: Dataset) -> Dataset:
-    """The data with the law of its model, and the values of parameters that are the law's own."""
-    if "model" in data.attrs:
-        data.attrs["law"] = law_in_file(data.attrs)
-    return data
-
-
 def read(path: str | Path) -> Dataset:
     """All of a NetCDF file. Raises FileError; a damaged file is removed and so made again."""
     import xarray as xr
 
     try:
-        return with_law_in_words(xr.load_dataset(path, engine="netcdf4"))
+        return xr.load_dataset(path, engine="netcdf4")
     except (OSError, RuntimeError) as problem:
         reason = getattr(problem, "strerror", problem)
         # the numbers of NetCDF's own errors are negative; a wrong checksum has none

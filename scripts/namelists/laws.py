@@ -99,6 +99,13 @@ def block_parameters() -> dict[str, dict]:
 
 
 @cache
+def chain_parameters() -> dict[str, dict]:
+    """The parameters by name that a chain has beside those of its blocks, 0 of one block."""
+    own = read(MODEL / "chain.yaml")["parameters"]
+    return {key: {**entry, "default": 0.0} for key, entry in own.items()}
+
+
+@cache
 def _damping() -> dict[str, dict]:
     """The parameters that a law without inertia has beside its own."""
     own = read(MODEL / "quasistatic.yaml")["parameters"]
@@ -148,8 +155,8 @@ def with_values(law: str, **own: float) -> str:
 
 
 def law_of(place: Mapping) -> str:
-    """The law of a row, of attributes or of a place; the paper's if it has none."""
-    return str(place.get("law", PAPER))
+    """The law of a row, of a file's attributes or of a place; the paper's if it has none."""
+    return law_in_file(place) if "model" in place else str(place.get("law", PAPER))
 
 
 def is_on(scene: dict, place: Mapping, *axes: str) -> bool:

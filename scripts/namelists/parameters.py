@@ -1,7 +1,7 @@
 """Values of an entry as groups of namelists: its model with parameters, and histories."""
 
 from scripts.namelists import laws
-from scripts.namelists.laws import CHAIN, block_parameters, parameters_of
+from scripts.namelists.laws import CHAIN, block_parameters, chain_parameters, is_law, parameters_of
 
 PARAMETERS = list(block_parameters())
 """Names of the block's parameters."""
@@ -19,13 +19,16 @@ def place_of(config: dict, settings: dict) -> dict:
 
 def with_model(config: dict, values: dict) -> dict:
     """Values of which the model with its parameters and its blocks becomes a group of its own."""
-    names = [*parameters_of(config, values["law"]), "kappa"]
+    known = parameters_of(config, values["law"])
+    of_chain = chain_parameters() if is_law(config, values["law"]) else {}
+    # one block without springs to neighbours is no chain
+    is_chain = values.get("blocks", 1) > 1 or any(values.get(key, 0) > 0 for key in of_chain)
+    names = [*known, *(of_chain if is_chain else [])]
     there = {key: values[key] for key in names if key in values}
-    rest = {
-        key: value for key, value in values.items() if key not in {*names, "law", "blocks", "ends"}
-    }
+    left_out = {*known, *of_chain, "law", "blocks", "ends"}
+    rest = {key: value for key, value in values.items() if key not in left_out}
     model = {"name": values["law"]}
-    if "kappa" in values:
+    if is_chain:
         model |= {"name": CHAIN + values["law"], "blocks": values["blocks"], "ends": values["ends"]}
     # a namelist has no empty lists
     listed = {"parameters": list(there), "values": list(there.values())} if there else {}

@@ -5,6 +5,7 @@ the program's namelist by name: for each, its values by key. A group is a variab
 in the program, and a group within a group a component of that variable.
 """
 
+from scripts.namelists.chains import histories_of
 from scripts.namelists.parameters import histories_group, with_model
 
 REFERENCE_STEPS = 10_000_000
@@ -14,12 +15,12 @@ OF_STUDIES = ("exponents", "attractors", "si")
 
 
 def scene_groups(config: dict, scene: str, **changes) -> dict[str, dict]:
-    """A scene with its history, some of its values changed."""
-    left_out = {*OF_STUDIES, "history"}
+    """A scene with the histories of its blocks, some of its values changed."""
+    left_out = {*OF_STUDIES, "history", "disturbance"}
     own = {key: value for key, value in config["scenes"][scene].items() if key not in left_out}
     return {
         "scene": with_model(config, {"name": scene, **own, **changes}),
-        "histories": histories_group([config["scenes"][scene]["history"]]),
+        "histories": histories_group(histories_of(config["scenes"][scene])),
     }
 
 

@@ -57,8 +57,8 @@ def exponents(row: dict) -> str:
 
 
 def can_be_drawn(run: xr.Dataset) -> bool:
-    """Whether a scene keeps something to draw."""
-    return any(name in run for name in DRAWN)
+    """Whether a scene of one block keeps something to draw."""
+    return "block" not in run.dims and any(name in run for name in DRAWN)
 
 
 def describe_run(run: xr.Dataset, attractors: list[dict]) -> dict:

@@ -113,8 +113,8 @@ class Figure:
     shows: tuple[str, ...] = ()
     """Keys of the only entry that it gets of a section: ("figures", "figure_4"). Of a kind: keys of
     the section."""
-    entries_with: str = ""
-    """Of a kind: the key that an entry must have to be shown."""
+    shows_entry: Callable[[dict, str], bool] = lambda _config, _entry: True
+    """Of a kind: whether it shows an entry, by the configuration and the name."""
     module: str = "figure"
     caption: str = "caption.rst"
     """Template of the caption."""

@@ -1,6 +1,6 @@
 """Results of scenes by their paths, and what figures mark of scenes, by the configuration."""
 
-from scripts.namelists.laws import law_in_words
+from scripts.namelists.laws import is_law, law_in_words
 from scripts.namelists.parameters import place_of
 
 
@@ -27,9 +27,25 @@ def plane_of(config: dict, settings: dict, axes: tuple[str, str] = ()) -> dict:
     return {**fixed, "abscissa": axes[0], "ordinate": axes[1]}
 
 
+def is_chain(config: dict, scene: str) -> bool:
+    """Whether a scene has more than one block."""
+    return config["scenes"][scene]["blocks"] > 1
+
+
+def is_block(config: dict, scene: str) -> bool:
+    """Whether a scene has one block."""
+    return not is_chain(config, scene)
+
+
+def blocks_of(config: dict) -> list[str]:
+    """Scenes of one block."""
+    return [name for name in config["scenes"] if is_block(config, name)]
+
+
 def marked_scenes(config: dict) -> dict[str, dict]:
-    """Parameters of the scenes that figures mark: those whose attractors are looked for."""
-    scenes = {name: config["scenes"][name] for name in scenes_with(config, "attractors")}
+    """Parameters of the scenes that figures mark: of one block, with attractors looked for."""
+    names = [name for name in scenes_with(config, "attractors") if is_block(config, name)]
+    scenes = {name: config["scenes"][name] for name in names}
     return {
         name: place_of(config, scene) | {"law": law_in_words(config, scene)}
         for name, scene in scenes.items()
@@ -44,3 +60,10 @@ def scenes_in_plane(config: dict, settings: dict) -> dict[str, dict]:
         for name, place in marked_scenes(config).items()
         if plane_of(config, config["scenes"][name], axes) == plane_of(config, settings)
     }
+
+
+def curves_of(config: dict, line: dict) -> dict | None:
+    """Windows of two parameters in which curves of cycles on a line are followed: its own ones, or
+    those of the block."""
+    shared = config["cycles"].get("curves") if is_law(config, line["law"]) else None
+    return line.get("curves", shared)

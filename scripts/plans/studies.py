@@ -100,7 +100,7 @@ def user_figures(config: dict, names: dict[str, list[str]]) -> dict[str, Figure]
         )
         for kind in sorted(kinds, key=lambda kind: kind.place)
         for entry in names[wildcard_of[kind.shows]]
-        if not kind.entries_with or kind.entries_with in inside(config, (*kind.shows, entry))
+        if kind.shows_entry(config, entry)
     }
 
 

@@ -4,6 +4,7 @@ import copy
 import json
 import re
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -152,20 +153,15 @@ def holds_results_alone(folder: Path) -> bool:
 def plan_of_paper(config: dict, folder: str) -> Plan:
     """All of the paper."""
     figures = studies.paper_figures()
-    used = {scene: variables_used(config, scene, figures) for scene in config["scenes"]}
-    config = set_variables(config, used, least=[])
+    config = set_variables(config, figures, least=[])
     return Plan(config, folder, False, figures, paper_claims())
 
 
 def plan_of_user(whole: dict, names: dict[str, list[str]], folder: str) -> Plan:
     """What a user's file adds or changes, by the names of its entries."""
     config = checked(whole)
-    drawn = {
-        name: {"u", "v"} if is_law(config, scene["law"]) else set(history_of(config, scene["law"]))
-        for name, scene in config["scenes"].items()
-    }
-    config = set_variables(config, drawn, least=list(HISTORY))
     figures = studies.user_figures(config, names)
+    config = set_variables(config, figures, least=list(HISTORY))
     claims = check_user_claims(config["claims"], config, {*studies.paper_figures(), *figures})
     if not figures and not claims and not any(names.values()):
         raise ConfigError(
@@ -186,15 +182,18 @@ def variables_used(config: dict, scene: str, figures: dict[str, Figure]) -> set[
     return used
 
 
-def set_variables(config: dict, used: dict[str, set[str]], *, least: list[str]) -> dict:
+def set_variables(config: dict, figures: dict[str, Figure], *, least: list[str]) -> dict:
     """The configuration in which each scene names the variables that it stores.
 
     By default those that figures use and those of `least`, or all of a scene that is in no figure.
     """
     for name, scene in config["scenes"].items():
+        used = variables_used(config, name, figures)
         known = list(history_of(config, scene["law"]))
-        default = [key for key in known if key in used[name].union(least)] or known
-        lacking = sorted(used[name] - set(scene.setdefault("variables", default)))
+        if used and not is_law(config, scene["law"]):
+            used = set(known)
+        default = [key for key in known if key in used.union(least)] or known
+        lacking = sorted(used - set(scene.setdefault("variables", default)))
         if lacking:
             raise ConfigError(
                 f"scene '{name}': variables = {scene['variables']}; its figures also use {lacking}"
@@ -231,18 +230,20 @@ def added(said: dict, whole: dict) -> dict[str, list[str]]:
 
 def restrict(config: dict, *groups: dict[str, list[str]]) -> dict:
     """The configuration with the entries of these names alone, and with those that they use."""
-    kept = with_names_alone(config, *groups)
-    used = [study.uses(kept) for study in studies.studies().values()]
-    kept = with_names_alone(config, *groups, *used)
-    for study in studies.studies().values():
+    every = studies.studies().values()
+    used = [study.uses(with_names_alone(config, study.entries, groups)) for study in every]
+    kept = with_names_alone(config, studies.entries(), [*groups, *used])
+    for study in every:
         study.of_user(kept)
     return kept
 
 
-def with_names_alone(config: dict, *groups: dict[str, list[str]]) -> dict:
-    """The configuration with the entries of these names alone."""
+def with_names_alone(
+    config: dict, sections: dict[str, tuple[str, ...]], groups: Sequence[dict[str, list[str]]]
+) -> dict:
+    """The configuration with the entries of these names alone in some sections."""
     kept = copy.deepcopy(config)
-    for kind, (*above, last) in studies.entries().items():
+    for kind, (*above, last) in sections.items():
         names = {name for group in groups for name in group.get(kind, [])}
         section = inside(kept, tuple(above))
         section[last] = {name: one for name, one in section[last].items() if name in names}

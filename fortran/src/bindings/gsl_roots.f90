@@ -6,7 +6,7 @@ module gsl_roots
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: find_falling_root, find_root, scalar_function_type
+   public :: find_root, scalar_function_type
 
    !> Most iterations of one search.
    integer, parameter :: most_iterations = 200
@@ -84,30 +84,6 @@ contains
       case default
       end select
    end subroutine find_root
-
-   !> The root of `f` where it falls from positive to negative values between 0 and infinity: the
-   !> bracket is found by halving and doubling.
-   subroutine find_falling_root(f, start, root, error)
-      !> The function
-      class(scalar_function_type), intent(in), target :: f
-      !> Where the search begins, > 0
-      real(wp), intent(in) :: start
-      !> The root
-      real(wp), intent(out) :: root
-      !> No convergence
-      type(error_type), allocatable, intent(out) :: error
-      real(wp) :: lower, upper
-
-      lower = start
-      do while (f%value(lower) <= 0.0_wp)
-         lower = 0.5_wp*lower
-      end do
-      upper = 2.0_wp*lower
-      do while (f%value(upper) >= 0.0_wp)
-         upper = 2.0_wp*upper
-      end do
-      call find_root(f, lower, upper, root, error)
-   end subroutine find_falling_root
 
    !> What GSL calls.
    function callback(x, params) result(value) bind(c)

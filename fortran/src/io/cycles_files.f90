@@ -76,7 +76,7 @@ contains
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
       if (allocated(error)) return
-      call cycles%model%open(path, line%model, error)
+      call cycles%model%open(path, line%model, error, at_rest=.true.)
       call read_histories(path, line%model, history, error)
       if (allocated(error)) return
       call check_choice(error, path, "along", cycles%along, line%model%names)
@@ -155,8 +155,8 @@ contains
       type(cycles_type), intent(in) :: found(:)
       real(wp), allocatable :: columns(:, :), imaginary(:, :), real_part(:, :)
       integer, allocatable :: branch(:), intervals(:), unstable(:)
-      character(len=letters) :: words(size(found), 2)
       character(len=:), allocatable :: signal
+      character(len=letters) :: words(size(found), 2)
       integer :: all, i, j, k, row, rows, several
 
       all = 0
@@ -283,8 +283,8 @@ contains
       type(output_file_type), intent(inout) :: file
       type(cycle_settings_type), intent(in) :: settings
       type(cycle_curve_type), intent(in) :: curves(:)
-      character(len=kind_length) :: words(size(curves), 3)
       character(len=:), allocatable :: name
+      character(len=kind_length) :: words(size(curves), 3)
       real(wp), allocatable :: columns(:, :)
       integer, allocatable :: number(:)
       integer :: all, i, j, k, row, rows

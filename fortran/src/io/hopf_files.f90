@@ -20,6 +20,8 @@ module hopf_files
    type :: hopf_settings_type
       !> The model with its parameters; abscissa and ordinate may be left out
       type(model_settings_type) :: model
+      !> Number of the mode of a chain, from 1; of one block there is none
+      integer :: mode = 0
       !> Names of the parameters that are abscissa and ordinate
       character(len=model_length) :: along(2) = ""
       !> Windows on both: least and most of the abscissa, then of the ordinate
@@ -53,7 +55,7 @@ contains
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
       if (allocated(error)) return
-      call hopf_curves%model%open(path, plane%model, error, keep_delays=.true.)
+      call hopf_curves%model%open(path, plane%model, error, keep_delays=.true., at_rest=.true.)
       call check_count(error, path, "cells", hopf_curves%cells, at_least=2)
       do i = 1, 2
          if (allocated(error)) return
@@ -62,10 +64,14 @@ contains
       end do
       plane%window = hopf_curves%windows
       if (allocated(error)) return
-      if (plane%model%shape%blocks > 1) then
-         call raise(error, path//": blocks = "//text(plane%model%shape%blocks) &
-                    //"; expected 1: Hopf curves are those of one block or of one mode")
-      end if
+      associate (blocks => plane%model%shape%blocks, mode => hopf_curves%mode)
+         if (merge(mode == 0, mode >= 1 .and. mode <= plane%model%modes(), blocks == 1)) then
+            if (blocks > 1) plane%model = plane%model%mode(mode)
+         else
+            call raise(error, path//": mode = "//text(mode)//" of blocks = "//text(blocks) &
+                       //"; expected one of 1 to blocks, or 0 of one block")
+         end if
+      end associate
    end subroutine read_plane
 
    !> Write all points of all curves, piece by piece, the special points and the map.
@@ -90,6 +96,9 @@ contains
 
       call file%create(path, "Hopf curves: where a pair of characteristic roots is imaginary")
       call put_model(file, plane%model, but=settings%along)
+      if (plane%model%is_chain()) then
+         call file%attribute("mode_eigenvalue", plane%model%shape%mode)
+      end if
       call file%attribute("abscissa", trim(settings%along(1)))
       call file%attribute("ordinate", trim(settings%along(2)))
       rows = file%dimension("point", size(points))

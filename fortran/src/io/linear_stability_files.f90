@@ -49,7 +49,7 @@ contains
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
       if (allocated(error)) return
-      call linear_stability%model%open(path, model, error, keep_delays=.true.)
+      call linear_stability%model%open(path, model, error, keep_delays=.true., at_rest=.true.)
       do i = 1, count(linear_stability%along /= "")
          if (.not. allocated(error)) then
             call check_choice(error, path, "along", linear_stability%along(i), model%names)

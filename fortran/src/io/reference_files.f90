@@ -64,7 +64,8 @@ contains
       call file%open(path, error)
       if (allocated(error)) return
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
-      cases = pack(cases, cases%name /= "")
+      ! gfortran cannot write a namelist with an array of no elements that have derived types
+      cases = cases(:max(1, count(cases%name /= "")))
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
       call open_cases(path, cases, measured, error)

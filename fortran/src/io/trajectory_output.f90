@@ -88,9 +88,9 @@ contains
       associate (blocks => model%shape%blocks)
          ! the quotient may be one rounding below a whole number
          writer%times = floor(scene%t_end/scene%sample_interval*(1.0_wp + epsilon(1.0_wp))) + 1
-         refined = blocks == 1 .and. model%sizes%observed%integral > 0 .and. &
-                   model%relaxation_rate(0.0_wp, model%steady_state()) &
-                  *scene%sample_interval > 1.0_wp
+         refined = blocks == 1 .and. model%sizes%observed%integral > 0
+         if (refined) refined = model%relaxation_rate(0.0_wp, model%steady_state()) &
+                                *scene%sample_interval > 1.0_wp
          if (refined) writer%share_of_step = largest_share
          length = max(least_held, most_held/blocks)
          allocate (writer%ids(0:variables), places(blocks))

@@ -84,9 +84,9 @@ contains
       integer, intent(in) :: number
       real(wp) :: past(model%n)
 
-      past = reshape(self%states(:, blocks_in_order(model%shape%blocks, trim(model%ends)), &
-                                 number), &
-                     [model%n])
+      associate (order => blocks_in_order(model%shape%blocks, trim(model%ends)))
+         past = reshape(self%states(:, order, number), [model%n])
+      end associate
    end function past_of_history
 
    !> Histories from their names and values. Refuse names that are not those of all states, each

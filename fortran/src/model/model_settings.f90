@@ -50,7 +50,7 @@ contains
 
    !> Open the model and give it its parameters, at rest before the initial time. Refuse a model
    !> that there is not, names that it has not, and values out of range; keep an earlier error.
-   subroutine open_settings(self, place, model, error, keep_delays)
+   subroutine open_settings(self, place, model, error, keep_delays, at_rest)
       class(model_settings_type), intent(in) :: self
       !> File and what it describes, for messages
       character(len=*), intent(in) :: place
@@ -60,6 +60,8 @@ contains
       type(error_type), allocatable, intent(inout) :: error
       !> Whether delays of 0 are delayed values, too; .false. unless given
       logical, intent(in), optional :: keep_delays
+      !> Whether the model must have a state at rest; .false. unless given
+      logical, intent(in), optional :: at_rest
       type(description_type) :: about
       real(wp), allocatable :: numbers(:), state(:)
       integer :: block, i, number
@@ -67,6 +69,13 @@ contains
       call check_choice(error, place, "model", self%name, list_models(""))
       if (.not. allocated(error)) call open_model(trim(self%name), model, error)
       if (allocated(error)) return
+      if (present(at_rest)) then
+         if (at_rest .and. .not. associated(model%code%steady_state)) then
+            call raise(error, place//": the model "//trim(self%name)//" has no state at rest; " &
+                       //"expected one with steady_state in its definition")
+            return
+         end if
+      end if
       about = model%describe()
       do i = 1, most_parameters
          if (self%parameters(i) == "") cycle
@@ -138,7 +147,7 @@ contains
          call raise(error, place//": blocks = "//text(self%blocks)//" of the model " &
                     //trim(self%name)//"; expected 1, since it has no second difference")
       else if (self%blocks > 1 .and. self%ends == "ring") then
-         call check_count(error, place//": ends = ring: ", "blocks", self%blocks, at_least=3)
+         call check_count(error, place//": ends = ring", "blocks", self%blocks, at_least=3)
       end if
    end subroutine check_blocks
 end module model_settings

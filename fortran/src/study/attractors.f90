@@ -10,6 +10,7 @@ module attractors
    use dde_kinds, only: wp
    use exponent_averages, only: exponent_type, without_sign
    use lyapunov_spectrum, only: extend_growth, growth_settings_type, growth_type, measure_growth
+   use model_levels, only: rest_level
    use model_problem, only: model_type
    use motion_classes, only: chaos, contradicted, cycle_motion, fixed_point, leaves_cycle, &
                              none, not_stationary, three_torus, torus, undecided, unstable_rest
@@ -130,7 +131,7 @@ contains
          if (allocated(error) .or. attractor%class == fixed_point) return
          if (on_cycle(attractor%motion)) return
          if (part < approach_parts) cycle
-         if (.not. settles(attractor%motion%signal() - search%model%rest_level())) return
+         if (.not. settles(attractor%motion%signal() - rest_level(search%model))) return
       end do
       attractor%reason = unstable_rest
    end subroutine approach
@@ -158,7 +159,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(exponent_type), allocatable :: exponents(:)
 
-      if (.not. settles(attractor%motion%signal() - search%model%rest_level())) return
+      if (.not. settles(attractor%motion%signal() - rest_level(search%model))) return
       call exponents_at_rest(search%model, &
                              search%most_exponents(search%settings%exponents), exponents, error)
       if (allocated(error)) return

@@ -8,6 +8,7 @@ module cycle_branches
    use dde_kinds, only: wp
    use hopf_lines, only: find_hopf_on_line, hopf_on_line_type
    use model_family, only: family_type
+   use model_modes, only: mode_of
    use model_problem, only: model_type
    use orbit_branch, only: branch_type, follow_branch
    use orbit_change, only: orbit_change_type
@@ -111,7 +112,7 @@ contains
          call find_hopf_on_line(line%model, line%numbers_at(line%window(1)), &
                                 line%numbers_at(line%window(2)), scan_places, hopf, error)
          if (allocated(error)) return
-         block = line%model%mode(1)
+         block = mode_of(line%model, 1)
          how%family = family_type(block, [line%along], [line%window(2) - line%window(1)])
          how%window(:, 1) = line%window
          how%longest_period = settings%longest_period

@@ -5,6 +5,7 @@ module cycle_curves
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use model_family, only: family_type
+   use model_modes, only: mode_of
    use model_problem, only: model_type
    use orbit_curves, only: curve_type, follow_curve
    use orbit_mesh, only: adapted_mesh
@@ -55,7 +56,7 @@ contains
       count = 0
       if (allocated(settings%curve_window)) then
          associate (window => settings%curve_window)
-            block = settings%line%model%mode(1)
+            block = mode_of(settings%line%model, 1)
             how%family = family_type(block, settings%curve_along, window(2, :) - window(1, :))
          end associate
          how%window = settings%curve_window

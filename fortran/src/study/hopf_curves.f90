@@ -10,7 +10,7 @@ module hopf_curves
    use hopf_planes, only: axis_point_type, curve_plane_type, turn
    implicit none (type, external)
    private
-   public :: curve_point_type, piece_type, trace_curves
+   public :: curve_point_type, trace_curves
 
    !> Farthest a chord may lie from the curve, and longest chord, in units of the window.
    real(wp), parameter :: chord_deviation = 1.0e-4_wp, chord_length = 0.02_wp
@@ -22,8 +22,7 @@ module hopf_curves
    integer, parameter :: most_points = 20000
    real(wp), parameter :: least_share = 1.0e-8_wp
 
-   !> An unbroken piece of a curve, from one end to the other, the one with the lower frequency
-   !> first.
+   !> An unbroken piece of a curve, from one end to the other, that with the lower frequency first.
    type :: piece_type
       !> Its points
       type(axis_point_type), allocatable :: points(:)
@@ -263,10 +262,10 @@ contains
    contains
 
       !> Length of a chord times the sine of its angle to a tangent.
-      pure real(wp) function bend(along, chord) result(value)
+      pure real(wp) function bend(along, chord) result(length)
          real(wp), intent(in) :: along(2), chord(2)
 
-         value = abs(along(1)*chord(2) - along(2)*chord(1))/max(norm2(along), tiny(1.0_wp))
+         length = abs(along(1)*chord(2) - along(2)*chord(1))/max(norm2(along), tiny(1.0_wp))
       end function bend
    end function is_smooth
 
@@ -326,8 +325,7 @@ contains
          key(i) = first%branch + first%at%omega/(1.0_wp + first%at%omega)
       end do
       do i = 1, size(pieces)
-         number(i) = count(key < key(i)) + 1 &
-                     + count([(j, j=1, i)] < i .and. .not. abs(key(:i) - key(i)) > 0.0_wp)
+         number(i) = 1 + count(key < key(i)) + count(abs(key(:i - 1) - key(i)) <= 0.0_wp)
       end do
       allocate (points(0))
       do k = 1, size(pieces)

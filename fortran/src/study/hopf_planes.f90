@@ -15,6 +15,8 @@ module hopf_planes
    !> when steps no longer become smaller below the second bound, or after so many steps.
    real(wp), parameter :: last_step = 1.0e-15_wp, small_step = 1.0e-9_wp
    integer, parameter :: most_steps = 12
+   !> Least cosine of the angle of the curve to the direction along which the distance is given.
+   real(wp), parameter :: least_cosine = 1.0e-6_wp
 
    !> A plane (abscissa, ordinate) with a window.
    type :: curve_plane_type
@@ -138,7 +140,7 @@ contains
       real(wp), intent(out), optional :: tangent(3)
       type(characteristic_type) :: c
       complex(wp) :: delta, slopes(3), s
-      real(wp) :: before, matrix(3, 3), step(3)
+      real(wp) :: along(3), before, matrix(3, 3), step(3)
       integer :: i, k
 
       found = .false.
@@ -155,8 +157,10 @@ contains
          associate (scale => maxval(abs(slopes)))
             matrix = reshape([real(slopes)/scale, aimag(slopes)/scale, direction], [3, 3], &
                              order=[2, 1])
+            along = cross(matrix(1, :), matrix(2, :))
             if (found) exit
-            step = solution(matrix, [-real(delta)/scale, -aimag(delta)/scale, value &
+            if (abs(dot_product(along, direction)) <= least_cosine*norm2(along)) return
+            step = solution(matrix, [-[real(delta), aimag(delta)]/scale, value &
                                      - dot_product(direction, [point%place, log(point%omega)])])
          end associate
          if (.not. all(abs(step) < 1.0_wp)) return
@@ -170,9 +174,7 @@ contains
       end do
       found = found .or. before <= small_step
       if (.not. present(tangent) .or. .not. found) return
-      tangent = cross(matrix(1, :), matrix(2, :))
-      tangent = tangent/norm2(tangent)
-      if (dot_product(tangent, direction) < 0.0_wp) tangent = -tangent
+      tangent = sign(1.0_wp, dot_product(along, direction))*along/norm2(along)
    end subroutine correct
 
    !> Solution of three equations, by Cramer's rule.

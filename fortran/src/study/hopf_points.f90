@@ -94,11 +94,12 @@ contains
 
       allocate (found(0))
       coefficient%plane = plane
-      do i = 1, size(points)
-         ! without delay a curve ends at the edge of the window
-         if (maxval(plane%model%delays(points(i)%numbers)) > 0.0_wp) cycle
-         call add_point(found, "hopf_without_delay", plane, points(i)%at, [points(i)%at%omega], &
-                        error)
+      do i = 1, size(points) - 1
+         if (points(i)%piece /= points(i + 1)%piece) cycle
+         ! a curve begins or ends where its delay becomes 0
+         if (has_delay(points(i)) .eqv. has_delay(points(i + 1))) cycle
+         at = points(merge(i + 1, i, has_delay(points(i))))%at
+         call add_point(found, "hopf_without_delay", plane, at, [at%omega], error)
          if (allocated(error)) return
       end do
       do i = 1, size(points) - 1
@@ -125,6 +126,15 @@ contains
             if (allocated(error)) return
          end do
       end do
+
+   contains
+
+      !> Whether a point has a delay that is not 0.
+      pure logical function has_delay(point) result(value)
+         type(curve_point_type), intent(in) :: point
+
+         value = any(plane%model%delays(point%numbers) > 0.0_wp)
+      end function has_delay
    end subroutine find_hopf_points
 
    !> The point of a curve at a share of the way between two points.

@@ -5,6 +5,7 @@ module motion_path
                   integration_result, sampler_type
    use dde_errors, only: error_type
    use dde_kinds, only: wp
+   use model_levels, only: section_level
    use model_problem, only: model_type
    implicit none (type, external)
    private
@@ -58,7 +59,7 @@ contains
 
       here = from
       associate (observed => model%sizes%observed)
-         passage = event_table([observed%component], level=[model%section_level()], direction=[1], &
+         passage = event_table([observed%component], level=[section_level(model)], direction=[1], &
                                terminal=[.true.])
          samples%wanted = [maxval(observed%coordinates), observed%component]
          if (samples%wanted(1) == 0) samples%wanted(1) = observed%component

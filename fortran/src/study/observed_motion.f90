@@ -7,6 +7,7 @@ module observed_motion
    use dde_kinds, only: wp
    use lyapunov_spectrum, only: interval_observer_type
    use model_description, only: observed_type
+   use model_levels, only: section_level
    use model_problem, only: model_type
    implicit none (type, external)
    private
@@ -74,7 +75,7 @@ contains
       real(wp), intent(in) :: sample_interval
 
       self%observed = model%sizes%observed
-      self%level = model%section_level()
+      self%level = section_level(model)
       self%sample_interval = sample_interval
       call self%clear()
    end subroutine begin
@@ -270,27 +271,24 @@ contains
       end function point_at
    end subroutine take_over
 
-   !> Standard deviations of the coordinates: over all samples, or over the points of the section.
-   pure function scale(self) result(deviations)
+   !> Scales of the coordinates of points of the section, not 0: standard deviations over all
+   !> samples, of the signal for its greatest value; the mean of times since the passage before.
+   pure function scale(self) result(scales)
       class(observed_motion_type), intent(in) :: self
-      real(wp) :: deviations(2)
-      integer :: i
+      real(wp) :: scales(2)
+      integer :: given, i
 
+      given = size(self%sampler%wanted) - 1
       do i = 1, 2
-         if (i < size(self%sampler%wanted)) then
-            deviations(i) = deviation(self%sampler%rows(i + 1, :self%sampler%kept))
+         if (i == given + 1) then
+            scales(i) = sum(self%section(i, :))/max(1, size(self%section, 2))
          else
-            deviations(i) = deviation(self%section(i, :))
+            associate (x => self%sampler%rows(merge(i + 1, 1, i <= given), :self%sampler%kept), &
+                       n => max(1, self%sampler%kept))
+               scales(i) = norm2(x - sum(x)/n)/sqrt(real(n, wp))
+            end associate
          end if
       end do
+      scales = max(scales, tiny(1.0_wp))
    end function scale
-
-   !> Standard deviation, not 0.
-   pure real(wp) function deviation(values) result(value)
-      real(wp), intent(in) :: values(:)
-
-      associate (n => max(1, size(values)))
-         value = max(norm2(values - sum(values)/n)/sqrt(real(n, wp)), tiny(1.0_wp))
-      end associate
-   end function deviation
 end module observed_motion

@@ -5,6 +5,7 @@ module rest
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use exponent_averages, only: exponent_type
+   use model_levels, only: rest_level
    use model_problem, only: model_type
    use model_roots, only: count_roots, find_rightmost
    implicit none (type, external)
@@ -43,7 +44,7 @@ contains
                               [(t_begin + (t_end - t_begin)*i/last, i=1, last - 1)])
       call integrate(model, 0.0_wp, t_end, options, outcome, error, sampler=samples)
       if (allocated(error)) return
-      if (.not. settles(maxval(abs(samples%values - model%rest_level()), dim=1))) return
+      if (.not. settles(maxval(abs(samples%values - rest_level(model)), dim=1))) return
       rest = count_roots(model, 0.0_wp) == 0
    end subroutine comes_to_rest
 

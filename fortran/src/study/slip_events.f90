@@ -6,6 +6,7 @@ module slip_events
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use model_description, only: observed_type
+   use model_levels, only: event_level
    use model_problem, only: model_type
    implicit none (type, external)
    private
@@ -93,7 +94,7 @@ contains
       watcher%t_transient = t_transient
       watcher%levels = thresholds
       if (watcher%observed%is_exponential) watcher%levels = log(thresholds)
-      if (size(thresholds) == 0) watcher%levels = [model%event_level()]
+      if (size(thresholds) == 0) watcher%levels = [event_level(model)]
       watcher%thresholds = watcher%levels
       if (watcher%observed%is_exponential) watcher%thresholds = exp(watcher%levels)
       if (size(thresholds) > 0) watcher%thresholds = thresholds

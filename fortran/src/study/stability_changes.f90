@@ -4,6 +4,7 @@ module stability_changes
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use hopf_lines, only: find_hopf_on_line, hopf_on_line_type
+   use model_modes, only: mode_of
    use model_problem, only: model_type
    use root_counts, only: roots_right_of
    implicit none (type, external)
@@ -42,8 +43,8 @@ contains
       from(changes%along) = window(1)
       to(changes%along) = window(2)
       allocate (points(0))
-      do i = 1, model%modes()
-         call find_hopf_on_line(model%mode(i), from, to, places, of_mode, error)
+      do i = 1, model%shape%blocks
+         call find_hopf_on_line(mode_of(model, i), from, to, places, of_mode, error)
          if (allocated(error)) return
          do j = 1, size(of_mode)
             associate (a => changes%along)
@@ -63,8 +64,8 @@ contains
       integer :: i
 
       number = 0
-      do i = 1, model%modes()
-         c = characteristic_of(model%mode(i))
+      do i = 1, model%shape%blocks
+         c = characteristic_of(mode_of(model, i))
          c%delay = 0.0_wp
          number = number + roots_right_of(c, 0.0_wp)
       end do

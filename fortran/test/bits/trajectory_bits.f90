@@ -3,11 +3,10 @@
 !> hexadecimal digits of their bits.
 program trajectory_bits
    use, intrinsic :: iso_fortran_env, only: output_unit
-   use block_builder, only: build_block
+   use block_builder, only: build_block, index_of_ln_v, index_of_theta, index_of_u
    use dde, only: integrate, integration_options, integration_result, table_sampler
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
-   use spring_block, only: index_of_ln_v, index_of_theta, index_of_u, spring_block_type
    implicit none (type, external)
    !> Samples of each case, and the tolerance of all.
    integer, parameter :: samples = 200

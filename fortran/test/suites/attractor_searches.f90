@@ -7,8 +7,8 @@ module attractor_searches
    use dde_kinds, only: wp
    use expectations, only: expect_success
    use mctc_env_testing, only: error_type
+   use model_problem, only: model_type
    use solving, only: at_tolerance
-   use spring_block, only: spring_block_type
    implicit none (type, external)
    private
    public :: coarse_settings, disturbed_block, fine_settings, search
@@ -42,21 +42,21 @@ contains
    end function coarse_settings
 
    !> A block that starts near steady sliding, gamma = 0.8.
-   type(spring_block_type) function disturbed_block(tau, epsilon, xi) result(block)
+   type(model_type) function disturbed_block(tau, epsilon, xi) result(block)
       real(wp), intent(in) :: tau, epsilon, xi
 
       block = build_block(tau=tau, epsilon=epsilon, xi=xi, gamma=0.8_wp, v=1.1_wp)
    end function disturbed_block
 
-   !> The attractor of a block, at the tolerance 1e-8.
-   subroutine search(block, settings, found, error)
-      type(spring_block_type), intent(in) :: block
+   !> The attractor of a model, at the tolerance 1e-8.
+   subroutine search(model, settings, found, error)
+      class(model_type), intent(in) :: model
       type(attractor_settings_type), intent(in) :: settings
       type(attractor_type), intent(out) :: found
       type(error_type), allocatable, intent(inout) :: error
       type(failure_type), allocatable :: failure
 
-      call find_attractor(block, settings, at_tolerance(1.0e-8_wp, "auto"), found, failure)
+      call find_attractor(model, settings, at_tolerance(1.0e-8_wp, "auto"), found, failure)
       call expect_success(error, failure)
    end subroutine search
 end module attractor_searches

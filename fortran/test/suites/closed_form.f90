@@ -3,7 +3,6 @@
 !>
 !>     1 + epsilon = sqrt((1 + omega^2)(1 + B^2)),   omega tau = atan B - atan omega + 2 pi k.
 module closed_form
-   use block_parameters, only: block_parameters_type
    use dde_kinds, only: wp
    implicit none (type, external)
    private
@@ -14,13 +13,13 @@ module closed_form
 contains
 
    !> Parameters of a block with the pair i omega on branch k.
-   elemental type(block_parameters_type) function block_with_pair(omega, xi, gamma, k) result(p)
+   pure function block_with_pair(omega, xi, gamma, k) result(numbers)
       !> Frequency of the pair > 0, spring constant, frequency of the block
       real(wp), intent(in) :: omega, xi, gamma
       integer, intent(in) :: k
+      real(wp) :: numbers(4)
 
-      p = block_parameters_type(tau=closed_tau(omega, xi, gamma, k), xi=xi, gamma=gamma, &
-                                epsilon=closed_epsilon(omega, xi, gamma))
+      numbers = [closed_tau(omega, xi, gamma, k), closed_epsilon(omega, xi, gamma), xi, gamma]
    end function block_with_pair
 
    !> epsilon of the pair i omega.

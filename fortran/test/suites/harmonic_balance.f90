@@ -1,13 +1,13 @@
 !> Cycles of the block as trigonometric polynomials, by collocation: for a given amplitude of the
 !> first harmonic of ln v, the epsilon and the frequency that it needs.
 module harmonic_balance
-   use block_parameters, only: block_history_type, block_parameters_type
+   use block_builder, only: by_epsilon, by_tau, index_of_ln_v
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
    use expectations, only: expect, expect_success
    use lapack, only: solve
    use mctc_env_testing, only: error_type
-   use spring_block, only: index_of_ln_v, spring_block_type
+   use model_problem, only: model_type
    implicit none (type, external)
    private
    public :: find_cycle
@@ -25,9 +25,9 @@ module harmonic_balance
 contains
 
    !> Newton's method from the linear oscillation.
-   subroutine find_cycle(parameters, omega, q, amplitude, epsilon, frequency, error)
-      !> Parameters; epsilon is the first guess
-      type(block_parameters_type), intent(in) :: parameters
+   subroutine find_cycle(block, omega, q, amplitude, epsilon, frequency, error)
+      !> The block, which keeps delays of 0; its epsilon is the first guess
+      class(model_type), intent(in) :: block
       !> First guess of the frequency
       real(wp), intent(in) :: omega
       !> Eigenvector
@@ -54,15 +54,15 @@ contains
             coefficients(place(j, cosine)) = real(scaled(j))
             coefficients(place(j, sine)) = -aimag(scaled(j))
          end do
-         coefficients(place(index_of_ln_v, cosine)) = parameters%epsilon
+         coefficients(place(index_of_ln_v, cosine)) = block%numbers(by_epsilon)
          coefficients(place(index_of_ln_v, sine)) = omega
       end associate
       do iteration = 1, 12
-         base = residual(parameters, amplitude, x(:, 0))
+         base = residual(block, amplitude, x(:, 0))
          do j = 1, unknowns
             x(:, 1) = x(:, 0)
             x(j, 1) = x(j, 1) + step
-            matrix(:, j) = (residual(parameters, amplitude, x(:, 1)) - base)/step
+            matrix(:, j) = (residual(block, amplitude, x(:, 1)) - base)/step
          end do
          call solve(matrix, reshape(cmplx(base, kind=wp), [unknowns, 1]), answer, failure)
          call expect_success(error, failure)
@@ -76,25 +76,25 @@ contains
    end subroutine find_cycle
 
    !> frequency x'(t) less the right-hand side at all points of a period.
-   function residual(parameters, amplitude, x) result(value)
-      type(block_parameters_type), intent(in) :: parameters
+   function residual(block, amplitude, x) result(value)
+      class(model_type), intent(in) :: block
       real(wp), intent(in) :: amplitude, x(unknowns)
       real(wp) :: value(unknowns)
-      type(block_parameters_type) :: there
-      type(spring_block_type) :: block
-      real(wp) :: coefficients(points, 3), frequency, slope(3), t
+      class(model_type), allocatable :: there
+      real(wp) :: coefficients(points, 3), frequency, numbers(4), slope(3), t
       integer :: i
 
       coefficients = reshape(x, [points, 3])
-      there = parameters
-      there%epsilon = coefficients(cosine, index_of_ln_v)
+      numbers = block%numbers
+      numbers(by_epsilon) = coefficients(cosine, index_of_ln_v)
+      allocate (there, source=block)
+      call there%put(numbers)
       frequency = x(place(index_of_ln_v, sine))
       coefficients(cosine:sine, index_of_ln_v) = [amplitude, 0.0_wp]
-      block = spring_block_type(there, block_history_type())
       do i = 1, points
          t = two_pi*i/points
-         call block%rhs(0.0_wp, matmul(functions(t), coefficients), &
-                        matmul(functions(t - frequency*there%tau), &
+         call there%rhs(0.0_wp, matmul(functions(t), coefficients), &
+                        matmul(functions(t - frequency*numbers(by_tau)), &
                                coefficients(:, index_of_ln_v:index_of_ln_v)), slope)
          value(3*i - 2:3*i) = frequency*matmul(slopes(t), coefficients) - slope
       end do

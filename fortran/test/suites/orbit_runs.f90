@@ -1,6 +1,6 @@
 !> Periodic orbits and branches for tests: made up, corrected, or reached by a trajectory.
 module orbit_runs
-   use block_family, only: block_family_type, vector_of
+   use block_builder, only: index_of_ln_v
    use branch_ends, only: follow_settings_type
    use collocation_basis, only: collocation_basis_type, gauss_points
    use dde, only: continuation_type, dde_problem_type, event_table, integrate, integration_result
@@ -9,6 +9,9 @@ module orbit_runs
    use expectations, only: expect_success
    use floquet_multipliers, only: find_multipliers, multipliers_type
    use mctc_env_testing, only: error_type
+   use model_family, only: fixed_model
+   use model_modes, only: mode_of
+   use model_problem, only: model_type
    use orbit_branch, only: branch_type, follow_branch
    use orbit_change, only: orbit_change_type
    use orbit_equations, only: correct_orbit, newton_type
@@ -16,14 +19,12 @@ module orbit_runs
    use orbit_points, only: find_special_points
    use orbit_start, only: orbit_at_hopf_point, orbit_of_trajectory
    use periodic_orbit, only: periodic_orbit_type
-   use problem_family, only: free_family_type, problem_family_type
    use solving, only: at_tolerance, run
    use special_points, only: special_point_type
-   use spring_block, only: index_of_ln_v, spring_block_type
    implicit none (type, external)
    private
-   public :: advance, branch_from, branch_from_hopf, correct, cycle_of_block, fix_parameters, &
-             new_orbit, orbit_of_block
+   public :: advance, branch_from, branch_from_hopf, correct, cycle_of_block, new_orbit, &
+             orbit_of_block
 
 contains
 
@@ -39,16 +40,10 @@ contains
       orbit%parameters = parameters
    end function new_orbit
 
-   !> Problems without a free parameter.
-   type(free_family_type) function fix_parameters(problems) result(family)
-      class(problem_family_type), intent(in) :: problems
-
-      family = free_family_type(problems, [integer ::], [real(wp) ::])
-   end function fix_parameters
-
    !> Correct an orbit at fixed parameters.
-   subroutine correct(problems, orbit, newton, failure)
-      class(problem_family_type), intent(in) :: problems
+   subroutine correct(model, orbit, newton, failure)
+      !> The model, which keeps delays of 0
+      class(model_type), intent(in) :: model
       type(periodic_orbit_type), intent(inout) :: orbit
       type(newton_type), intent(inout) :: newton
       type(failure_type), allocatable, intent(out) :: failure
@@ -56,7 +51,7 @@ contains
       type(periodic_orbit_type) :: reference
 
       reference = orbit
-      call correct_orbit(fix_parameters(problems), reference, no_direction, [real(wp) ::], orbit, &
+      call correct_orbit(fixed_model(model), reference, no_direction, [real(wp) ::], orbit, &
                          newton, failure)
    end subroutine correct
 
@@ -88,7 +83,7 @@ contains
 
    !> The orbit of a block that a trajectory has reached, before its correction.
    subroutine orbit_of_block(block, t_end, degree, points, intervals, orbit, error)
-      type(spring_block_type), intent(in) :: block
+      type(model_type), intent(in) :: block
       real(wp), intent(in) :: t_end
       integer, intent(in) :: degree, points, intervals
       type(periodic_orbit_type), intent(out) :: orbit
@@ -104,12 +99,12 @@ contains
                                100.0_wp, collocation_basis_type(degree, points), intervals, orbit, &
                                failure)
       call expect_success(error, failure)
-      orbit%parameters = vector_of(block%parameters)
+      orbit%parameters = block%numbers
    end subroutine orbit_of_block
 
    !> The orbit of a block that a trajectory has reached, corrected, with its multipliers.
    subroutine cycle_of_block(block, t_end, degree, points, intervals, orbit, multipliers, error)
-      type(spring_block_type), intent(in) :: block
+      type(model_type), intent(in) :: block
       real(wp), intent(in) :: t_end
       integer, intent(in) :: degree, points, intervals
       type(periodic_orbit_type), intent(out) :: orbit
@@ -122,12 +117,12 @@ contains
       call orbit_of_block(block, t_end, degree, points, intervals, orbit, error)
       do i = 1, 2
          if (allocated(error)) return
-         call correct(block_family_type(), orbit, newton, failure)
+         call correct(mode_of(block, 1), orbit, newton, failure)
          call expect_success(error, failure)
          if (i == 1) orbit = orbit%on_mesh(adapted_mesh(orbit, intervals))
       end do
       if (allocated(error)) return
-      call find_multipliers(fix_parameters(block_family_type()), orbit, 6, multipliers, failure)
+      call find_multipliers(fixed_model(mode_of(block, 1)), orbit, 6, multipliers, failure)
       call expect_success(error, failure)
    end subroutine cycle_of_block
 
@@ -151,10 +146,9 @@ contains
    end subroutine branch_from
 
    !> The branch from a Hopf point.
-   subroutine branch_from_hopf(settings, parameters, state, omega, amplitude, branch, special, &
-                               error)
+   subroutine branch_from_hopf(settings, parameters, omega, amplitude, branch, special, error)
       type(follow_settings_type), intent(in) :: settings
-      real(wp), intent(in) :: parameters(:), state(:), omega, amplitude
+      real(wp), intent(in) :: parameters(:), omega, amplitude
       type(branch_type), intent(out) :: branch
       type(special_point_type), allocatable, intent(out) :: special(:)
       type(error_type), allocatable, intent(inout) :: error
@@ -162,7 +156,7 @@ contains
       type(orbit_change_type) :: tangent
       type(periodic_orbit_type) :: orbit
 
-      call orbit_at_hopf_point(settings%family, parameters, state, omega, amplitude, &
+      call orbit_at_hopf_point(settings%family, parameters, omega, amplitude, &
                                collocation_basis_type(5, gauss_points), 20, orbit, tangent, failure)
       call expect_success(error, failure)
       call branch_from(orbit, settings, 1, branch, special, error, tangent)

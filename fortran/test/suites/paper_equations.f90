@@ -1,7 +1,7 @@
 !> The paper's own equations for its law, corrected where docs/method.md, "What was corrected", says
 !> so: (5), and (7) to (10) on the Hopf set. The tests compare what was made from (4) with them.
 module paper_equations
-   use block_parameters, only: block_parameters_type
+   use block_builder, only: by_epsilon, by_gamma, by_tau, by_xi
    use dde_kinds, only: wp
    implicit none (type, external)
    private
@@ -14,27 +14,29 @@ contains
    !> The five terms of Delta(s).
    pure function terms(p, s) result(term)
       !> Parameters
-      type(block_parameters_type), intent(in) :: p
+      real(wp), intent(in) :: p(:)
       !> Point of the complex plane
       complex(wp), intent(in) :: s
       complex(wp) :: term(5)
 
-      term = [s**3, s**2*(1.0_wp + p%gamma**2/p%xi), s*p%gamma**2*(1.0_wp + 1.0_wp/p%xi), &
-              cmplx(p%gamma**2, kind=wp), delayed_term(p, s)]
+      associate (gamma => p(by_gamma), xi => p(by_xi))
+         term = [s**3, s**2*(1.0_wp + gamma**2/xi), s*gamma**2*(1.0_wp + 1.0_wp/xi), &
+                 cmplx(gamma**2, kind=wp), delayed_term(p, s)]
+      end associate
    end function terms
 
    !> The delayed term -s (1 + epsilon) (gamma^2/xi) exp(-s tau).
    pure complex(wp) function delayed_term(p, s) result(value)
-      type(block_parameters_type), intent(in) :: p
+      real(wp), intent(in) :: p(:)
       complex(wp), intent(in) :: s
 
-      value = -s*(1.0_wp + p%epsilon)*(p%gamma**2/p%xi)*exp(-s*p%tau)
+      value = -s*(1.0_wp + p(by_epsilon))*(p(by_gamma)**2/p(by_xi))*exp(-s*p(by_tau))
    end function delayed_term
 
    !> Delta(s).
    pure complex(wp) function delta(p, s) result(value)
       !> Parameters
-      type(block_parameters_type), intent(in) :: p
+      real(wp), intent(in) :: p(:)
       !> Point of the complex plane
       complex(wp), intent(in) :: s
 
@@ -44,7 +46,7 @@ contains
    !> |Delta(s)| over its largest term: how well s is a characteristic root.
    pure real(wp) function relative_residual(p, s) result(value)
       !> Parameters
-      type(block_parameters_type), intent(in) :: p
+      real(wp), intent(in) :: p(:)
       !> Point of the complex plane
       complex(wp), intent(in) :: s
 

@@ -4,12 +4,13 @@ module test_attractor_points
    use attractor_points, only: find_attractors, finding_type, point_type, sweep_attractors
    use attractor_searches, only: coarse_settings
    use attractors, only: attractor_settings_type
-   use block_parameters, only: block_history_type, block_parameters_type
+   use block_builder, only: build_block
    use dde, only: integration_options
    use dde_errors, only: text
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use model_problem, only: model_type
    use motion_classes, only: cycle_motion, fixed_point, undecided
    use progress_recorder, only: recorder
    use solving, only: at_tolerance
@@ -30,6 +31,11 @@ contains
                    new_unittest("sweep after a failed point", test_failed_point)]
    end subroutine collect_attractor_points
 
+   !> The block; points have parameters of their own.
+   type(model_type) function block() result(model)
+      model = build_block(0.0_wp, 0.5_wp, 0.8_wp, 0.8_wp)
+   end function block
+
    !> How attractors are found here.
    pure type(attractor_settings_type) function quickly() result(settings)
       settings = coarse_settings(200.0_wp)
@@ -49,9 +55,10 @@ contains
       integer :: i, j
 
       points = [((near_sliding(0.0_wp, 0.1_wp*i, 0.5_wp + 0.02_wp*j), i=1, columns), j=1, lines)]
-      call find_attractors(points, quickly(), at_tolerance(1.0e-6_wp, "auto"), all_computed)
-      call find_attractors(points, quickly(), at_tolerance(1.0e-6_wp, "auto"), findings, progress, &
-                           columns, 1)
+      call find_attractors(block(), points, quickly(), at_tolerance(1.0e-6_wp, "auto"), &
+                           all_computed)
+      call find_attractors(block(), points, quickly(), at_tolerance(1.0e-6_wp, "auto"), findings, &
+                           progress, columns, 1)
       call expect(error, all(all_computed%computed) .and. .not. all(findings%computed), &
                   "some points are not computed")
       call expect(error, all(findings%attractor%class == all_computed%attractor%class), &
@@ -89,14 +96,11 @@ contains
       type(finding_type), allocatable :: alone(:), findings(:)
       type(point_type) :: points(3)
 
-      points%parameters = block_parameters_type(tau=10.0_wp, epsilon=0.5_wp, xi=0.8_wp, &
-                                                gamma=0.8_wp)
-      points(1)%parameters%tau = 0.0_wp
-      points(1)%parameters%epsilon = 0.3_wp
-      points(2)%history%v = 1.0e-300_wp
-      points(3)%history%v = 1.5_wp
-      call find_attractors(points, quickly(), at_tolerance(1.0e-6_wp, "auto"), findings)
-      call find_attractors(points(3:), quickly(), at_tolerance(1.0e-6_wp, "auto"), alone)
+      points = [near_sliding(0.0_wp, 0.3_wp, 0.8_wp, 1.0_wp), &
+                near_sliding(10.0_wp, 0.5_wp, 0.8_wp, 1.0e-300_wp), &
+                near_sliding(10.0_wp, 0.5_wp, 0.8_wp, 1.5_wp)]
+      call find_attractors(block(), points, quickly(), at_tolerance(1.0e-6_wp, "auto"), findings)
+      call find_attractors(block(), points(3:), quickly(), at_tolerance(1.0e-6_wp, "auto"), alone)
       call expect_success(error, findings(1)%problem)
       call expect_failure(error, findings(2)%problem, "stopped at t = ")
       call expect_success(error, findings(3)%problem)
@@ -107,11 +111,14 @@ contains
    end subroutine test_problem
 
    !> A point that starts near steady sliding, gamma = 0.8.
-   elemental type(point_type) function near_sliding(tau, epsilon, xi) result(point)
+   elemental type(point_type) function near_sliding(tau, epsilon, xi, v) result(point)
       real(wp), intent(in) :: tau, epsilon, xi
+      !> 1.1 unless given
+      real(wp), intent(in), optional :: v
 
-      point = point_type(block_parameters_type(tau=tau, epsilon=epsilon, xi=xi, gamma=0.8_wp), &
-                         block_history_type(v=1.1_wp))
+      point%numbers = [tau, epsilon, xi, 0.8_wp]
+      point%past = [0.0_wp, 0.0_wp, log(1.1_wp)]
+      if (present(v)) point%past(3) = log(v)
    end function near_sliding
 
    !> Largest maximum of v at each point.
@@ -124,7 +131,7 @@ contains
       integer :: i
 
       largest = 0.0_wp
-      call sweep_attractors(points, settings, at_tolerance(1.0e-7_wp, "auto"), findings)
+      call sweep_attractors(block(), points, settings, at_tolerance(1.0e-7_wp, "auto"), findings)
       do i = 1, size(points)
          call expect_success(error, findings(i)%problem)
          if (allocated(error)) return
@@ -159,8 +166,8 @@ contains
       points = near_sliding([9.5_wp, 10.0_wp, 11.0_wp], 0.5_wp, 0.8_wp)
       call largest_maxima(error, points, coarse_settings(1500.0_wp), up)
       call largest_maxima(error, points(3:1:-1), coarse_settings(1500.0_wp), down)
-      call find_attractors(points, coarse_settings(1500.0_wp), at_tolerance(1.0e-7_wp, "auto"), &
-                           alone)
+      call find_attractors(block(), points, coarse_settings(1500.0_wp), &
+                           at_tolerance(1.0e-7_wp, "auto"), alone)
       do i = 1, 3
          call expect_success(error, alone(i)%problem)
          if (allocated(error)) return
@@ -178,8 +185,8 @@ contains
       integer :: i
 
       points = near_sliding([0.0_wp, 2.0_wp, 0.0_wp], 0.5_wp, 0.8_wp)
-      call sweep_attractors(points, coarse_settings(1000.0_wp), at_tolerance(1.0e-7_wp, "auto"), &
-                            findings)
+      call sweep_attractors(block(), points, coarse_settings(1000.0_wp), &
+                            at_tolerance(1.0e-7_wp, "auto"), findings)
       do i = 1, 3
          call expect_success(error, findings(i)%problem)
       end do
@@ -201,7 +208,7 @@ contains
       options = at_tolerance(1.0e-7_wp, "explicit")
       options%most_steps = 20000
       points = near_sliding([10.0_wp, 1.0e-3_wp, 10.0_wp], 0.5_wp, 0.8_wp)
-      call sweep_attractors(points, coarse_settings(1500.0_wp), options, findings)
+      call sweep_attractors(block(), points, coarse_settings(1500.0_wp), options, findings)
       call expect_success(error, findings(1)%problem)
       call expect_failure(error, findings(2)%problem, "20000 steps (most_steps) were used up")
       call expect_success(error, findings(3)%problem)

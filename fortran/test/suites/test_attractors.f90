@@ -10,11 +10,12 @@ module test_attractors
    use dde_kinds, only: wp
    use lyapunov_spectrum, only: growth_type
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use model_library, only: open_model
+   use model_problem, only: model_type
    use motion_classes, only: chaos, class_names, cycle_motion, fixed_point, none, three_torus, &
                              torus, undecided
    use observed_motion, only: observed_motion_type
    use solving, only: at_tolerance, run
-   use spring_block, only: spring_block_type
    implicit none (type, external)
    private
    public :: collect_attractors
@@ -34,19 +35,20 @@ contains
                    new_unittest("tori after another motion", test_late_tori), &
                    new_unittest("unstable steady sliding", test_unstable), &
                    new_unittest("too few samples", test_few_samples), &
+                   new_unittest("models of one state", test_one_state), &
                    new_unittest("maxima of a stuck block", test_stuck)]
    end subroutine collect_attractors
 
-   !> The attractor of a block and its four classes.
-   subroutine find(block, settings, class, found, error)
-      type(spring_block_type), intent(in) :: block
+   !> The attractor of a model and its four classes.
+   subroutine find(model, settings, class, found, error)
+      class(model_type), intent(in) :: model
       type(attractor_settings_type), intent(in) :: settings
       !> Its class, that none of its indicators contradicts
       integer, intent(in) :: class
       type(attractor_type), intent(out) :: found
       type(error_type), allocatable, intent(inout) :: error
 
-      call search(block, settings, found, error)
+      call search(model, settings, found, error)
       if (allocated(error)) return
       associate (classes => [found%class, found%by_exponents, found%by_section, found%by_spectrum])
          call expect(error, all(classes(:2) == class) .and. &
@@ -154,8 +156,7 @@ contains
       type(growth_type) :: measured
 
       settings = after(0.0_wp, 500.0_wp)
-      found%motion%sample_interval = settings%sample_interval
-      call found%motion%clear()
+      call found%motion%begin(disturbed(7.0_wp, 0.7_wp, 0.5_wp), settings%sample_interval)
       call found%motion%observe(disturbed(7.0_wp, 0.7_wp, 0.5_wp), settings%t_observed, &
                                 at_tolerance(1.0e-8_wp, "auto"), failure)
       call expect_success(error, failure)
@@ -278,7 +279,7 @@ contains
 
    !> A torus that is certain late, but not later than a given time.
    subroutine find_late_torus(block, latest, error)
-      type(spring_block_type), intent(in) :: block
+      type(model_type), intent(in) :: block
       real(wp), intent(in) :: latest
       type(error_type), allocatable, intent(inout) :: error
       type(attractor_settings_type) :: settings
@@ -311,6 +312,46 @@ contains
       call expect(error, found%class == undecided, "undecided")
    end subroutine test_few_samples
 
+   !> A model without coordinates of its section, which is met where the state rises through rest.
+   !> The exponents at rest are the real parts of the roots of s + exp(-s) = 0. The points of the
+   !> section of the cycle that follows the Hopf point of Mackey and Glass's equation are the time
+   !> since the passage before and the greatest value since.
+   subroutine test_one_state(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(attractor_settings_type) :: settings
+      type(attractor_type) :: found
+      type(failure_type), allocatable :: failure
+      type(model_type) :: model
+      integer :: n
+
+      call open_model("made_decay", model, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call model%set([1.0_wp, 1.0_wp, 0.0_wp], [0.5_wp])
+      call find(model, after(100.0_wp, 100.0_wp), fixed_point, found, error)
+      if (allocated(error)) return
+      call expect_close(error, found%exponents%value, &
+                        [-0.3181315052047642_wp, -0.3181315052047642_wp, &
+                         -2.0622777295982839_wp, -2.0622777295982839_wp], 1.0e-12_wp, "exponents")
+      call open_model("made_mackey_glass", model, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call model%set([6.0_wp], [1.2_wp])
+      settings = after(1000.0_wp, 1000.0_wp)
+      settings%t_path = 50.0_wp
+      call find(model, settings, cycle_motion, found, error)
+      if (allocated(error)) return
+      call expect(error, found%period == 1, "period 1")
+      if (allocated(error)) return
+      n = size(found%motion%section_time)
+      call expect_close(error, found%motion%section(:, n), &
+                        [1.0_wp/found%bases(1), found%motion%maxima(size(found%motion%maxima))], &
+                        1.0e-6_wp, "the last point of the section")
+      call expect(error, allocated(found%path), "a path")
+      if (allocated(error)) return
+      call expect_close(error, found%path(2, :), found%path(3, :), 0.0_wp, "state and signal")
+   end subroutine test_one_state
+
    !> A loose tolerance makes no maxima while v of a stuck block is 1e-6 and less. All maxima of
    !> these cycles are larger than 0.04 at the tolerance 1e-10.
    subroutine test_stuck(error)
@@ -321,7 +362,7 @@ contains
       type(observed_motion_type) :: motion(5)
       real(wp), parameter :: epsilons(5) = [1.5_wp, 1.0_wp, 1.25_wp, 1.16_wp, 1.4_wp]
       real(wp), parameter :: delays(5) = [9.3_wp, 13.3_wp, 14.7_wp, 18.7_wp, 18.7_wp]
-      type(spring_block_type) :: stuck
+      type(model_type) :: stuck
       integer :: i
 
       options = at_tolerance(1.0e-6_wp, "auto")
@@ -330,8 +371,7 @@ contains
          call run(error, stuck, 0.0_wp, 1000.0_wp, options, outcome, &
                   continuation=motion(i)%continuation)
          if (allocated(error)) return
-         motion(i)%sample_interval = 0.1_wp
-         call motion(i)%clear()
+         call motion(i)%begin(stuck, 0.1_wp)
          call motion(i)%observe(stuck, 1000.0_wp, options, failure)
          call expect_success(error, failure)
          if (allocated(error)) return

@@ -10,9 +10,8 @@ module test_block_runs
    use dde_tolerance, only: tolerance_type
    use expectations, only: expect, expect_between, expect_close
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use plain_blocks, only: plain_block
+   use model_problem, only: model_type
    use solving, only: at_tolerance, run
-   use spring_block, only: spring_block_type
    implicit none (type, external)
    private
    public :: collect_block_runs
@@ -22,6 +21,12 @@ module test_block_runs
 
    !> Methods under test.
    character(len=8), parameter :: methods(4) = ["radau5  ", "radau9  ", "radau13 ", "auto    "]
+
+   !> A block whose w has no known rate of relaxation.
+   type, extends(model_type) :: plain_block
+   contains
+      procedure :: relaxation_rate => no_rate
+   end type plain_block
 
 contains
 
@@ -42,6 +47,15 @@ contains
                    new_unittest("auto at gamma 1e12", test_first_steps), &
                    new_unittest("auto at tight tolerances", test_tight)]
    end subroutine collect_block_runs
+
+   !> No rate is known.
+   pure function no_rate(self, t, y) result(rate)
+      class(plain_block), intent(in) :: self
+      real(wp), intent(in) :: t, y(self%n)
+      real(wp) :: rate
+
+      rate = 0.0_wp
+   end function no_rate
 
    !> The error at t = 100 stays below 100 times the tolerance, and falls with it.
    subroutine test_proportional(error)
@@ -70,7 +84,7 @@ contains
    end subroutine test_not_finite
 
    !> The torus of the paper.
-   type(spring_block_type) function torus() result(problem)
+   type(model_type) function torus() result(problem)
       problem = build_block(tau=10.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp, v=1.5_wp)
    end function torus
 
@@ -79,7 +93,7 @@ contains
    subroutine test_blocks(error)
       type(error_type), allocatable, intent(out) :: error
       type(integration_result) :: known, outcome
-      type(spring_block_type) :: problem
+      type(model_type) :: problem
       real(wp), parameter :: gamma(4) = [1.0e4_wp, 1.0e6_wp, 1.0e9_wp, 1.0e12_wp]
       integer :: delays, i, j, k
 
@@ -108,7 +122,7 @@ contains
    subroutine test_stick(error)
       type(error_type), allocatable, intent(out) :: error
       type(integration_result) :: known, outcome
-      type(spring_block_type) :: problem
+      type(model_type) :: problem
       integer :: i, j
 
       problem = build_block(tau=0.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp, u=50.0_wp, &
@@ -133,7 +147,7 @@ contains
       type(plain_block) :: problem
       integer :: i
 
-      problem%spring_block_type = build_block(tau=1.0_wp, epsilon=0.7_wp, xi=0.5_wp, &
+      problem%model_type = build_block(tau=1.0_wp, epsilon=0.7_wp, xi=0.5_wp, &
                                               gamma=1.0e4_wp, v=1.1_wp)
       options = at_tolerance(1.0e-6_wp, "taylor")
       options%most_steps = 10000
@@ -182,7 +196,7 @@ contains
    subroutine test_fall(error)
       type(error_type), allocatable, intent(out) :: error
       type(integration_result) :: outcome
-      type(spring_block_type) :: block_model
+      type(model_type) :: block_model
       real(wp), parameter :: tolerance(3) = [1.0e-4_wp, 1.0e-6_wp, 1.0e-9_wp]
       integer :: i, j
 
@@ -208,7 +222,7 @@ contains
    subroutine test_conserved(error)
       type(error_type), allocatable, intent(out) :: error
       type(integration_result) :: outcome
-      type(spring_block_type) :: block_model
+      type(model_type) :: block_model
       real(wp), parameter :: xi = 0.5_wp, w0 = 1.2_wp, tolerance = 1.0e-12_wp
       integer, parameter :: powers(10) = [6, 3, 4, 5, 7, 8, 9, 10, 16, 24]
       real(wp) :: drift, times_square
@@ -249,7 +263,7 @@ contains
       type(continuation_type) :: continuation
       type(event_table) :: table
       type(integration_result) :: outcome, whole
-      type(spring_block_type) :: problem
+      type(model_type) :: problem
       real(wp), parameter :: t_end = 40.0_wp
       integer :: i, runs
 
@@ -278,7 +292,7 @@ contains
       type(integration_result) :: auto, radau
       real(wp), parameter :: v(3) = [0.7_wp, 1.1_wp, 1.5_wp], xi(3) = [0.3_wp, 0.5_wp, 0.8_wp]
       real(wp), parameter :: tolerances(3) = [1.0e-3_wp, 1.0e-4_wp, 3.0e-5_wp]
-      type(spring_block_type) :: block_model
+      type(model_type) :: block_model
       integer :: i, j, k
 
       do i = 1, size(xi)
@@ -304,7 +318,7 @@ contains
       type(integration_result) :: auto, radau
       real(wp), parameter :: tau(2) = [1.0_wp, 7.0_wp]
       real(wp), parameter :: tolerances(3) = [3.0e-13_wp, 1.0e-13_wp, 1.0e-14_wp]
-      type(spring_block_type) :: block_model
+      type(model_type) :: block_model
       real(wp) :: price
       integer :: i, j, power
 

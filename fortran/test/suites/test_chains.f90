@@ -1,22 +1,21 @@
 !> Chains of blocks: their modes are blocks with other parameters, and so are disturbances of blocks
 !> that move alike.
 module test_chains
-   use block_parameters, only: block_history_type, block_parameters_type, with_vector
-   use chain, only: blocks_in_order, chain_ends, find_neighbours, mode_eigenvalue
+   use block_builder, only: block_at, build_block, paper_law
    use dde_kinds, only: wp
    use expectations, only: expect_close
    use mctc_env_testing, only: check, error_type, new_unittest, unittest_type
+   use model_chain, only: blocks_in_order, chain_ends, find_neighbours, mode_eigenvalue
+   use model_problem, only: model_type
    use pseudo_random, only: uniform
-   use spring_block, only: spring_block_type, transverse_block
+   use transverse_growth, only: of_mode
    implicit none (type, external)
    private
    public :: collect_chains
 
    integer, parameter :: lengths(5) = [2, 3, 4, 7, 10]
    real(wp), parameter :: pi = acos(-1.0_wp)
-   type(block_parameters_type), parameter :: place = &
-      block_parameters_type(tau=7.0_wp, epsilon=0.7_wp, xi=0.5_wp, gamma=0.8_wp)
-   type(block_history_type), parameter :: moving = block_history_type(0.2_wp, -0.3_wp, 1.7_wp)
+   real(wp), parameter :: kappa = 1.3_wp
 
 contains
 
@@ -28,6 +27,16 @@ contains
                    new_unittest("linear part of modes", test_linear_part), &
                    new_unittest("disturbances of blocks that move alike", test_disturbances)]
    end subroutine collect_chains
+
+   !> A chain in motion.
+   type(model_type) function chain(blocks, ends, kappa) result(model)
+      integer, intent(in) :: blocks
+      character(len=*), intent(in) :: ends
+      real(wp), intent(in) :: kappa
+
+      model = build_block(7.0_wp, 0.7_wp, 0.5_wp, 0.8_wp, 0.2_wp, -0.3_wp, 1.7_wp, &
+                          "chain_"//paper_law, [kappa], blocks, ends)
+   end function chain
 
    !> Each block once, and neighbours near each other.
    subroutine test_order(error)
@@ -108,8 +117,7 @@ contains
    !> Each mode of the linear equations about rest is one block at gamma sqrt(s) and xi s.
    subroutine test_linear_part(error)
       type(error_type), allocatable, intent(out) :: error
-      type(block_parameters_type) :: parameters, stiffer
-      type(spring_block_type) :: blocks, one
+      type(model_type) :: blocks, one
       real(wp), allocatable :: band(:, :), dy(:), rows(:, :), z(:)
       real(wp) :: by_y(3, 3), by_z(3, 1), d(3), s
       integer :: first, i, j, k, last, m, n
@@ -117,19 +125,13 @@ contains
       do k = 1, size(chain_ends)
          do i = 2, size(lengths)
             n = lengths(i)
-            parameters = place
-            parameters%blocks = n
-            parameters%kappa = 1.3_wp
-            parameters%ends = chain_ends(k)
-            blocks = spring_block_type(parameters, block_history_type())
+            blocks = chain(n, chain_ends(k), kappa)
             allocate (band(1 + blocks%lower + blocks%upper, 3*n), rows(3, n), dy(3*n))
             z = [(0.0_wp, j=1, n)]
             call blocks%jacobian(0.0_wp, [(0.0_wp, j=1, 3*n)], z, band, rows)
             do m = merge(1, 0, chain_ends(k) == "plate"), n - 1
-               s = 1.0_wp + parameters%kappa*mode_eigenvalue(m, n, chain_ends(k))
-               stiffer = with_vector(place, [place%tau, place%epsilon, place%xi*s, &
-                                             place%gamma*sqrt(s)])
-               one = spring_block_type(stiffer, block_history_type())
+               s = 1.0_wp + kappa*mode_eigenvalue(m, n, chain_ends(k))
+               one = block_at([7.0_wp, 0.7_wp, 0.5_wp*s, 0.8_wp*sqrt(s)])
                call one%jacobian(0.0_wp, [0.0_wp, 0.0_wp, 0.0_wp], [0.0_wp], by_y, by_z)
                d = uniform(m + 1, 3, -1.0_wp, 1.0_wp)
                associate (mode => mode_shape(m, n, chain_ends(k)))
@@ -155,8 +157,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       integer, parameter :: degree = 9
       character(len=4), parameter :: ends(2) = ["free", "ring"]
-      type(block_parameters_type) :: parameters
-      type(spring_block_type) :: blocks, one
+      type(model_type) :: blocks, one
       real(wp) :: y(0:degree, 3), z(0:degree, 1), dy(0:degree, 3, 1), dz(0:degree, 1, 1)
       real(wp), allocatable :: all_y(:, :), all_dy(:, :, :), all_dz(:, :, :)
       integer :: i, j, k, m, n
@@ -166,15 +167,11 @@ contains
       do k = 1, size(ends)
          do i = 2, size(lengths)
             n = lengths(i)
-            parameters = place
-            parameters%blocks = n
-            parameters%kappa = 1.3_wp
-            parameters%ends = ends(k)
-            blocks = spring_block_type(parameters, moving)
+            blocks = chain(n, ends(k), kappa)
             do m = 0, n - 1
                associate (mode => mode_shape(m, n, ends(k)))
-                  one = transverse_block(place, moving, &
-                                         parameters%kappa*mode_eigenvalue(m, n, ends(k)))
+                  one = of_mode(chain(1, "free", 1.0_wp), &
+                                1.0_wp + kappa*mode_eigenvalue(m, n, ends(k)))
                   call one%initial(y(0, :))
                   dy(0, :, 1) = uniform(m + 5, 3, -1.0_wp, 1.0_wp)
                   allocate (all_y(0:degree, 3*n), all_dy(0:degree, 3*n, 1), source=0.0_wp)

@@ -4,7 +4,6 @@ module test_exponents
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use block_builder, only: build_block
    use dde_errors, only: failure_type => error_type, text
-   use block_roots, only: roots_of_block
    use exponent_runs, only: solve => find_exponents
    use expectations, only: expect, expect_between, expect_close, expect_success
    use exponent_averages, only: average_growth, dimension_of, exponent_type, sign_of, unclear, &
@@ -12,10 +11,11 @@ module test_exponents
    use dde_kinds, only: wp
    use lyapunov_spectrum, only: growth_settings_type, growth_type
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use model_problem, only: model_type
+   use model_roots, only: find_rightmost
    use published_problems, only: mackey_glass
    use pseudo_random, only: uniform
    use solving, only: at_tolerance
-   use spring_block, only: spring_block_type
    use test_problems, only: linear, wille_baker
    implicit none (type, external)
    private
@@ -131,8 +131,8 @@ contains
       real(wp), parameter :: epsilon(size(tau)) = [0.3_wp, 0.3_wp, 0.1_wp]
       !> At the longest delay other roots lie close to the second pair.
       real(wp), parameter :: within(2) = [1.0e-6_wp, 5.0e-3_wp]
-      real(wp) :: bound, steps(size(gamma))
-      type(spring_block_type) :: block
+      real(wp) :: steps(size(gamma))
+      type(model_type) :: block
       integer :: i, j, k
 
       do j = 1, size(tau)
@@ -144,14 +144,9 @@ contains
                                             t_turning=380.0_wp, interval=1.0_wp, blocks=2), &
                        at_tolerance(1.0e-9_wp, "auto"), exponents, error, measured)
             if (allocated(error)) return
-            bound = -0.05_wp
-            do
-               call roots_of_block(block%parameters, bound, roots, failure)
-               call expect_success(error, failure)
-               if (allocated(error)) return
-               if (size(roots) >= 4) exit
-               bound = 1.5_wp*bound
-            end do
+            call find_rightmost(block, 4, roots, failure)
+            call expect_success(error, failure)
+            if (allocated(error)) return
             do k = 1, size(within)
                call expect_close(error, sum(exponents(2*k - 1:2*k)%value), &
                                  sum(roots(2*k - 1:2*k)%re), within(k), "pair "//text(k) &
@@ -210,7 +205,7 @@ contains
       type(error_type), allocatable, intent(inout) :: error
       type(exponent_type), allocatable :: across(:), all_directions(:)
       type(growth_settings_type) :: settings
-      type(spring_block_type) :: problem
+      type(model_type) :: problem
       integer :: i
 
       problem = build_block(tau=tau, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp, v=1.1_wp)

@@ -3,21 +3,22 @@
 module test_floquet_multipliers
    use block_builder, only: build_block
    use collocation_basis, only: gauss_points, radau_points
-   use cycle_families, only: delayed_sine, driven_growth, known_family
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close, expect_success
    use floquet_multipliers, only: find_multipliers, multipliers_type
+   use known_models, only: delayed_sine, driven_growth, known_model
    use lyapunov_spectrum, only: growth_settings_type, growth_type, measure_growth
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use model_family, only: fixed_model
+   use model_problem, only: model_type
    use orbit_equations, only: newton_type
-   use orbit_runs, only: correct, cycle_of_block, fix_parameters, new_orbit
+   use orbit_runs, only: correct, cycle_of_block, new_orbit
    use periodic_orbit, only: periodic_orbit_type
    use solving, only: at_tolerance
    use special_points, only: fold, special_point_type, torus_bifurcation
-   use spring_block, only: spring_block_type
    use torus_normal_form, only: find_torus_coefficient
-   use twin_waves, only: kappa, omega1, on_cycle, sigma, twin_waves_family
+   use twin_waves, only: kappa, omega1, on_cycle, sigma, twin_waves_type
    implicit none (type, external)
    private
    public :: collect_floquet_multipliers
@@ -40,11 +41,11 @@ contains
 
    !> Where the delay is k periods, x(t - k) = x(t)/mu^k: the multipliers solve mu = exp(a/mu^k),
    !> and exp(-2) is that of the circle. Both signs of a: a growing and an oscillating disturbance.
-   !> The equations that corrected the orbit give the same; no problem is made again for them.
+   !> The equations that corrected the orbit give the same; no model is made again for them.
    subroutine test_exact(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      type(known_family) :: family
+      type(known_model) :: model
       type(multipliers_type) :: again, found
       type(newton_type) :: newton
       type(periodic_orbit_type) :: orbit
@@ -54,26 +55,26 @@ contains
       complex(wp) :: mu
       integer :: i, j, k, others
 
-      family = known_family(equation=driven_growth)
       do k = 1, 2
          do i = 1, 2
             orbit = new_orbit(6, gauss_points, 20, 1.0_wp, [rates(i), 0.7_wp, real(k, wp)])
             times = orbit%node_times()
+            model = known_model(driven_growth, orbit%parameters)
             allocate (orbit%nodes(3, size(times)))
             orbit%nodes(1, :) = cos(2.0_wp*pi*times)
             orbit%nodes(2, :) = sin(2.0_wp*pi*times)
             orbit%nodes(3, :) = 0.0_wp
-            call correct(family, orbit, newton, failure)
+            call correct(model, orbit, newton, failure)
             call expect_success(error, failure)
-            call find_multipliers(fix_parameters(family), orbit, 6, found, failure)
+            call find_multipliers(fixed_model(model), orbit, 6, found, failure)
             call expect_success(error, failure)
             if (allocated(error)) return
-            family%made => made
+            model%made => made
             made = 0
-            call find_multipliers(fix_parameters(family), orbit, 6, again, failure, &
+            call find_multipliers(fixed_model(model), orbit, 6, again, failure, &
                                   linear=newton%linear)
             call expect_success(error, failure)
-            call expect(error, made == 0, text(made)//" problems are made again")
+            call expect(error, made == 0, text(made)//" models are made again")
             if (allocated(error)) return
             call expect_close(error, abs(again%values - found%values), &
                               spread(0.0_wp, 1, size(found%values)), 1.0e-8_wp, "known equations")
@@ -109,7 +110,7 @@ contains
    subroutine test_near_hopf(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      type(known_family) :: family
+      type(known_model) :: model
       type(multipliers_type) :: found
       type(newton_type) :: newton
       type(periodic_orbit_type) :: orbit
@@ -117,12 +118,12 @@ contains
       real(wp), parameter :: rho = 1.0e-8_wp
       integer :: i
 
-      family = known_family(equation=delayed_sine)
+      model = known_model(delayed_sine, [rho])
       orbit = new_orbit(6, gauss_points, 20, 2.0_wp*pi, [rho])
       orbit%nodes = reshape(sqrt(rho)*sin(2.0_wp*pi*orbit%node_times()), [1, 121])
-      call correct(family, orbit, newton, failure)
+      call correct(model, orbit, newton, failure)
       call expect_success(error, failure)
-      call find_multipliers(fix_parameters(family), orbit, 5, found, failure)
+      call find_multipliers(fixed_model(model), orbit, 5, found, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
       call expect_close(error, abs(found%values(1)), 1.0_wp, 1.0e-6_wp, "the pair on the axis")
@@ -144,7 +145,7 @@ contains
       type(growth_type) :: measured
       type(multipliers_type) :: multipliers
       type(periodic_orbit_type) :: orbit
-      type(spring_block_type) :: block
+      type(model_type) :: block
       real(wp) :: exponents(4)
 
       block = build_block(tau=10.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp, v=1.1_wp)
@@ -170,29 +171,30 @@ contains
       type(failure_type), allocatable :: failure
       type(newton_type) :: newton
       type(periodic_orbit_type) :: orbit
-      type(twin_waves_family) :: family
+      type(twin_waves_type) :: model
       real(wp), parameter :: p22(2) = [-2.5_wp, 1.5_wp], omega2(2) = [0.4_wp, 2.3_wp]
       real(wp) :: coefficient, disturbed(4), expected
       integer :: i, j, points
 
       do points = gauss_points, radau_points
-         family%delayed = points == gauss_points
+         model%delayed = points == gauss_points
          do i = 1, 2
             orbit = new_orbit(7, points, 32, turn/omega1, [p22(i), omega2(i)])
             associate (s => orbit%node_times())
                orbit%nodes = reshape([(on_cycle(turn*s(j)), j=1, size(s))], [4, size(s)])
             end associate
-            call correct(family, orbit, newton, failure)
+            call model%put(orbit%parameters)
+            call correct(model, orbit, newton, failure)
             call expect_success(error, failure)
             if (allocated(error)) return
-            call find_torus_coefficient(fix_parameters(family), orbit, &
+            call find_torus_coefficient(fixed_model(model), orbit, &
                                         exp(cmplx(0.0_wp, turn*omega2(i)/omega1, kind=wp)), 6, &
                                         coefficient, disturbed, failure)
             call expect_success(error, failure)
-            expected = family%coefficient(orbit%parameters)
+            expected = model%coefficient()
             call expect_close(error, coefficient, expected, 2.0e-9_wp, "coefficient "//text(i))
             call expect(error, (expected < 0.0_wp) .eqv. i == 1, "one stable, one unstable torus")
-            if (.not. family%delayed) cycle
+            if (.not. model%delayed) cycle
             ! q = (kappa x2, 0, 1 + sigma kappa x2^2, -i) Re z2 along the cycle, where |x2| is 0, 1,
             ! 1/sqrt(2) and anything when the state is greatest
             associate (k => sigma*kappa)

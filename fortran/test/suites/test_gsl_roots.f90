@@ -4,7 +4,7 @@ module test_gsl_roots
                                             ieee_set_halting_mode, ieee_value
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect_close, expect_failure, expect_success
-   use gsl_roots, only: find_falling_root, find_root, scalar_function_type
+   use gsl_roots, only: find_root, scalar_function_type
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    implicit none (type, external)
@@ -36,7 +36,6 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("known roots", test_known_roots), &
-                   new_unittest("where a function falls", test_falling), &
                    new_unittest("refused brackets", test_refusals), &
                    new_unittest("no convergence", test_no_convergence)]
    end subroutine collect_gsl_roots
@@ -66,21 +65,6 @@ contains
          call expect_close(error, root, known, within, "root above "//text(lower))
       end subroutine check
    end subroutine test_known_roots
-
-   !> cos x = x from starts far below and above the root.
-   subroutine test_falling(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      real(wp), parameter :: starts(4) = [1.0e-3_wp, 0.7_wp, 0.8_wp, 1.0e3_wp]
-      real(wp) :: root
-      integer :: i
-
-      do i = 1, size(starts)
-         call find_falling_root(cosine_less_line(), starts(i), root, failure)
-         call expect_success(error, failure)
-         call expect_close(error, root, dottie, 1.0e-15_wp, "root")
-      end do
-   end subroutine test_falling
 
    !> A bracket without a change of sign is refused with both values, a reversed or empty one with
    !> its ends.

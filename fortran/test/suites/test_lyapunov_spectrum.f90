@@ -1,8 +1,7 @@
 !> Growth of tangent vectors: measured in one go and in two, from where a run ended, in halves of an
 !> interval, and where vectors are lost.
 module test_lyapunov_spectrum
-   use block_builder, only: build_block
-   use block_parameters, only: block_history_type, block_parameters_type
+   use block_builder, only: build_block, index_of_ln_v
    use dde, only: continuation_type, dde_problem_type, integrate, integration_options, &
                   integration_result, table_sampler
    use dde_errors, only: failure_type => error_type
@@ -11,9 +10,9 @@ module test_lyapunov_spectrum
    use lyapunov_spectrum, only: extend_growth, growth_settings_type, growth_type, &
                                 interval_observer_type, measure_growth
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use model_problem, only: model_type
    use progress_recorder, only: expect_counted, recorder
    use solving, only: at_tolerance, run
-   use spring_block, only: index_of_ln_v, spring_block_type
    use test_problems, only: linear
    implicit none (type, external)
    private
@@ -47,12 +46,12 @@ contains
    end subroutine collect_lyapunov_spectrum
 
    !> The oscillation of the paper.
-   type(spring_block_type) function oscillation() result(block)
+   type(model_type) function oscillation() result(block)
       block = build_block(tau=10.0_wp, epsilon=0.35_wp, xi=0.8_wp, gamma=0.8_wp, v=1.1_wp)
    end function oscillation
 
    !> A block without delay whose third vector shrinks by exp(-2e4) in a unit of time.
-   type(spring_block_type) function stiff(u) result(block)
+   type(model_type) function stiff(u) result(block)
       real(wp), intent(in) :: u
 
       block = build_block(tau=0.0_wp, epsilon=0.3_wp, xi=0.5_wp, gamma=100.0_wp, u=u)
@@ -160,12 +159,11 @@ contains
       character(len=6), parameter :: methods(2) = ["auto  ", "radau9"]
       type(failure_type), allocatable :: failure
       type(growth_type) :: measured(2)
-      type(spring_block_type) :: block
+      type(model_type) :: block
       integer :: i
 
-      block = spring_block_type(block_parameters_type( &
-                                tau=4.5_wp, epsilon=1.5_wp, xi=0.5_wp, gamma=1.0e8_wp, &
-                                law="slip_delayed_velocity"), block_history_type(v=1.5_wp))
+      block = build_block(tau=4.5_wp, epsilon=1.5_wp, xi=0.5_wp, gamma=1.0e8_wp, v=1.5_wp, &
+                          law="slip_delayed_velocity")
       do i = 1, 2
          call measure_growth(block, growth_settings_type( &
                              exponents=3, t_begin=40.0_wp, t_end=120.0_wp, interval=20.0_wp, &

@@ -1,6 +1,6 @@
 !> The baseline with fixed steps on problems with exact solutions, and measured runs.
 module test_measured_run
-   use block_parameters, only: block_history_type, block_parameters_type
+   use block_builder, only: build_block
    use dde, only: dde_problem_type, integration_result, table_sampler, value_not_finite
    use dde_errors, only: failure_type => error_type
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
@@ -8,6 +8,7 @@ module test_measured_run
    use dde_kinds, only: int64, wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use measured_case, only: case_type
+   use model_history, only: read_history
    use measured_run, only: measure_run, run_type, time_runs
    use test_problems, only: linear, sine
    use undelayed_problems, only: falls_out
@@ -135,11 +136,17 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(run_type) :: runs(2)
       type(case_type) :: case
+      type(failure_type), allocatable :: failure
       integer :: i
 
-      case = case_type(name="decay", history=block_history_type(v=1.1_wp), t_end=50.0_wp, &
-                       parameters=block_parameters_type(tau=10.0_wp, epsilon=0.2_wp, xi=0.8_wp, &
-                                                        gamma=0.8_wp), sample_interval=0.5_wp)
+      case%name = "decay"
+      case%t_end = 50.0_wp
+      case%sample_interval = 0.5_wp
+      case%model = build_block(tau=10.0_wp, epsilon=0.2_wp, xi=0.8_wp, gamma=0.8_wp)
+      call read_history("decay", case%model, [character(len=5) :: "theta", "u", "v"], &
+                        [0.0_wp, 0.0_wp, 1.1_wp], case%history, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
       runs%method = ["auto     ", "rk4_cubic"]
       runs%setting = [1.0e-10_wp, 0.01_wp]
       do i = 1, 2
@@ -149,8 +156,8 @@ contains
       end do
       call expect(error, size(runs(1)%samples, 2) == 101, "101 samples")
       call expect_close(error, runs(1)%samples(3, :), runs(2)%samples(3, :), 1.0e-7_wp, "ln v")
-      call expect_close(error, runs(1)%most_ln_v, log(1.1_wp), 1.0e-15_wp, "largest ln v")
-      call expect(error, runs(1)%least_ln_v <= minval(runs(1)%samples(3, :)), "smallest ln v")
+      call expect_close(error, runs(1)%most, log(1.1_wp), 1.0e-15_wp, "largest ln v")
+      call expect(error, runs(1)%least <= minval(runs(1)%samples(3, :)), "smallest ln v")
       call time_runs(case, 100000_int64, 3, 1.0e-3_wp, runs)
       do i = 1, 2
          call expect_between(error, runs(i)%seconds, 1.0e-7_wp, 1.0_wp, "seconds")

@@ -3,17 +3,17 @@
 module test_motion_path
    use attractor_searches, only: disturbed_block, fine_settings, search
    use attractors, only: attractor_settings_type, attractor_type
-   use block_builder, only: build_block
+   use block_builder, only: build_block, index_of_ln_v, index_of_u
    use dde, only: continuation_type, event_table, integration_options, integration_result, &
                   table_sampler
    use dde_errors, only: text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use model_problem, only: model_type
    use motion_classes, only: cycle_motion
    use motion_path, only: find_kept_points, follow_path
    use solving, only: at_tolerance, run
-   use spring_block, only: index_of_ln_v, index_of_u, spring_block_type
    implicit none (type, external)
    private
    public :: collect_motion_path
@@ -38,7 +38,7 @@ contains
       type(event_table) :: passages
       type(integration_options) :: options
       type(integration_result) :: outcome
-      type(spring_block_type) :: block_model
+      type(model_type) :: block_model
       type(table_sampler) :: direct
       real(wp), allocatable :: path(:, :)
       real(wp) :: start
@@ -74,7 +74,7 @@ contains
       type(event_table) :: maxima
       type(integration_options) :: options
       type(integration_result) :: outcome
-      type(spring_block_type) :: block_model
+      type(model_type) :: block_model
       real(wp), allocatable :: path(:, :)
       real(wp) :: largest
 

@@ -1,18 +1,16 @@
 !> Normal forms beyond the first Lyapunov coefficient.
 module test_normal_forms
-   use block_equation, only: block_equation_type
-   use block_parameters, only: block_parameters_type
+   use block_builder, only: block_at
    use centre_manifold, only: normal_form_coefficient
    use closed_form, only: block_with_pair
    use dde_errors, only: failure_type => error_type, text
-   use delay_equation, only: delay_equation_type
    use double_hopf, only: double_hopf_type, find_double_hopf, word_length
    use expectations, only: expect, expect_close, expect_success
-   use known_equations, only: block_by_values, duffing_with_pair, layers, lienard, neurons, &
-                              new_block_by_values, new_small, new_transformed, quadratic, &
-                              transformed
+   use known_models, only: block_by_values, duffing_with_pair, known_model, layers, lienard, &
+                           neurons, quadratic, transformed
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use model_problem, only: model_type
    use normal_form, only: first_lyapunov_coefficient
    use pseudo_random, only: uniform
    implicit none (type, external)
@@ -36,14 +34,14 @@ contains
    end subroutine collect_normal_forms
 
    !> A coefficient of the normal form.
-   complex(wp) function coefficient(equation, omega, m, error) result(value)
-      class(delay_equation_type), intent(in) :: equation
+   complex(wp) function coefficient(model, omega, m, error) result(value)
+      class(model_type), intent(in) :: model
       real(wp), intent(in) :: omega(:)
       integer, intent(in) :: m(:)
       type(error_type), allocatable, intent(inout) :: error
       type(failure_type), allocatable :: failure
 
-      call normal_form_coefficient(equation, omega, m, value, failure)
+      call normal_form_coefficient(model, omega, m, value, failure)
       call expect_success(error, failure)
    end function coefficient
 
@@ -51,18 +49,17 @@ contains
    subroutine test_l1(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      type(block_parameters_type) :: p
       complex(wp) :: c1
-      real(wp) :: l1, omega
+      real(wp) :: l1, omega, p(4)
       integer :: i, k
 
       do i = 1, 10
          omega = 0.15_wp*i
          do k = 1, 2
             p = block_with_pair(omega, 0.5_wp, 0.8_wp, k)
-            call first_lyapunov_coefficient(block_equation_type(p), omega, l1, failure)
+            call first_lyapunov_coefficient(block_at(p), omega, l1, failure)
             call expect_success(error, failure)
-            c1 = coefficient(block_equation_type(p), [omega], [2, 1], error)
+            c1 = coefficient(block_at(p), [omega], [2, 1], error)
             call expect_close(error, real(c1)/omega, l1, 1.0e-12_wp*(1.0_wp + abs(l1)), "l1")
          end do
       end do
@@ -78,15 +75,15 @@ contains
       complex(wp) :: c1, c2
       real(wp) :: l(6)
 
-      c2 = coefficient(new_small(lienard, [0.0_wp, a5]), [1.0_wp], [3, 2], error)
+      c2 = coefficient(known_model(lienard, [0.0_wp, a5]), [1.0_wp], [3, 2], error)
       call expect_close(error, real(c2), -1.25_wp*a5, 1.0e-9_wp, "Re c2 of Lienard")
       l = [0.0_wp, 0.3_wp, 0.5_wp, -0.7_wp, 0.0_wp, 1.1_wp]
       associate (v5 => pi/24.0_wp*l(2)*l(4)*(l(3) - l(6))*(l(4) + 5.0_wp*(l(3) - l(6))))
-         c2 = coefficient(new_small(quadratic, l), [1.0_wp], [3, 2], error)
+         c2 = coefficient(known_model(quadratic, l), [1.0_wp], [3, 2], error)
          call expect_close(error, real(c2), 2.0_wp*v5/pi, 1.0e-9_wp, "Re c2 of Bautin")
       end associate
       l(5) = 0.4_wp
-      c1 = coefficient(new_small(quadratic, l), [1.0_wp], [2, 1], error)
+      c1 = coefficient(known_model(quadratic, l), [1.0_wp], [2, 1], error)
       call expect_close(error, real(c1), -0.25_wp*l(5)*(l(3) - l(6)), 1.0e-9_wp, "Re c1 of Bautin")
    end subroutine test_planar
 
@@ -96,7 +93,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
       type(double_hopf_type) :: form
-      type(transformed) :: equation
+      type(transformed) :: model
       complex(wp) :: c2, f(2), g(2, 2)
       real(wp), parameter :: omega(2) = [1.0_wp, sqrt(2.0_wp)]
       integer :: j
@@ -104,13 +101,13 @@ contains
       g = reshape([(-0.3_wp, 0.2_wp), (0.9_wp, 0.1_wp), (0.5_wp, -0.7_wp), (-0.4_wp, 0.6_wp)], &
                   [2, 2])
       f = [(0.6_wp, 0.3_wp), (-0.2_wp, 0.3_wp)]
-      equation = new_transformed(omega, g, f)
-      call find_double_hopf(equation, omega, form, failure)
+      model = transformed(omega, g, f)
+      call find_double_hopf(model, omega, form, failure)
       call expect_success(error, failure)
       call expect_close(error, abs(pack(form%g - 2.0_wp*g, .true.)), spread(0.0_wp, 1, 4), &
                         1.0e-11_wp, "error of g_jk")
       do j = 1, 2
-         c2 = coefficient(equation, [omega(j)], [3, 2], error)
+         c2 = coefficient(model, [omega(j)], [3, 2], error)
          call expect_close(error, real(c2), 4.0_wp*real(f(j)), 1.0e-9_wp, "Re c2")
       end do
    end subroutine test_transformed
@@ -151,14 +148,14 @@ contains
          [(-0.030007_wp, -0.0094837_wp), (-0.11318_wp, 0.037831_wp), &
           (-0.060013_wp, -0.018967_wp), (-0.056592_wp, 0.018915_wp)]
 
-      call find_double_hopf(new_small(neurons, [0.2072962626_wp], [8.6340742187_wp, 0.2_wp]), &
+      call find_double_hopf(known_model(neurons, [0.2072962626_wp, 8.6340742187_wp]), &
                             [0.3287154065_wp, 0.9157115883_wp], form, failure)
       call expect_success(error, failure)
       call expect_close(error, abs(pack(form%g, .true.) - known), spread(0.0_wp, 1, 4), 1.0e-5_wp, &
                         "error of the neurons' g_jk")
       call expect_close(error, form%ratios(), [1.0605_wp, 3.7719_wp], 5.0e-5_wp, "theta, delta")
-      call find_double_hopf(new_small(layers, [0.0899922748_wp, 0.7735178974_wp], &
-                                      [12.7_wp, 20.2_wp]), &
+      call find_double_hopf(known_model(layers, [0.0899922748_wp, 0.7735178974_wp, &
+                                                 12.7_wp, 20.2_wp]), &
                             [0.1560058562_wp, 0.2900084424_wp], form, failure)
       call expect_success(error, failure)
       call expect_close(error, form%ratios(), [1.5255011842_wp, 1.6984697752_wp], 5.0e-9_wp, &
@@ -234,20 +231,19 @@ contains
    !> in v, which are known to agree.
    subroutine test_block(error)
       type(error_type), allocatable, intent(out) :: error
-      type(block_parameters_type) :: p
-      type(block_equation_type) :: block
+      type(model_type) :: block
       type(block_by_values) :: in_v, in_w
       complex(wp) :: by_formula(3), by_values(3), c2(2), x(3, 2, 5)
-      real(wp) :: omega
+      real(wp) :: omega, p(4)
       integer :: i, k
 
       x = reshape([(cmplx(sin(1.0_wp*i), cos(3.0_wp*i), kind=wp), i=1, size(x))], shape(x))
       do i = 1, 10
          omega = 0.15_wp*i
          p = block_with_pair(omega, 0.5_wp, 0.8_wp, 2)
-         block = block_equation_type(p)
-         in_w = new_block_by_values(p, .false.)
-         in_v = new_block_by_values(p, .true.)
+         block = block_at(p)
+         in_w = block_by_values(p, .false.)
+         in_v = block_by_values(p, .true.)
          do k = 2, 5
             by_formula = block%derivative(x(:, :, :k))
             by_values = in_w%derivative(x(:, :, :k))
@@ -272,7 +268,7 @@ contains
       do i = 1, 10
          omega = 0.15_wp*i
          do j = 1, 2
-            c2(j) = coefficient(block_equation_type(block_with_pair(omega, 0.5_wp, gamma(j), 2)), &
+            c2(j) = coefficient(block_at(block_with_pair(omega, 0.5_wp, gamma(j), 2)), &
                                 [omega], [3, 2], error)
          end do
          call expect_close(error, abs(c2(2)/c2(1) - 1.0_wp), 0.0_wp, 1.0e-8_wp, &

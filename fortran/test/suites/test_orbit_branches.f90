@@ -1,28 +1,31 @@
 !> Branches of periodic orbits and their special points, against published values, simulations on
 !> both sides, and other meshes.
 module test_orbit_branches
-   use block_builder, only: build_block
-   use block_family, only: block_family_type
+   use block_builder, only: block_at, build_block, by_epsilon, by_tau, index_of_ln_v
    use branch_ends, only: follow_settings_type
    use collocation_basis, only: gauss_points, radau_points
-   use cycle_families, only: known_family, mackey_glass, neurons
    use dde, only: continuation_type, dde_problem_type
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
+   use known_models, only: known_model, neurons
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use model_family, only: family_type
+   use model_library, only: open_model
+   use model_problem, only: model_type
    use orbit_branch, only: branch_type
    use orbit_change, only: orbit_change_type
    use orbit_runs, only: advance, branch_from, branch_from_hopf, orbit_of_block
    use orbit_start, only: orbit_of_double_period
    use periodic_orbit, only: periodic_orbit_type
-   use problem_family, only: free_family_type
    use special_points, only: fold, nearest_resonance, period_doubling, special_point_type, &
                              torus_bifurcation
-   use spring_block, only: index_of_ln_v, spring_block_type
    implicit none (type, external)
    private
    public :: collect_orbit_branches
+
+   !> tau, epsilon, xi and gamma of a cycle.
+   real(wp), parameter :: place_of_cycle(4) = [10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp]
 
 contains
 
@@ -106,7 +109,7 @@ contains
       type(branch_type) :: branch
       type(special_point_type) :: other, point
 
-      settings%family = free_family_type(block_family_type(), [2], [1.0_wp])
+      settings%family = family_type(block_at(place_of_cycle), [by_epsilon], [1.0_wp])
       settings%window(:, 1) = [0.4_wp, 1.0_wp]
       settings%most_points = 18
       call find_point_twice(settings, fold, point, other, branch, error)
@@ -122,11 +125,11 @@ contains
       type(branch_type) :: branch
       type(continuation_type) :: arrived
       type(special_point_type) :: other, point
-      type(spring_block_type) :: block
+      type(model_type) :: block
       real(wp), allocatable :: maxima(:)
       integer :: i
 
-      settings%family = free_family_type(block_family_type(), [1], [5.0_wp])
+      settings%family = family_type(block_at(place_of_cycle), [by_tau], [5.0_wp])
       settings%window(:, 1) = [10.0_wp, 12.4_wp]
       call find_point_twice(settings, torus_bifurcation, point, other, branch, error)
       if (allocated(error)) return
@@ -156,21 +159,26 @@ contains
       type(follow_settings_type) :: settings
       type(branch_type) :: branch, doubled
       type(failure_type), allocatable :: failure
+      type(model_type) :: model
       type(orbit_change_type) :: tangent
       type(periodic_orbit_type) :: orbit
       type(special_point_type), allocatable :: of_doubled(:), special(:)
       real(wp), allocatable :: maxima(:)
-      real(wp) :: omega, range(2), tau
+      real(wp) :: hopf, omega, range(2), tau
       integer :: i
 
       omega = sqrt(0.15_wp)
-      settings%family = free_family_type(known_family(equation=mackey_glass), [1], [10.0_wp])
+      hopf = acos(-0.25_wp)/omega
+      call open_model("made_mackey_glass", model, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call model%set([hopf], [1.2_wp])
+      settings%family = family_type(model, [1], [10.0_wp])
       settings%window(:, 1) = [4.0_wp, 14.5_wp]
-      call branch_from_hopf(settings, [acos(-0.25_wp)/omega, 0.2_wp], [1.0_wp], omega, 0.01_wp, &
-                            branch, special, error)
+      call branch_from_hopf(settings, [hopf], omega, 0.01_wp, branch, special, error)
       if (allocated(error)) return
       call expect(error, branch%ending == "window", "the end of the window")
-      call expect(error, branch%orbits(2)%parameters(1) > acos(-0.25_wp)/omega, "supercritical")
+      call expect(error, branch%orbits(2)%parameters(1) > hopf, "supercritical")
       call expect(error, branch%multipliers(2)%unstable() == 0, "stable at first")
       call expect(error, size(special) >= 1, "a special point")
       if (allocated(error)) return
@@ -209,12 +217,11 @@ contains
       subroutine simulate(delay, found)
          real(wp), intent(in) :: delay
          real(wp), allocatable, intent(out) :: found(:)
-         class(dde_problem_type), allocatable :: problem
          type(continuation_type) :: place
 
-         call settings%family%problems%at([delay, 0.2_wp], problem)
-         call advance(problem, 0.0_wp, 10.0_wp, place, error)
-         call last_maxima(problem, 1, place, 8000.0_wp, 300.0_wp, found, error)
+         call model%put([delay])
+         call advance(model, 0.0_wp, 10.0_wp, place, error)
+         call last_maxima(model, 1, place, 8000.0_wp, 300.0_wp, found, error)
       end subroutine simulate
    end subroutine test_doubling
 
@@ -226,7 +233,7 @@ contains
       type(branch_type) :: branch
       type(special_point_type), allocatable :: special(:)
 
-      settings%family = free_family_type(block_family_type(), [2], [1.0_wp])
+      settings%family = family_type(block_at(place_of_cycle), [by_epsilon], [1.0_wp])
       settings%window(:, 1) = [0.0_wp, 1.0_wp]
       settings%least_amplitude = 0.05_wp
       call branch_of_block(10.0_wp, 0.35_wp, settings, 5, gauss_points, -1, branch, special, error)
@@ -253,16 +260,16 @@ contains
       type(follow_settings_type) :: settings
       type(branch_type) :: branch
       type(special_point_type), allocatable :: special(:)
+      real(wp), parameter :: hopf(2) = [0.8071232250_wp, 1.5_wp]
       real(wp) :: a21(3)
       integer :: i
 
-      settings%family = free_family_type(known_family(equation=neurons), [1], [1.0_wp])
+      settings%family = family_type(known_model(neurons, hopf), [1], [1.0_wp])
       settings%window(:, 1) = [0.0_wp, 5.0_wp]
       settings%longest_step = 1.5_wp
       settings%longest_period = 120.0_wp
       settings%refinement%accuracy = 1.0e-4_wp
-      call branch_from_hopf(settings, [0.8071232250_wp], [0.0_wp, 0.0_wp], 0.7819651621_wp, &
-                            0.01_wp, branch, special, error)
+      call branch_from_hopf(settings, hopf, 0.7819651621_wp, 0.01_wp, branch, special, error)
       if (allocated(error)) return
       call expect(error, branch%ending == "period", "a long period")
       ! a21 rounds to 0.8072 and the period to 8.0354 at the same amplitude

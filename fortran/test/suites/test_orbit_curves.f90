@@ -2,15 +2,15 @@
 module test_orbit_curves
    use branch_ends, only: follow_settings_type
    use collocation_basis, only: gauss_points
-   use cycle_families, only: delayed_cubic, duffing, known_family
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
    use expectations, only: expect, expect_close, expect_success
+   use known_models, only: delayed_cubic, duffing, known_model
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use model_family, only: family_type
    use orbit_branch, only: branch_type
    use orbit_curves, only: curve_type, follow_curve
    use orbit_runs, only: branch_from_hopf, new_orbit
-   use problem_family, only: free_family_type
    use special_points, only: cusp, fold, special_point_type, torus_bifurcation
    implicit none (type, external)
    private
@@ -54,21 +54,22 @@ contains
       type(follow_settings_type) :: settings
       type(branch_type) :: branch
       type(failure_type), allocatable :: failure
+      type(known_model) :: model
       type(special_point_type), allocatable :: special(:)
       real(wp) :: omega, tau
       integer :: i
 
       call hopf_of_duffing(a, b, d, turns, omega, tau)
-      settings%family = free_family_type(known_family(equation=duffing), [1], [5.0_wp])
+      model = known_model(duffing, [tau, a, b, d, 0.0_wp])
+      settings%family = family_type(model, [1], [5.0_wp])
       settings%window(:, 1) = [0.0_wp, 20.0_wp]
       settings%most_points = 30
-      call branch_from_hopf(settings, [tau, a, b, d], [0.0_wp, 0.0_wp], omega, 0.02_wp, branch, &
-                            special, error)
+      call branch_from_hopf(settings, model%numbers, omega, 0.02_wp, branch, special, error)
       if (allocated(error)) return
       i = findloc(special%kind == kind, .true., dim=1)
       call expect(error, i > 0, "a point of kind "//kind)
       if (allocated(error)) return
-      settings%family = free_family_type(known_family(equation=duffing), [1, 3], [5.0_wp, 0.2_wp])
+      settings%family = family_type(model, [1, 3], [5.0_wp, 0.2_wp])
       settings%least_amplitude = 0.003_wp
       settings%window = reshape([0.1_wp, 20.0_wp, 0.01_wp, 0.6_wp], [2, 2])
       settings%most_points = 200
@@ -117,8 +118,8 @@ contains
          orbit%nodes = reshape(sqrt(1.0_wp + first)*sin(2.0_wp*pi*orbit%node_times()), [1, 101])
       end associate
       start%kind = fold
-      settings%family = free_family_type(known_family(equation=delayed_cubic), [1, 2], &
-                                         [1.0_wp, 1.0_wp])
+      settings%family = family_type(known_model(delayed_cubic, [0.0_wp, 0.0_wp]), [1, 2], &
+                                    [1.0_wp, 1.0_wp])
       settings%least_amplitude = 0.02_wp
       settings%window = reshape([-1.0_wp, 1.0_wp, -1.0_wp, most_b], [2, 2])
       settings%longest_step = longest_step

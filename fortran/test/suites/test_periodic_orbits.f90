@@ -1,21 +1,21 @@
 !> Single periodic orbits, against exact solutions and other discretisations.
 module test_periodic_orbits
-   use block_builder, only: build_block
+   use block_builder, only: build_block, index_of_ln_v
    use collocation_basis, only: collocation_basis_type, gauss_points, radau_points
-   use cycle_families, only: delayed_sine, known_family
    use dde, only: continuation_type
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use floquet_multipliers, only: multipliers_type
+   use known_models, only: delayed_sine, known_model
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use model_problem, only: model_type
    use orbit_equations, only: newton_type
    use orbit_mesh, only: adapted_mesh
    use orbit_runs, only: advance, correct, cycle_of_block, new_orbit
    use orbit_start, only: orbit_of_trajectory
    use periodic_orbit, only: periodic_orbit_type
    use solving, only: at_tolerance
-   use spring_block, only: index_of_ln_v, spring_block_type
    implicit none (type, external)
    private
    public :: collect_periodic_orbits
@@ -79,7 +79,7 @@ contains
                orbit = new_orbit(m, kind, intervals(i), 6.3_wp, [0.25_wp])
                orbit%nodes = reshape(0.51_wp*sin(2.0_wp*pi*orbit%node_times()), &
                                      [1, intervals(i)*m + 1])
-               call correct(known_family(equation=delayed_sine), orbit, newton, failure)
+               call correct(known_model(delayed_sine, orbit%parameters), orbit, newton, failure)
                call expect_success(error, failure)
                if (allocated(error)) return
                call expect(error, newton%iterations <= 5, "Newton's method is fast")
@@ -116,7 +116,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(multipliers_type) :: multipliers
       type(periodic_orbit_type) :: orbit
-      type(spring_block_type) :: block
+      type(model_type) :: block
       real(wp) :: by_y(3, 3), by_z(3, 0), divergence, y(3), z(0)
       integer :: i, k, l
 
@@ -158,7 +158,7 @@ contains
 
       !> Periods at Radau and at Gauss points.
       subroutine check(block, t_end, intervals, trivial_error, within)
-         type(spring_block_type), intent(in) :: block
+         type(model_type), intent(in) :: block
          real(wp), intent(in) :: t_end, trivial_error, within
          integer, intent(in) :: intervals(2)
          type(multipliers_type) :: multipliers
@@ -233,12 +233,12 @@ contains
       type(failure_type), allocatable :: failure
       type(newton_type) :: newton
       type(periodic_orbit_type) :: orbit
-      type(spring_block_type) :: block
+      type(model_type) :: block
 
       orbit = new_orbit(4, gauss_points, 10, 6.0_wp, [-0.5_wp])
       orbit%nodes = reshape(sin(2.0_wp*pi*orbit%node_times()), [1, 41])
       newton%most_iterations = 4
-      call correct(known_family(equation=delayed_sine), orbit, newton, failure)
+      call correct(known_model(delayed_sine, orbit%parameters), orbit, newton, failure)
       call expect_failure(error, failure, "Newton's method")
       block = build_block(tau=0.0_wp, epsilon=0.1_wp, xi=0.5_wp, gamma=0.8_wp, v=1.1_wp)
       call advance(block, 0.0_wp, 10.0_wp, arrived, error)

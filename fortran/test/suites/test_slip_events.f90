@@ -1,14 +1,14 @@
 !> Slip events of prescribed velocities, ln v = a sin t + b sin 3t, by integrals in closed form.
 module test_slip_events
-   use block_builder, only: build_block
-   use block_state, only: index_of_ln_v, index_of_theta, index_of_u
+   use block_builder, only: build_block, index_of_ln_v, index_of_theta, index_of_u
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
    use expectations, only: expect, expect_close, expect_success
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use model_description, only: observed_type
+   use model_problem, only: model_type
    use slip_events, only: find_slip_events, slip_event_type
    use solving, only: at_tolerance
-   use test_problems, only: constant_past, fill
    implicit none (type, external)
    private
    public :: collect_slip_events
@@ -16,11 +16,11 @@ module test_slip_events
    real(wp), parameter :: pi = acos(-1.0_wp), tolerance = 1.0e-12_wp, bound = 1.0e-9_wp
 
    !> u' = v - 1 with ln v = a sin t + b sin 3t.
-   type, extends(constant_past) :: prescribed_type
+   type, extends(model_type) :: prescribed_type
       !> Amplitudes
       real(wp) :: a = 1.0_wp, b = 0.0_wp
    contains
-      procedure :: rhs
+      procedure :: rhs, jacobian
    end type prescribed_type
 
 contains
@@ -32,6 +32,7 @@ contains
                    new_unittest("two maxima in an event", test_two_maxima), &
                    new_unittest("two thresholds in one run", test_two_thresholds), &
                    new_unittest("transient and unfinished events", test_ends), &
+                   new_unittest("a signal without integral", test_plain_signal), &
                    new_unittest("no event", test_none)]
    end subroutine collect_slip_events
 
@@ -46,18 +47,39 @@ contains
       dydt(index_of_ln_v) = self%a*cos(t) + 3.0_wp*self%b*cos(3.0_wp*t)
    end subroutine rhs
 
-   !> Events of the problem up to a time.
-   subroutine events_of(a, b, thresholds, t_transient, t_end, events, error)
-      real(wp), intent(in) :: a, b, thresholds(:), t_transient, t_end
+   !> Their derivatives.
+   pure subroutine jacobian(self, t, y, z, by_y, by_z)
+      class(prescribed_type), intent(in) :: self
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
+      real(wp), contiguous, intent(out) :: by_y(:, :), by_z(:, :)
+
+      by_y = 0.0_wp
+      by_y(index_of_u, index_of_ln_v) = exp(y(index_of_ln_v))
+      by_z = 0.0_wp
+   end subroutine jacobian
+
+   !> The motion with these amplitudes, observed as a block.
+   pure type(prescribed_type) function prescribed(a, b) result(model)
+      real(wp), intent(in) :: a, b
+
+      model%n = 3
+      model%past = [0.0_wp, 0.0_wp, 0.0_wp]
+      allocate (model%lag(0), model%component(0))
+      model%sizes%observed = observed_type(component=index_of_ln_v, is_exponential=.true., &
+                                           event=0.0_wp, integral=index_of_u, with_time=.true.)
+      model%a = a
+      model%b = b
+   end function prescribed
+
+   !> Events of a model up to a time.
+   subroutine events_of(model, thresholds, t_transient, t_end, events, error)
+      class(model_type), intent(in) :: model
+      real(wp), intent(in) :: thresholds(:), t_transient, t_end
       type(slip_event_type), allocatable, intent(out) :: events(:)
       type(error_type), allocatable, intent(inout) :: error
       type(failure_type), allocatable :: failure
-      type(prescribed_type) :: problem
 
-      call fill(problem, 3, spread(0.0_wp, 1, 3), spread(0.0_wp, 1, 3))
-      problem%a = a
-      problem%b = b
-      call find_slip_events(problem, thresholds, t_transient, t_end, at_tolerance(tolerance), &
+      call find_slip_events(model, thresholds, t_transient, t_end, at_tolerance(tolerance), &
                             events, failure)
       call expect_success(error, failure)
    end subroutine events_of
@@ -70,7 +92,7 @@ contains
       type(slip_event_type), allocatable :: events(:)
       integer :: i
 
-      call events_of(1.0_wp, 0.0_wp, [1.0_wp], 0.0_wp, 40.0_wp, events, error)
+      call events_of(prescribed(1.0_wp, 0.0_wp), [1.0_wp], 0.0_wp, 40.0_wp, events, error)
       if (allocated(error)) return
       call expect(error, size(events%onset) == 5, "onsets at 2 pi to 10 pi; the last has no next")
       if (allocated(error)) return
@@ -88,7 +110,7 @@ contains
       real(wp), parameter :: highest = 10.0_wp/3.0_wp*sqrt(5.0_wp/12.0_wp)
       type(slip_event_type), allocatable :: events(:)
 
-      call events_of(2.0_wp, 1.0_wp, [1.0_wp], 0.0_wp, 20.0_wp, events, error)
+      call events_of(prescribed(2.0_wp, 1.0_wp), [1.0_wp], 0.0_wp, 20.0_wp, events, error)
       if (allocated(error)) return
       call expect(error, size(events%onset) == 2, "onsets at 2 pi and 4 pi")
       if (allocated(error)) return
@@ -105,7 +127,7 @@ contains
       type(slip_event_type), allocatable :: events(:)
       integer :: i
 
-      call events_of(1.0_wp, 0.0_wp, [1.0_wp, high], 1.0_wp, 19.0_wp, events, error)
+      call events_of(prescribed(1.0_wp, 0.0_wp), [1.0_wp, high], 1.0_wp, 19.0_wp, events, error)
       if (allocated(error)) return
       call expect(error, size(events) == 3, "onsets at 2 pi, 13 pi/6, 4 pi; others have no next")
       if (allocated(error)) return
@@ -123,22 +145,42 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(slip_event_type), allocatable :: events(:)
 
-      call events_of(1.0_wp, 0.0_wp, [1.0_wp], 2.1_wp*pi, 7.9_wp*pi, events, error)
+      call events_of(prescribed(1.0_wp, 0.0_wp), [1.0_wp], 2.1_wp*pi, 7.9_wp*pi, events, error)
       if (allocated(error)) return
       call expect(error, size(events%onset) == 1, "the event from 4 pi to 5 pi")
       if (allocated(error)) return
       call expect_close(error, events%onset, [4.0_wp*pi], bound, "onset")
    end subroutine test_ends
 
+   !> A signal that is no exponential, of which no state is the integral, at the threshold of the
+   !> definition: sin t > 1/2.
+   subroutine test_plain_signal(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(prescribed_type) :: model
+      type(slip_event_type), allocatable :: events(:)
+
+      model = prescribed(1.0_wp, 0.0_wp)
+      model%sizes%observed = observed_type(component=index_of_ln_v, event=0.5_wp)
+      call events_of(model, [real(wp) ::], 0.0_wp, 14.0_wp, events, error)
+      if (allocated(error)) return
+      call expect(error, size(events) == 2, "onsets at pi/6 and 13 pi/6")
+      if (allocated(error)) return
+      call expect_close(error, events%onset, pi*[1.0_wp, 13.0_wp]/6.0_wp, bound, "onset")
+      call expect_close(error, events%threshold, [0.5_wp, 0.5_wp], 0.0_wp, "threshold")
+      call expect_close(error, events%duration, pi*[2.0_wp, 2.0_wp]/3.0_wp, bound, "duration")
+      call expect_close(error, events%slip, [0.0_wp, 0.0_wp], 0.0_wp, "no integral")
+      call expect_close(error, events%peak_velocity, [1.0_wp, 1.0_wp], bound, "peak")
+      call expect_close(error, events%least_velocity, [-1.0_wp, -1.0_wp], bound, "least")
+   end subroutine test_plain_signal
+
    !> Without motion there is no event.
    subroutine test_none(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       type(slip_event_type), allocatable :: events(:)
 
-      call find_slip_events(build_block(1.0_wp, 0.1_wp, 0.5_wp, 0.8_wp), [1.0_wp], 0.0_wp, &
-                            50.0_wp, at_tolerance(tolerance), events, failure)
-      call expect_success(error, failure)
+      call events_of(build_block(1.0_wp, 0.1_wp, 0.5_wp, 0.8_wp), [1.0_wp], 0.0_wp, 50.0_wp, &
+                     events, error)
+      if (allocated(error)) return
       call expect(error, size(events%onset) == 0, "none")
    end subroutine test_none
 end module test_slip_events

@@ -6,9 +6,9 @@ module test_tangent_runs
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use model_problem, only: model_type
    use pseudo_random, only: uniform
    use solving, only: at_tolerance, run
-   use spring_block, only: spring_block_type
    use tangent_problem, only: tangent_problem_type
    use tangent_vectors, only: orthonormalise, start_vectors, undisturbed_part
    use test_problems, only: linear
@@ -31,7 +31,7 @@ contains
    !> Tangent vectors follow small differences of solutions; their derivatives are the blocks.
    subroutine test_variational_equations(error)
       type(error_type), allocatable, intent(out) :: error
-      type(spring_block_type) :: block
+      type(model_type) :: block
       type(tangent_problem_type) :: problem
       real(wp), parameter :: h = 1.0e-6_wp
       real(wp) :: by_y(9, 9), by_z(9, 3), dydt(9), ahead(3), back(3), y(9), z(3)
@@ -150,7 +150,7 @@ contains
    !> State and vectors by several methods. All but the first take as the start of the vectors what
    !> the first takes.
    subroutine compare(problem, vectors, length, methods, error)
-      type(spring_block_type), intent(in) :: problem
+      type(model_type), intent(in) :: problem
       integer, intent(in) :: vectors
       real(wp), intent(in) :: length
       character(len=8), intent(in) :: methods(:)

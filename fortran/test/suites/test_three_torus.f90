@@ -1,6 +1,6 @@
 !> Motions with known frequencies: 3-tori by exponents and by the section, and what is none.
 module test_three_torus
-   use analytic_problems, only: analytic_problem
+   use analytic_models, only: analytic_model
    use base_frequencies, only: bases_type, label_peaks
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
@@ -32,7 +32,7 @@ module test_three_torus
    !>     z' = z (1 + i w - |z|^2) + strength [exp(i w lag) z(t - lag) - z],
    !>
    !> each on its cycle z = exp(i w t). The state is Re z and Im z of each in turn.
-   type, extends(analytic_problem) :: oscillators_type
+   type, extends(analytic_model) :: oscillators_type
       !> Their frequencies
       real(wp), allocatable :: frequency(:)
    contains
@@ -55,11 +55,8 @@ contains
       integer, intent(in) :: n
       integer :: i
 
-      problem%n = 2*n
-      problem%lag = spread(lag, 1, 2*n)
-      problem%component = [(i, i=1, 2*n)]
       problem%frequency = known(:n)
-      problem%first = [(problem%history(0.0_wp, i), i=1, 2*n)]
+      call problem%fill(spread(0.0_wp, 1, 2*n), spread(lag, 1, 2*n), [(i, i=1, 2*n)])
    end function oscillators
 
    !> On the cycles.

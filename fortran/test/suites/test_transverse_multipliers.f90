@@ -1,9 +1,7 @@
 !> Exponents of modes along cycles by multipliers, against the block's own multipliers, against
 !> characteristic roots, and against exponents along the motion.
 module test_transverse_multipliers
-   use block_family, only: transverse_family_type, vector_of
-   use block_parameters, only: block_history_type, block_parameters_type, with_vector
-   use block_roots, only: roots_of_block
+   use block_builder, only: block_at, build_block, paper_law
    use collocation_basis, only: radau_points
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
@@ -11,24 +9,23 @@ module test_transverse_multipliers
    use floquet_multipliers, only: find_largest_multiplier, find_multipliers, multipliers_type
    use lyapunov_spectrum, only: growth_settings_type
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use orbit_runs, only: cycle_of_block, fix_parameters, new_orbit
+   use model_family, only: fixed_model
+   use model_problem, only: model_type
+   use model_roots, only: find_model_roots
+   use orbit_runs, only: cycle_of_block, new_orbit
    use periodic_orbit, only: periodic_orbit_type
    use solving, only: at_tolerance
-   use spring_block, only: spring_block_type
-   use transverse_growth, only: find_zeros, measure_transverse_growth, transverse_growth_type, &
-                                zero_type
+   use transverse_growth, only: find_zeros, measure_transverse_growth, of_mode, &
+                                transverse_growth_type, zero_type
    use transverse_multipliers, only: find_transverse_cycle, transverse_cycle_type
    implicit none (type, external)
    private
    public :: collect_transverse_multipliers
 
-   !> The paper's torus, a cycle; chaos; steady sliding.
-   type(block_parameters_type), parameter :: &
-      cycle_place = block_parameters_type(tau=10.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp), &
-      chaos_place = block_parameters_type(tau=7.0_wp, epsilon=0.7_wp, xi=0.5_wp, gamma=0.8_wp), &
-      rest_place = block_parameters_type(tau=7.0_wp, epsilon=0.1_wp, xi=0.5_wp, gamma=0.8_wp)
-   !> Values for t <= 0.
-   type(block_history_type), parameter :: start = block_history_type(v=1.1_wp)
+   !> tau, epsilon, xi and gamma: the paper's torus, a cycle; chaos; steady sliding.
+   real(wp), parameter :: cycle_place(4) = [10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp], &
+                          chaos_place(4) = [7.0_wp, 0.7_wp, 0.5_wp, 0.8_wp], &
+                          rest_place(4) = [7.0_wp, 0.1_wp, 0.5_wp, 0.8_wp]
 
 contains
 
@@ -41,6 +38,15 @@ contains
                    new_unittest("motions that are no cycle", test_no_cycle)]
    end subroutine collect_transverse_multipliers
 
+   !> A chain of one block with kappa = 1.
+   type(model_type) function chain_at(place, keep_delays) result(model)
+      real(wp), intent(in) :: place(4)
+      logical, intent(in), optional :: keep_delays
+
+      model = build_block(place(1), place(2), place(3), place(4), v=1.1_wp, &
+                          law="chain_"//paper_law, own=[1.0_wp], keep_delays=keep_delays)
+   end function chain_at
+
    !> At s = 1 the multipliers are those of the block, whose Jacobian is no band.
    subroutine test_block(error)
       type(error_type), allocatable, intent(out) :: error
@@ -49,11 +55,13 @@ contains
       type(periodic_orbit_type) :: orbit
       integer :: i
 
-      call cycle_of_block(spring_block_type(cycle_place, start), 1500.0_wp, 5, radau_points, 40, &
-                          orbit, own, error)
+      associate (p => cycle_place)
+         call cycle_of_block(build_block(p(1), p(2), p(3), p(4), v=1.1_wp), 1500.0_wp, 5, &
+                             radau_points, 40, orbit, own, error)
+      end associate
       if (allocated(error)) return
-      call find_multipliers(fix_parameters(transverse_family_type(cycle_place, 0.0_wp)), orbit, 6, &
-                            found, failure)
+      orbit%parameters = [orbit%parameters, 1.0_wp]
+      call find_multipliers(fixed_model(chain_at(cycle_place)), orbit, 6, found, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
       call expect_close(error, abs(found%values - own%values), [(0.0_wp, i=1, size(own%values))], &
@@ -64,8 +72,8 @@ contains
    !> the real part of the rightmost root there.
    subroutine test_rest(error)
       type(error_type), allocatable, intent(out) :: error
-      type(block_parameters_type) :: place
       type(failure_type), allocatable :: failure
+      type(model_type) :: chain
       type(periodic_orbit_type) :: orbit
       complex(wp), allocatable :: roots(:)
       real(wp), parameter :: delays(3) = [7.0_wp, 2.0_wp, 0.0_wp], &
@@ -74,20 +82,16 @@ contains
       integer :: i, j
 
       do i = 1, size(delays)
-         place = chaos_place
-         place%tau = delays(i)
+         chain = chain_at([delays(i), chaos_place(2:)], keep_delays=.true.)
+         orbit = new_orbit(6, radau_points, 30, period, chain%numbers)
+         allocate (orbit%nodes(3, 30*6 + 1), source=0.0_wp)
          do j = 1, size(stiffness)
-            orbit = new_orbit(6, radau_points, 30, period, vector_of(place))
-            allocate (orbit%nodes(3, 30*6 + 1), source=0.0_wp)
-            associate (s => stiffness(j))
-               call find_largest_multiplier(fix_parameters(transverse_family_type(place, &
-                                                                                  s - 1.0_wp)), &
-                                            orbit, modulus, failure)
+            associate (s => stiffness(j), p => chain%numbers)
+               call find_largest_multiplier(fixed_model(of_mode(chain, s)), orbit, modulus, failure)
                call expect_success(error, failure)
                if (allocated(error)) return
-               call roots_of_block(with_vector(place, [place%tau, place%epsilon, place%xi*s, &
-                                                       place%gamma*sqrt(s)]), -0.5_wp, roots, &
-                                   failure)
+               call find_model_roots(block_at([p(1), p(2), s*p(3), sqrt(s)*p(4)]), -0.5_wp, roots, &
+                                     failure)
                call expect_success(error, failure)
                if (allocated(error)) return
                call expect_close(error, log(modulus)/period, real(roots(1)), 1.0e-9_wp, "exponent")
@@ -109,13 +113,15 @@ contains
 
       settings = growth_settings_type(t_begin=1000.0_wp, t_end=3000.0_wp, t_turning=300.0_wp, &
                                       interval=20.0_wp, blocks=10)
-      call measure_transverse_growth(cycle_place, start, s, settings, at_tolerance(1.0e-8_wp), &
+      call measure_transverse_growth(chain_at(cycle_place), s, settings, at_tolerance(1.0e-8_wp), &
                                      growth, failure)
       call expect_success(error, failure)
-      call find_zeros(cycle_place, start, settings, at_tolerance(1.0e-8_wp), growth, zeros, failure)
+      call find_zeros(chain_at(cycle_place), settings, at_tolerance(1.0e-8_wp), growth, zeros, &
+                      failure)
       call expect_success(error, failure)
       if (allocated(error)) return
-      call find_transverse_cycle(cycle_place, start, 2000.0_wp, at_tolerance(1.0e-8_wp), s, found)
+      call find_transverse_cycle(chain_at(cycle_place), 2000.0_wp, at_tolerance(1.0e-8_wp), s, &
+                                 found)
       call expect(error, found%reason == "", "a cycle: "//found%reason)
       if (allocated(error)) return
       call expect(error, abs(found%growth(1)%value) <= 0.0_wp, "the flow at s = 1")
@@ -139,9 +145,9 @@ contains
       type(transverse_cycle_type) :: found
       real(wp), parameter :: s(2) = [1.0_wp, 2.0_wp]
 
-      call find_transverse_cycle(chaos_place, start, 600.0_wp, at_tolerance(1.0e-8_wp), s, found)
+      call find_transverse_cycle(chain_at(chaos_place), 600.0_wp, at_tolerance(1.0e-8_wp), s, found)
       call expect(error, found%reason /= "" .and. size(found%growth) == 0, "chaos")
-      call find_transverse_cycle(rest_place, start, 600.0_wp, at_tolerance(1.0e-8_wp), s, found)
+      call find_transverse_cycle(chain_at(rest_place), 600.0_wp, at_tolerance(1.0e-8_wp), s, found)
       call expect(error, found%reason /= "" .and. size(found%zeros) == 0, "rest")
    end subroutine test_no_cycle
 end module test_transverse_multipliers

@@ -11,13 +11,11 @@
 !>
 !> so that no term of the normal form is 0 or without influence.
 module twin_waves
-   use analytic_problems, only: analytic_problem, h
-   use dde, only: dde_problem_type
+   use analytic_models, only: analytic_model, h
    use dde_kinds, only: wp
-   use problem_family, only: problem_family_type
    implicit none (type, external)
    private
-   public :: kappa, omega1, on_cycle, sigma, twin_waves_family
+   public :: kappa, omega1, on_cycle, sigma, twin_waves_type
 
    complex(wp), parameter :: p11 = (-0.8_wp, 0.3_wp), p12 = (-0.5_wp, 0.7_wp), &
                              p21 = (-0.4_wp, -0.6_wp), k1 = (0.3_wp, 0.2_wp), &
@@ -25,17 +23,10 @@ module twin_waves
    real(wp), parameter :: omega1 = 1.3_wp, lag = 2.1_wp, kappa = 0.6_wp, sigma = 0.7_wp
    real(wp), parameter :: b = 0.4_wp, c = 0.5_wp, imaginary_part_of_p22 = 0.4_wp
 
-   !> The problems; parameters: real part of p22, omega2.
-   type, extends(problem_family_type) :: twin_waves_family
+   !> The model; parameters: real part of p22, omega2.
+   type, extends(analytic_model) :: twin_waves_type
       !> Whether there is the delay; otherwise time is uneven
       logical :: delayed = .false.
-   contains
-      procedure :: at => member
-      procedure :: coefficient
-   end type twin_waves_family
-
-   !> One of them.
-   type, extends(analytic_problem) :: twin_waves_type
       !> k1, k2, exp(-i omega lag) of both, alpha1, alpha2
       complex(wp) :: k(2) = 0.0_wp, turned(2) = 0.0_wp, alpha(2) = 0.0_wp
       !> p22
@@ -43,43 +34,28 @@ module twin_waves
       !> omega2, b, c
       real(wp) :: omega2 = 0.0_wp, b = 0.0_wp, c = 0.0_wp
    contains
+      procedure :: coefficient
+      procedure :: put => put_waves
       procedure :: slope => slope_of
    end type twin_waves_type
 
 contains
 
-   !> The problem at parameters.
-   subroutine member(self, parameters, problem)
-      class(twin_waves_family), intent(in) :: self
-      real(wp), intent(in) :: parameters(:)
-      class(dde_problem_type), allocatable, intent(out) :: problem
-      type(twin_waves_type) :: made
-
-      made = made_at(self, parameters)
-      allocate (problem, source=made)
-   end subroutine member
-
-   !> The same by its type.
-   pure type(twin_waves_type) function made_at(self, parameters) result(made)
-      class(twin_waves_family), intent(in) :: self
+   !> Give the model its parameters.
+   pure subroutine put_waves(self, parameters)
+      class(twin_waves_type), intent(inout) :: self
       real(wp), intent(in) :: parameters(:)
 
-      made%n = 4
-      made%lag = spread(lag, 1, 4)
-      made%component = [1, 2, 3, 4]
-      made%past = on_cycle(0.0_wp)
-      made%first = made%past
-      made%omega2 = parameters(2)
-      made%p22 = cmplx(parameters(1), imaginary_part_of_p22, kind=wp)
-      made%turned = exp(cmplx(0.0_wp, -lag*[omega1, made%omega2], kind=wp))
-      if (self%delayed) then
-         made%k = [k1, k2]
-      else
-         made%b = b
-         made%c = c
-      end if
-      made%alpha = cmplx(0.0_wp, [omega1, made%omega2], kind=wp) - [p11, p21] - made%k*made%turned
-   end function made_at
+      call self%fill(on_cycle(0.0_wp), spread(lag, 1, 4), [1, 2, 3, 4])
+      self%numbers = parameters
+      self%omega2 = parameters(2)
+      self%p22 = cmplx(parameters(1), imaginary_part_of_p22, kind=wp)
+      self%turned = exp(cmplx(0.0_wp, -lag*[omega1, self%omega2], kind=wp))
+      self%k = merge([k1, k2], (0.0_wp, 0.0_wp), self%delayed)
+      self%b = merge(0.0_wp, b, self%delayed)
+      self%c = merge(0.0_wp, c, self%delayed)
+      self%alpha = cmplx(0.0_wp, [omega1, self%omega2], kind=wp) - [p11, p21] - self%k*self%turned
+   end subroutine put_waves
 
    !> Re d/T. While |z2|^2 = S is almost constant, so are R = |z1|^2 and the frequencies:
    !>
@@ -88,34 +64,31 @@ contains
    !>
    !> with the growth lambda of z2. Its derivative by S is d/T for z = z2; the mean of w is 1. It is
    !> divided by the mean of |q|^2 for this z.
-   pure real(wp) function coefficient(self, parameters) result(value)
-      class(twin_waves_family), intent(in) :: self
-      real(wp), intent(in) :: parameters(:)
+   pure real(wp) function coefficient(self) result(value)
+      class(twin_waves_type), intent(in) :: self
       integer, parameter :: places = 400
       complex(wp) :: by_lambda, by_omega, change(2), wave(2)
       real(wp) :: r_slope, square, w
-      type(twin_waves_type) :: made
       integer :: i, part
 
-      made = made_at(self, parameters)
       ! i omega1' (1 + k1 lag exp(-i omega1 lag)) - p11 R' = p12, by Cramer's rule
-      by_omega = (0.0_wp, 1.0_wp)*(1.0_wp + lag*made%k(1)*made%turned(1))
+      by_omega = (0.0_wp, 1.0_wp)*(1.0_wp + lag*self%k(1)*self%turned(1))
       r_slope = -aimag(conjg(by_omega)*p12)/aimag(conjg(by_omega)*p11)
-      by_lambda = 1.0_wp + lag*made%k(2)*made%turned(2)
+      by_lambda = 1.0_wp + lag*self%k(2)*self%turned(2)
       square = 0.0_wp
       do i = 1, places
          wave = [exp(cmplx(0.0_wp, 2.0_wp*acos(-1.0_wp)*i/places, kind=wp)), (0.0_wp, 0.0_wp)]
-         w = 1.0_wp + made%b*real(wave(1))
+         w = 1.0_wp + self%b*real(wave(1))
          do part = 1, 2
             ! real and imaginary part of q: z = 1/2 and -i/2; later by the integral of c Re z2
             change(2) = 0.5_wp*(0.0_wp, -1.0_wp)**(part - 1)
             change(1) = -(0.0_wp, omega1)*wave(1)/w &
-                        *made%c*real(change(2)/(0.0_wp, 1.0_wp))/made%omega2
+                        *self%c*real(change(2)/(0.0_wp, 1.0_wp))/self%omega2
             square = square + w/places &
                      *sum((aimag(state_of(real_parts(wave) + (0.0_wp, h)*real_parts(change)))/h)**2)
          end do
       end do
-      value = real((p21*r_slope + made%p22)/by_lambda)/square
+      value = real((p21*r_slope + self%p22)/by_lambda)/square
    end function coefficient
 
    !> Real and imaginary parts of z1 and z2.

@@ -8,9 +8,8 @@ from pathlib import PurePath
 
 from scripts.namelists.attractor_surveys import survey_groups
 from scripts.plans.declare import LONG_RUN, Figure, Run, Study, Table
-from scripts.plans.scenes import marked_scenes, plane_of
+from scripts.plans.scenes import curves_of, marked_scenes, plane_of
 from scripts.studies.atlas.parts import part_of, refinements_of
-from scripts.studies.cycles.plan import curves_of
 
 
 def groups(config: dict, atlas_plane: str, part: str) -> dict:

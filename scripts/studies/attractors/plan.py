@@ -4,17 +4,18 @@ Formulas and sources: `attractors.f90`, `motion_classes.f90`, `section_motion.f9
 """
 
 from scripts.namelists.attractor_surveys import drawn_histories, survey_groups
+from scripts.namelists.chains import histories_of
 from scripts.namelists.parameters import HISTORY
 from scripts.plans.declare import PAPER, Run, Study, Table
-from scripts.plans.scenes import paths_of_scenes, scenes_with
+from scripts.plans.scenes import blocks_of, paths_of_scenes, scenes_with
 
 
 def groups(config: dict, scene: str) -> dict:
     """Namelist of a scene: its own history and others."""
     settings, study = config["scenes"][scene], config["attractors"]
     count = settings.get("attractors", {}).get("histories", study["count"])
-    others = drawn_histories(count - 1, study["histories"], HISTORY)
-    histories = [settings["history"], *others]
+    others = drawn_histories((count - 1) * settings["blocks"], study["histories"], HISTORY)
+    histories = [*histories_of(settings), *others]
     return survey_groups(config, "attractors", scene, place=settings, histories=histories)
 
 
@@ -24,9 +25,9 @@ def inputs(config: dict) -> dict:
 
 
 def of_user(config: dict) -> None:
-    """Look for the attractors of all scenes."""
-    for scene in config["scenes"].values():
-        scene.setdefault("attractors", {})
+    """Look for the attractors of all scenes of one block."""
+    for scene in blocks_of(config):
+        config["scenes"][scene].setdefault("attractors", {})
 
 
 STUDY = Study(
@@ -43,7 +44,7 @@ STUDY = Study(
             *("attractors_table", "tables/attractors.tsv", inputs),
             params={"of": lambda _config: "scenes"},
             script="tables/attractor_tables.py",
-            wanted=lambda config: bool(config["scenes"]),
+            wanted=lambda config: bool(scenes_with(config, "attractors")),
             priority=PAPER,
         ),
     ),

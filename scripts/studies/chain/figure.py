@@ -1,4 +1,4 @@
-"""The drawing of plans/chain.py, and the numbers of its caption."""
+"""The drawing of chains, and the numbers of its caption."""
 
 import numpy as np
 import xarray as xr
@@ -6,10 +6,11 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.colors import TwoSlopeNorm
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullFormatter
+from matplotlib.ticker import MaxNLocator, NullFormatter
 
 from scripts.drawing import parameters
-from scripts.drawing.wording import place_in_words, short
+from scripts.drawing.roots import roots_in_words
+from scripts.drawing.wording import as_formulas, place_in_words, short
 from scripts.tables.chain_motions import (
     ALIKE,
     first_mode,
@@ -21,11 +22,13 @@ from scripts.tables.chain_motions import (
 
 SHOWN = 150.0
 """Time at the end that the maps show."""
+DECADE = 10.0
+"""Mean squares that span less have labels between powers of ten."""
 FLAT = 1e-6
 """ln v that is as near to 0 has no colour."""
 
 
-def draw(chains: list[xr.Dataset]) -> Figure:
+def draw(chains: list[xr.Dataset], roots: list[xr.Dataset]) -> Figure:
     """Rows a, b, ...: ln v at the end, the spread over the blocks, the power of the modes."""
     figure, grid = plt.subplots(
         len(chains),
@@ -69,6 +72,7 @@ def draw_map(figure: Figure, axes: Axes, chain: xr.Dataset) -> None:
         shading="nearest",
         rasterized=True,
     )
+    axes.yaxis.set_major_locator(MaxNLocator(5, integer=True))
     axes.set_ylabel("block")
     figure.colorbar(shades, ax=axes, label=r"$\ln v$", pad=0.02)
 
@@ -84,7 +88,9 @@ def draw_modes(axes: Axes, chain: xr.Dataset) -> None:
     """The mean square of each mode of ln v after the transient."""
     powers = powers_of(chain)
     axes.semilogy(first_mode(chain) + np.arange(powers.size), powers, "o-", ms=2.5, lw=0.7)
-    axes.yaxis.set_minor_formatter(NullFormatter())
+    axes.xaxis.set_major_locator(MaxNLocator(5, integer=True))
+    if powers.max() > DECADE * powers.min():
+        axes.yaxis.set_minor_formatter(NullFormatter())
     axes.set_ylabel("mean square")
 
 
@@ -101,8 +107,8 @@ def motion_in_words(chain: xr.Dataset) -> str:
     )
 
 
-def numbers(chains: list[xr.Dataset]) -> dict:
-    """What each chain does."""
+def numbers(chains: list[xr.Dataset], roots: list[xr.Dataset]) -> dict:
+    """What each chain does, and whether it is stable at rest."""
     return {
         "chains": [
             {
@@ -110,8 +116,9 @@ def numbers(chains: list[xr.Dataset]) -> dict:
                 "blocks": int(chain.attrs["blocks"]),
                 "place": place_in_words(chain.attrs),
                 "motion": motion_in_words(chain),
+                "roots": as_formulas(roots_in_words(of_modes)),
             }
-            for chain in chains
+            for chain, of_modes in zip(chains, roots, strict=True)
         ],
         "shown": SHOWN,
     }

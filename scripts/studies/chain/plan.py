@@ -1,27 +1,42 @@
 """Chains of blocks: ln v over time and block, how far blocks are apart, and which modes move.
 
-Formulas and sources: `chain.yaml`, `chain.f90`.
+Formulas and sources: `chain.yaml`, `model_chain.f90`.
 """
 
-from scripts.namelists.chains import groups_of_chain
-from scripts.plans.declare import Figure, Run, Study
+from scripts.plans.declare import Figure, Study
+from scripts.plans.scenes import is_chain, paths_of_scenes, scenes_of
 
 
-def groups(config: dict, chain: str) -> dict[str, dict]:
-    """A chain for its trajectory."""
-    return groups_of_chain(config, chain, config["chains"][chain])
+def inputs_of(scenes: list[str]) -> dict:
+    """Trajectories of chains, and the roots of all their modes."""
+    return {
+        "chains": paths_of_scenes("trajectories", scenes),
+        "roots": paths_of_scenes("linear_stability", scenes),
+    }
 
 
 FIGURE = {
     "category": "Chains",
-    "inputs": lambda config: {
-        "chains": [f"<results>/chains/{chain}.nc" for chain in config["chains"]]
-    },
     "variables": ("v",),
 }
 STUDY = Study(
-    entries={"chain": ("chains",)},
-    runs=(Run("chain_trajectory", "trajectory", "chains/{chain}.nc", groups, data="chains"),),
-    figures=(Figure("chain", place=410, **FIGURE),),
-    kinds=(Figure("chains", place=70, shows=("chains",), **FIGURE),),
+    reads=("linear_stability", "scenes"),
+    figures=(
+        Figure(
+            "chain",
+            place=410,
+            inputs=lambda config: inputs_of(scenes_of(config, "chain")),
+            **FIGURE,
+        ),
+    ),
+    kinds=(
+        Figure(
+            "scenes",
+            place=70,
+            inputs=lambda config: inputs_of(list(config["scenes"])),
+            shows=("scenes",),
+            shows_entry=is_chain,
+            **FIGURE,
+        ),
+    ),
 )

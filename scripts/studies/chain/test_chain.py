@@ -12,23 +12,17 @@ from scripts.claims.claims_results import NOT_REPRODUCED, REPRODUCED, Results
 from scripts.config.check_config import checked
 from scripts.files.read_config import ConfigError, read
 from scripts.namelists.chains import histories_of
+from scripts.namelists.program_groups import scene_groups
 from scripts.studies.chain.claims import blocks_differ
-from scripts.studies.chain.plan import groups
 from scripts.tables.chain_motions import moves_alike, rests
 
 PLACE = {"tau": 5.0, "epsilon": 0.7, "xi": 0.5, "gamma": 0.8}
 
 
-@pytest.fixture
-def config(filled_config) -> dict:
-    """The paper's configuration with its defaults, to change."""
-    return copy.deepcopy(filled_config)
-
-
 def a_chain(config: dict, **given) -> dict:
     """A chain with the defaults of the configuration."""
-    config["chains"]["mine"] = {**PLACE, "blocks": 4, "t_end": 20.0, **given}
-    return checked(config)["chains"]["mine"]
+    config["scenes"]["mine"] = {**PLACE, "blocks": 4, "kappa": 1.0, "t_end": 20.0, **given}
+    return checked(config)["scenes"]["mine"]
 
 
 @pytest.mark.parametrize(
@@ -44,7 +38,7 @@ def test_trajectory_is_that_of_another_code(programs, config, blocks, ends):
     }
     how = {"kappa": 1.7, "ends": ends, "sample_interval": 0.5, "tolerance": 1e-11}
     a_chain(config, blocks=blocks, history=history, **how)
-    found = programs.made_of("trajectory", groups(config, "mine"))
+    found = programs.made_of("trajectory", scene_groups(config, "mine"))
     assert dict(found.sizes) == {"t": 41, "block": blocks}
     assert found.attrs.items() >= {"blocks": blocks, "kappa": 1.7, "ends": ends}.items()
     np.testing.assert_array_equal(found.history_theta, history["theta"])
@@ -53,16 +47,16 @@ def test_trajectory_is_that_of_another_code(programs, config, blocks, ends):
         np.testing.assert_allclose(values, states[:, place], rtol=0, atol=1e-9)
 
 
-@pytest.mark.parametrize("name", ["erickson", "no_delay"])
+@pytest.mark.parametrize("name", ["erickson", "chain_no_delay"])
 def test_chain_without_delay_is_that_of_scipy(programs, config, name):
     """The chains of Erickson, Birnir and Lavallee."""
-    others = read(ROOT / "config" / "long_chains.yaml")["chains"]
-    chain = (config["chains"] | others)[name]
+    others = read(ROOT / "config" / "long_chains.yaml")["scenes"]
+    chain = (config["scenes"] | others)[name]
     bump = 1.5 * np.exp(-((np.arange(0.0, 21.0, 2.0) - 10.0) ** 2))
     np.testing.assert_allclose(chain["history"]["u"], bump, rtol=0, atol=1e-6)
     own = {"t_end": 100.0, "t_transient": 0.0, "tolerance": 1e-11, "variables": ["theta", "u", "v"]}
     a_chain(config, **{**chain, **own, "disturbance": {"ln_v": 0.0}})
-    found = programs.made_of("trajectory", groups(config, "mine"))
+    found = programs.made_of("trajectory", scene_groups(config, "mine"))
     epsilon, xi, gamma, kappa = (chain[key] for key in ("epsilon", "xi", "gamma", "kappa"))
 
     def rates(_, y: np.ndarray) -> np.ndarray:
@@ -80,26 +74,29 @@ def test_chain_without_delay_is_that_of_scipy(programs, config, name):
 
 def test_disturbance_is_drawn_or_of_one_block(config):
     """The same for the same seed; sizes are bounds."""
-    drawn = a_chain(config, disturbance={"ln_v": 0.2, "seed": 3})
+    drawn = a_chain(copy.deepcopy(config), disturbance={"ln_v": 0.2, "seed": 3})
     histories = histories_of(drawn)
     assert histories == histories_of(drawn)
-    assert histories["theta"] == [0.0] * 4
-    changes = np.log(np.array(histories["v"]) / 1.1)
+    assert [block["theta"] for block in histories] == [0.0] * 4
+    changes = np.log(np.array([block["v"] for block in histories]) / 1.1)
     assert len(set(changes)) == 4
     assert (abs(changes) <= 0.2).all()
     one = histories_of(a_chain(config, disturbance={"u": 0.5, "block": 2}))
-    assert one["u"] == [0.0, 0.5, 0.0, 0.0]
+    assert [block["u"] for block in one] == [0.0, 0.5, 0.0, 0.0]
 
 
 @pytest.mark.parametrize(
     ("given", "words"),
     [
-        ({"blocks": 1}, "blocks = 1; expected number of blocks, a whole number >= 2"),
+        ({"blocks": 0}, "blocks = 0; expected number of blocks, a whole number >= 1"),
+        ({"blocks": 1}, "kappa = 1.0; expected 0 with blocks = 1"),
+        ({"blocks": 1, "kappa": 0.0, "history": {"u": [0.0]}}, "u has 1 numbers; expected one"),
         ({"blocks": 2, "ends": "ring"}, "blocks = 2; expected a whole number >= 3 with ends"),
         ({"kappa": -1.0}, "kappa = -1.0; expected spring constant"),
         ({"ends": "open"}, "ends = 'open'; expected"),
         ({"history": {"u": [0.0, 1.0]}}, "u has 2 numbers; expected one number, or 4"),
         ({"history": {"v": [1.0, 0.0, 1.0, 1.0]}}, "expected"),
+        ({"disturbance": {"w": 1.0}}, "unknown key ['w']; allowed: seed, block, theta, ln_theta"),
         ({"disturbance": {"block": 5}}, "block = 5; expected a whole number >= 0 and <= blocks"),
         ({"t_transient": 30.0}, "t_transient = 30.0; expected a finite number >= 0 and < t_end"),
         ({"sample_interval": 30.0}, "sample_interval = 30.0; expected"),
@@ -108,7 +105,7 @@ def test_disturbance_is_drawn_or_of_one_block(config):
 )
 def test_bad_chains_are_refused(config, given, words):
     """In one line that names the chain, the value and the range."""
-    with pytest.raises(ConfigError, match=r"config chains mine") as refusal:
+    with pytest.raises(ConfigError, match=r"scene 'mine'") as refusal:
         a_chain(config, **given)
     assert words in str(refusal.value)
 
@@ -116,24 +113,24 @@ def test_bad_chains_are_refused(config, given, words):
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        (lambda groups: groups.pop("blocks"), "namelist group &blocks: "),
-        (lambda groups: groups["blocks"]["v"].pop(), "block 4 of scene 'mine': v = NaN"),
-        (lambda groups: groups["blocks"]["v"].append(1.0), "namelist group &blocks: "),
-        (lambda groups: groups["scene"]["parameters"].update(ends="open"), "ends"),
-        (lambda groups: groups["scene"]["parameters"].update(kappa=-1.0), "kappa"),
-        (lambda groups: groups["scene"]["parameters"].update(blocks=0), "blocks = 0"),
+        (lambda groups: groups.pop("histories"), "namelist group &histories: "),
+        (lambda groups: groups["histories"]["values"].pop(), "values"),
+        (lambda groups: groups["histories"]["values"].append(1.0), "values"),
+        (lambda groups: groups["scene"]["model"].update(ends="open"), "ends"),
+        (lambda groups: groups["scene"]["model"].update(values=[5, 0.7, 0.5, 0.8, -1]), "kappa"),
+        (lambda groups: groups["scene"]["model"].update(blocks=0), "blocks = 0"),
         (
-            lambda groups: groups["scene"]["parameters"].update(
-                law="quasistatic_slip_delayed_logarithm", own=[0.1]
+            lambda groups: groups["scene"]["model"].update(
+                name="slip_delayed_logarithm", parameters=[*PLACE], values=[*PLACE.values()]
             ),
-            "a chain: law",
+            "it has no second difference",
         ),
     ],
 )
 def test_program_refuses_bad_chains(programs, config, change, words):
     """Without a file left behind."""
     a_chain(config)
-    changed = groups(config, "mine")
+    changed = scene_groups(config, "mine")
     change(changed)
     run = programs.run_groups("trajectory", changed)
     assert run.returncode == 1
@@ -152,4 +149,4 @@ def test_chains_that_move_alike_do_not_show_that_more_blocks_differ():
         ({"a": alike, "b": still}, NOT_REPRODUCED),
         ({"a": alike, "b": differ}, REPRODUCED),
     ):
-        assert blocks_differ(Results(chains=chains), chains=["a", "b"]).verdict == verdict
+        assert blocks_differ(Results(trajectories=chains), scenes=["a", "b"]).verdict == verdict

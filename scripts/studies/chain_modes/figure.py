@@ -1,4 +1,4 @@
-"""The drawing of plans/chain_modes.py, and the numbers of its caption."""
+"""The drawing of modes of chains, and the numbers of its caption."""
 
 import numpy as np
 import xarray as xr
@@ -12,7 +12,7 @@ from matplotlib.patches import Patch
 
 from scripts.drawing import parameters
 from scripts.drawing.wording import short
-from scripts.studies.chain_modes.table import mode_rows
+from scripts.studies.chain_modes.table import by_plane, mode_rows, stiffness_of
 
 REGIONS = {
     "all modes stable": "#ffffff",
@@ -21,16 +21,9 @@ REGIONS = {
 }
 
 
-def by_plane(curves: list, planes: list) -> list[list]:
-    """Curves of the modes of each plane."""
-    size = len(curves) // max(1, len(planes))
-    return [curves[i * size : (i + 1) * size] for i in range(len(planes))]
-
-
-def draw(
-    curves: list[xr.Dataset], planes: list[dict], stiffness: list[float], chain: dict
-) -> Figure:
+def draw(curves: list[xr.Dataset], planes: list[dict], chain: dict) -> Figure:
     """A panel for each plane: regions, and the curves of each mode."""
+    stiffness = stiffness_of_modes(curves, planes)
     figure, panels = plt.subplots(1, len(planes), figsize=(6.7, 3.6), squeeze=False, sharey=True)
     colours = colormaps["viridis"](np.linspace(0, 0.9, len(stiffness)))
     for number, (axes, plane, modes) in enumerate(
@@ -76,28 +69,31 @@ def draw_regions(axes: Axes, modes: list[xr.Dataset]) -> None:
     )
 
 
-def numbers(
-    curves: list[xr.Dataset], planes: list[dict], stiffness: list[float], chain: dict
-) -> dict:
+def stiffness_of_modes(curves: list[xr.Dataset], planes: list[dict]) -> list[float]:
+    """The stiffness of each mode, the same in all planes."""
+    return [stiffness_of(mode) for mode in by_plane(curves, planes)[0]]
+
+
+def numbers(curves: list[xr.Dataset], planes: list[dict], chain: dict) -> dict:
     """Share of each plane in which only spatial modes are unstable."""
     return {
         **chain,
-        "most": stiffness[-1],
+        "most": max(stiffness_of_modes(curves, planes)),
         "planes": [
             {
                 "xi": plane["xi"],
                 "gamma": plane["gamma"],
                 "share": short(100 * float((regions_of(modes) == 1).mean()), 2),
-                "critical": critical_of(modes, stiffness),
+                "critical": critical_of(modes),
             }
             for plane, modes in zip(planes, by_plane(curves, planes), strict=True)
         ],
     }
 
 
-def critical_of(modes: list[xr.Dataset], stiffness: list[float]) -> str:
+def critical_of(modes: list[xr.Dataset]) -> str:
     """Where the first mode becomes unstable as epsilon grows, at any delay of the window."""
-    first = [row for row in mode_rows("", modes, stiffness) if row["critical"] == "yes"]
+    first = [row for row in mode_rows("", modes) if row["critical"] == "yes"]
     if not first:
         return "no mode becomes unstable"
     (row, *_) = first

@@ -1,46 +1,44 @@
 """Where modes of a chain are unstable: Hopf curves of all modes over epsilon and tau."""
 
-import math
-
-from scripts.namelists.chains import eigenvalues
 from scripts.namelists.parameters import plane_group
 from scripts.plans.declare import Figure, Run, Study, Table
 
 
-def stiffness_of_modes(modes: dict) -> list[float]:
-    """s = 1 + kappa mu of the modes of a chain; the first is that of a block alone."""
-    found = [1.0 + modes["kappa"] * mu for mu in eigenvalues(modes["blocks"], modes["ends"])]
-    return found if found[0] == 1.0 else [1.0, *found]
+def modes_of(config: dict) -> range:
+    """Numbers of modes that differ in their frequencies; 0 is a block alone, if it is no mode."""
+    blocks, ends = config["chain_modes"]["blocks"], config["chain_modes"]["ends"]
+    # on a ring a standing wave has a second one beside it
+    last = blocks // 2 + 1 if ends == "ring" else blocks
+    return range(0 if ends == "plate" else 1, last + 1)
 
 
 def groups(config: dict, mode_plane: str, mode: str) -> dict[str, dict]:
-    """A plane of Hopf curves of a mode: those of a block at gamma sqrt(s) and xi s."""
+    """A plane of Hopf curves of a mode."""
     study = config["chain_modes"]
-    plane = study["planes"][mode_plane]
-    s = stiffness_of_modes(study)[int(mode)]
-    settings = {key: value for key, value in plane.items() if key != "tau_window"}
-    changes = {"xi": plane["xi"] * s, "gamma": plane["gamma"] * math.sqrt(s)}
-    of_tau = {"ordinate": "tau", "ordinate_window": plane["tau_window"], "cells": study["cells"]}
-    return {"hopf_curves": plane_group(config, {**settings, **changes, **of_tau})}
-
-
-def stiffness(config: dict) -> list[float]:
-    """The stiffness of each mode."""
-    return stiffness_of_modes(config["chain_modes"])
+    plane = {
+        **study["planes"][mode_plane],
+        **{key: study[key] for key in ("blocks", "kappa", "ends", "cells")},
+        **{"abscissa": "epsilon", "ordinate": "tau", "mode": int(mode)},
+    }
+    windows = {
+        f"{axis}_window": plane.pop(f"{plane[axis]}_window") for axis in ("abscissa", "ordinate")
+    }
+    if plane["mode"] == 0:
+        plane["blocks"] = 1
+    return {"hopf_curves": plane_group(config, plane | windows)}
 
 
 def curves(config: dict) -> list[str]:
     """Hopf curves of each mode in each plane, plane by plane."""
-    planes, modes = config["chain_modes"]["planes"], range(len(stiffness(config)))
+    planes, modes = config["chain_modes"]["planes"], modes_of(config)
     return [f"<results>/modes/{plane}/{mode}.nc" for plane in planes for mode in modes]
 
 
 def params(config: dict) -> dict:
-    """The planes, and the stiffness of each mode."""
+    """The planes and the chain."""
     study = config["chain_modes"]
     return {
         "planes": list(study["planes"].values()),
-        "stiffness": stiffness(config),
         "chain": {key: study[key] for key in ("blocks", "kappa", "ends")},
     }
 
@@ -58,10 +56,7 @@ STUDY = Study(
         Table(
             *("chain_modes_table", "tables/chain-modes.tsv"),
             lambda config: {"modes": curves(config)},
-            params={
-                "planes": lambda config: list(config["chain_modes"]["planes"]),
-                "stiffness": stiffness,
-            },
+            params={"planes": lambda config: list(config["chain_modes"]["planes"])},
             wanted=lambda config: bool(config["chain_modes"]["planes"]),
         ),
     ),

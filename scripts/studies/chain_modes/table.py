@@ -8,7 +8,18 @@ from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
 
 
-def mode_rows(plane: str, modes: list[xr.Dataset], stiffness: list[float]) -> list[dict]:
+def by_plane(curves: list, planes: list) -> list[list]:
+    """Curves of the modes of each plane."""
+    size = len(curves) // max(1, len(planes))
+    return [curves[i * size : (i + 1) * size] for i in range(len(planes))]
+
+
+def stiffness_of(mode: xr.Dataset) -> float:
+    """s = 1 + kappa mu of a mode: it is one block at gamma sqrt(s) and xi s."""
+    return 1.0 + float(mode.attrs.get("kappa", 0.0) * mode.attrs.get("mode_eigenvalue", 0.0))
+
+
+def mode_rows(plane: str, modes: list[xr.Dataset]) -> list[dict]:
     """A row for each mode: the block that it is, and the least epsilon on its Hopf curves.
 
     A mode without a curve in the window has none. The critical mode has the least of all.
@@ -17,12 +28,12 @@ def mode_rows(plane: str, modes: list[xr.Dataset], stiffness: list[float]) -> li
         {
             "plane": plane,
             "s": s,
-            "block_xi": float(mode.attrs["xi"]),
-            "block_gamma": float(mode.attrs["gamma"]),
+            "block_xi": s * float(mode.attrs["xi"]),
+            "block_gamma": np.sqrt(s) * float(mode.attrs["gamma"]),
             **least_of(mode),
             "unstable_share": float((mode.map_unstable_pairs.values > 0).mean()),
         }
-        for s, mode in zip(stiffness, modes, strict=True)
+        for s, mode in zip(map(stiffness_of, modes), modes, strict=True)
     ]
     least = min((row["epsilon"] for row in rows if not np.isnan(row["epsilon"])), default=np.nan)
     return [{**row, "critical": "yes" if row["epsilon"] == least else "no"} for row in rows]
@@ -39,14 +50,7 @@ def least_of(mode: xr.Dataset) -> dict:
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        stiffness = snakemake.params.stiffness
-        runs = [read(path) for path in snakemake.input.modes]
-        size = len(stiffness)
-        write_table(
-            snakemake.output[0],
-            [
-                row
-                for number, plane in enumerate(snakemake.params.planes)
-                for row in mode_rows(plane, runs[number * size : (number + 1) * size], stiffness)
-            ],
-        )
+        planes = snakemake.params.planes
+        runs = by_plane([read(path) for path in snakemake.input.modes], planes)
+        rows = [mode_rows(plane, modes) for plane, modes in zip(planes, runs, strict=True)]
+        write_table(snakemake.output[0], [row for of_plane in rows for row in of_plane])

@@ -1,4 +1,4 @@
-"""The drawing of plans/chain_exponents.py, and the numbers of its caption."""
+"""The drawing of exponents of chains, and the numbers of its caption."""
 
 import numpy as np
 from matplotlib import pyplot as plt
@@ -86,5 +86,5 @@ def count_in_words(row: dict) -> str:
 
 
 def name_of(row: dict) -> str:
-    """The scene of the blocks, or the name of the chain."""
-    return row["chain"].partition(f"_{row['blocks']:g}_kappa_")[0].replace("_", " ")
+    """The name of a chain without the number of its blocks, which stands beside it."""
+    return row["chain"].removesuffix(f"_{row['blocks']:g}").replace("_", " ")

@@ -1,4 +1,4 @@
-"""What chains of blocks of scenes do: whether they move alike, which modes move, exponents."""
+"""What chains of blocks do: whether they move alike, which modes move, exponents."""
 
 import math
 

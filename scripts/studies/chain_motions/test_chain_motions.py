@@ -1,37 +1,31 @@
-"""Motions of chains of blocks of scenes: the table and its figure."""
-
-import copy
+"""Motions of chains: the table and its figure."""
 
 import numpy as np
 import pytest
 
 from scripts.config.check_config import checked
-from scripts.files.read_config import ConfigError
+from scripts.namelists.program_groups import scene_groups
 from scripts.studies.chain_motions import figure as chain_exponents
 from scripts.studies.chain_motions.finding import describe
-from scripts.studies.chain_motions.plan import exponents_groups, groups, motion_chains
 from scripts.studies.chain_motions.table import exponents_of, motion_of, motion_row
+from scripts.studies.exponents.plan import groups
 
 
-@pytest.fixture
-def study(filled_config) -> dict:
-    """The paper's configuration with short runs, to change."""
-    config = copy.deepcopy(filled_config)
-    config["chain_motions"] |= {"t_end": 6000.0, "t_transient": 3000.0}
-    return config
+def row_of(programs, config: dict, **given) -> dict:
+    """The row of a chain of two blocks of scene oscillation that the programs compute."""
+    place = {"tau": 10.0, "epsilon": 0.35, "xi": 0.8, "gamma": 0.8, "blocks": 2}
+    times = {"t_end": 6000.0, "t_transient": 3000.0, "sample_interval": 0.5, "tolerance": 1e-6}
+    measured = {"variables": ["v"], "exponents": {"t_turning": 200.0}}
+    disturbance = {"disturbance": {"ln_v": 0.01}}
+    config["scenes"]["mine"] = {**place, **times, **measured, **disturbance, **given}
+    checked(config)
+    trajectory = programs.made_of("trajectory", scene_groups(config, "mine"))
+    return motion_row(trajectory, programs.made_of("exponents", groups(config, "mine")))
 
 
-def row_of(programs, config: dict, motion: str) -> dict:
-    """The row of a chain that the programs compute."""
-    trajectory = programs.made_of("trajectory", groups(config, motion))
-    exponents = programs.made_of("exponents", exponents_groups(config, motion))
-    return motion_row(trajectory, exponents)
-
-
-def test_stiff_springs_keep_blocks_alike(programs, study):
+def test_stiff_springs_keep_blocks_alike(programs, config):
     """At kappa = 10 two blocks of scene oscillation move as one: a cycle, one zero exponent."""
-    study["chain_motions"]["kappa"] = [10.0]
-    row = row_of(programs, study, "oscillation_2_kappa_10")
+    row = row_of(programs, config, kappa=10.0)
     assert (row["motion"], row["positive_exponents"], row["zero_exponents"]) == (
         "synchronous",
         0,
@@ -40,25 +34,21 @@ def test_stiff_springs_keep_blocks_alike(programs, study):
     assert len(exponents_of(row)) == 4
 
 
-def test_blocks_without_springs_between_have_the_exponents_of_one(programs, study):
+def test_blocks_without_springs_between_have_the_exponents_of_one(programs, config):
     """kappa = 0: each exponent of the block of scene oscillation twice, but for those of the flow,
     of which one is not measured.
     """
-    study["chain_motions"] |= {"kappa": [0.0], "disturbance": {**NO_DISTURBANCE, "ln_v": 0.01}}
-    row = row_of(programs, study, "oscillation_2_kappa_0")
-    values = exponents_of(row)
+    values = exponents_of(row_of(programs, config, kappa=0.0))
     np.testing.assert_allclose(values[:2], 0.0, atol=1e-3)
     np.testing.assert_allclose(values[2], values[3], atol=1e-3)
     assert values[2] < -0.001
 
 
 @pytest.mark.parametrize("ends", ["free", "plate"])
-def test_exponents_at_rest_are_those_of_the_linear_chain(programs, study, ends):
+def test_exponents_at_rest_are_those_of_the_linear_chain(programs, config, ends):
     """Without delay they are real parts of eigenvalues, by NumPy; all blocks come to rest."""
     place = {"tau": 0.0, "epsilon": 0.12, "xi": 0.5, "gamma": 0.5}
-    study["scenes"]["torus"] |= place
-    study["chain_motions"] |= {"kappa": [0.25], "ends": ends}
-    row = row_of(programs, study, "torus_2_kappa_0_25")
+    row = row_of(programs, config, **place, kappa=0.25, ends=ends)
     epsilon, xi, gamma = place["epsilon"], place["xi"], place["gamma"]
     second = np.array([[-1.0, 1.0], [1.0, -1.0]]) - (ends == "plate") * np.eye(2)
     one, none = np.eye(2), np.zeros((2, 2))
@@ -75,9 +65,6 @@ def test_exponents_at_rest_are_those_of_the_linear_chain(programs, study, ends):
     np.testing.assert_allclose(exponents_of(row), expected, atol=2e-3)
 
 
-NO_DISTURBANCE = {"theta": 0.0, "u": 0.0, "ln_v": 0.0, "seed": 1, "block": 0}
-
-
 def test_motion_in_words():
     """Rest, blocks that move alike or not, chaos."""
     assert motion_of(True, True, ["negative"]) == "rest"
@@ -86,10 +73,12 @@ def test_motion_in_words():
     assert motion_of(False, False, ["positive"]) == "pattern, chaotic"
 
 
-def test_names_of_chains_are_words(study):
-    """A kappa with a point has none in the name: names are names of files."""
-    study["chain_motions"] |= {"kappa": [0.1], "blocks": [5], "scenes": ["chaos"]}
-    assert list(motion_chains(study)) == [*study["chain_motions"]["chains"], "chaos_5_kappa_0_1"]
+def test_exponents_of_a_chain_are_measured_once(filled_config):
+    """Two more than it has blocks, up to its own end; one block is checked at other tolerances."""
+    exponents = groups(filled_config, "chaos_5")["exponents"]
+    assert (exponents["count"], exponents["t_end"], exponents["t_turning"]) == (7, 9000.0, 200.0)
+    assert not [key for key in exponents if key.startswith("check")]
+    assert "check_tolerances" in groups(filled_config, "torus")["exponents"]
 
 
 PLACE = {"ends": "free", "tau": 7.0, "epsilon": 0.7, "xi": 0.5, "gamma": 0.8, "law": "slip"}
@@ -97,7 +86,7 @@ ROWS = [
     {"chain": "a", "blocks": 2, "kappa": 1.0, "positive_exponents": 1, "exponents": "0.2 0.0 -0.1"},
     {"chain": "b", "blocks": 4, "kappa": 1.0, "positive_exponents": 3, "exponents": "0.3 0.2 0.1"},
     {
-        "chain": "torus_2_kappa_9",
+        "chain": "torus_2",
         "blocks": 2,
         "kappa": 9.0,
         "positive_exponents": 0,
@@ -121,22 +110,6 @@ def test_figure_has_a_line_for_each_chaotic_chain():
     assert chain_exponents.numbers(rows)["others"] == [
         r"torus (2 blocks, :math:`\kappa` = 9): pattern"
     ]
-
-
-@pytest.mark.parametrize(
-    ("change", "said"),
-    [
-        ({"scenes": ["nothing"]}, "config chain_motions scenes: 'nothing'; expected one of: fixed"),
-        ({"chains": ["nothing"]}, "config chain_motions chains: 'nothing'; expected one of: pat"),
-        ({"t_end": 900.0}, "config chain_motions: t_end = 900.0; expected a finite number > t_tr"),
-        ({"blocks": [2], "ends": "ring"}, "config chain_motions: blocks = 2; expected a whole num"),
-    ],
-)
-def test_contradictions_are_refused(study, change, said):
-    """One line for each."""
-    study["chain_motions"] |= change
-    with pytest.raises(ConfigError, match=said):
-        checked(study)
 
 
 @pytest.mark.parametrize("holds", [True, False])

@@ -7,10 +7,9 @@ Formulas and sources: `orbit_equations.f90`, `floquet_multipliers.f90`, `orbit_b
 from itertools import chain
 from pathlib import PurePath
 
-from scripts.namelists.laws import is_law
 from scripts.namelists.parameters import histories_group, place_of, with_model
 from scripts.plans.declare import LONGEST, Figure, Run, Study, Table
-from scripts.plans.scenes import marked_scenes
+from scripts.plans.scenes import curves_of, marked_scenes
 
 
 def groups(config: dict, cycle_line: str) -> dict[str, dict]:
@@ -27,12 +26,6 @@ def groups(config: dict, cycle_line: str) -> dict[str, dict]:
         "cycles": with_model(config, {**how, **own}),
         "histories": histories_group([history]),
     }
-
-
-def curves_of(config: dict, line: dict) -> dict | None:
-    """Windows of two parameters in which curves of a line are followed: its own, or the block's."""
-    shared = config["cycles"].get("curves") if is_law(config, line["law"]) else None
-    return line.get("curves", shared)
 
 
 def cycles_of_lines(config: dict) -> list[str]:

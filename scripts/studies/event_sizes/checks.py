@@ -1,11 +1,11 @@
-"""Keys of a chain that contradict each other."""
+"""Scenes that have no chain."""
 
 from collections.abc import Iterator
 
-from scripts.config.checks import check_chain
+from scripts.config.checks import check_scenes
 
 
 def contradictions(config: dict) -> Iterator[str]:
-    """Problems of the chains whose events are sized."""
-    for name, chain in config["event_sizes"]["chains"].items():
-        yield from check_chain(f"config event_sizes chains {name}", chain)
+    """Names of no chain among those whose events are sized."""
+    names = config["event_sizes"]["scenes"]
+    yield from check_scenes("config event_sizes scenes", names, config["scenes"], chains=True)

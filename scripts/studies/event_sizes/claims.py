@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from typing import Annotated
 
 from scripts.claims.claims_results import Finding, Results, decided, join, rows_about, short
-from scripts.claims.declare import Names, claim, number, reads, says, tested_with
+from scripts.claims.declare import Scenes, claim, number, reads, says, tested_with
 from scripts.studies.event_sizes.names_of_laws import RIVALS, definition_of, is_usual
 
 LEVEL = 0.01
@@ -15,15 +15,14 @@ PLAUSIBLE = 0.1
 MUCH_MORE_LIKELY = 3.0
 """A law is preferred to one that is not nested in it if its log-likelihood is larger by this."""
 
-EventChains = Annotated[list[str], Names("event_chain", several=True)]
 Decades = Annotated[float, number("decades that a power law spans")]
 
 
 @claim(56, "gutenberg_richter", "sections 1 and 5", look_at="event_sizes")
 @says("The sizes of events in a spring-block model follow the power law of Gutenberg and Richter.")
-@tested_with(chains=["chaos_25", "chaos_50", "chaos_100", "fault_50", "fault_100"], decades=2.0)
+@tested_with(scenes=["chaos_25", "chaos_50", "chaos_100", "fault_50", "fault_100"], decades=2.0)
 @reads("event_sizes")
-def power_law_of_sizes(results: Results, *, chains: EventChains, decades: Decades) -> Finding:
+def power_law_of_sizes(results: Results, *, scenes: Scenes, decades: Decades) -> Finding:
     """Whether sizes follow a power law over this many decades in some chain, and none fits better.
 
     Only in part if one with a cut-off is plausible over half as many decades, neither an
@@ -32,7 +31,7 @@ def power_law_of_sizes(results: Results, *, chains: EventChains, decades: Decade
     """
     parts, pure, joined, plausible = [], False, 0.0, 0.0
     others: dict[str, list[dict]] = {}
-    for name in chains:
+    for name in scenes:
         row = laws_of(results, name)
         for other in results.event_sizes:
             if other["chain"] == name and not is_usual(other):
@@ -104,15 +103,15 @@ def better_laws(row: dict, rivals: Iterable[str]) -> list[str]:
 
 @claim(57, "omori_utsu", "section 5", look_at="event_sizes")
 @says("Spring-block models follow the law of Omori and Utsu.")
-@tested_with(chains=["chaos_25", "chaos_50", "chaos_100", "fault_50", "fault_100"])
+@tested_with(scenes=["chaos_25", "chaos_50", "chaos_100", "fault_50", "fault_100"])
 @reads("event_sizes")
-def decaying_aftershocks(results: Results, *, chains: EventChains) -> Finding:
+def decaying_aftershocks(results: Results, *, scenes: Scenes) -> Finding:
     """Whether in some chain events follow large ones at a rate that decays by a power of time.
 
     An exponential decay must be much less likely.
     """
     parts, power, more = [], False, False
-    for name in chains:
+    for name in scenes:
         row = laws_of(results, name)
         place = name.replace("_", " ")
         if math.isnan(row["aftershock_chance"]):

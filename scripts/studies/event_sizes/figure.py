@@ -1,4 +1,4 @@
-"""The drawing of plans/event_sizes.py, and the numbers of its caption."""
+"""The drawing of event sizes, and the numbers of its caption."""
 
 import math
 
@@ -110,6 +110,8 @@ def draw_cut_offs(axes: Axes, laws: list[dict], styles: dict[str, dict]) -> None
     for name, style in styles.items():
         for gamma, mark in marks.items():
             rows = [r for r in fitted if definition_of(r) == name and r["gamma"] == gamma]
+            if not rows:
+                continue
             blocks, middle, low, high = (
                 np.array([row[key] for row in rows])
                 for key in ("blocks", "size_cutoff", "size_cutoff_low", "size_cutoff_high")

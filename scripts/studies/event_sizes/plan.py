@@ -3,35 +3,35 @@
 Formulas and sources: `slip_events.f90`, `laws.py`.
 """
 
-from scripts.namelists.chains import groups_of_chain
+from scripts.namelists.program_groups import scene_groups
 from scripts.plans.declare import LONG, Figure, Run, Study, Table
+from scripts.plans.scenes import paths_of_scenes
 
 
-def groups(config: dict, event_chain: str) -> dict[str, dict]:
+def names(config: dict) -> list[str]:
+    """Chains whose events are sized."""
+    return [name for name in config["event_sizes"]["scenes"] if name in config["scenes"]]
+
+
+def groups(config: dict, scene: str) -> dict[str, dict]:
     """A chain for the slips of its blocks from the start on: events are found in all of them."""
-    study = config["event_sizes"]
-    own = {"t_transient": 0.0, "thresholds": study["thresholds"]}
-    return groups_of_chain(config, event_chain, study["chains"][event_chain] | own)
+    own = {"t_transient": 0.0, "thresholds": config["event_sizes"]["thresholds"]}
+    return scene_groups(config, scene, **own)
 
 
 def slips(config: dict) -> list[str]:
     """Slips of the blocks of all chains."""
-    return [f"<results>/chain_slips/{name}.nc" for name in config["event_sizes"]["chains"]]
+    return paths_of_scenes("chain_slips", names(config))
 
 
 def events(config: dict) -> list[str]:
     """Tables of the events of all chains."""
-    return [f"<results>/tables/chain-events/{name}.tsv" for name in config["event_sizes"]["chains"]]
+    return [f"<results>/tables/chain-events/{name}.tsv" for name in names(config)]
 
 
-def transient(config: dict, event_chain: str) -> float:
+def transient(config: dict, scene: str) -> float:
     """The time before which events of a chain are left out."""
-    return config["event_sizes"]["chains"][event_chain]["t_transient"]
-
-
-def transients(config: dict) -> list[float]:
-    """These times of all chains."""
-    return [transient(config, name) for name in config["event_sizes"]["chains"]]
+    return config["scenes"][scene]["t_transient"]
 
 
 def inputs(config: dict) -> dict:
@@ -46,21 +46,21 @@ def inputs(config: dict) -> dict:
 FIGURE = {
     "category": "Chains",
     "inputs": inputs,
-    "params": lambda config: {"names": list(config["event_sizes"]["chains"])},
+    "params": lambda config: {"names": names(config)},
 }
 STUDY = Study(
-    entries={"event_chain": ("event_sizes", "chains")},
+    reads=("scenes",),
     runs=(
         Run(
-            *("chain_slips", "slip_events", "chain_slips/{event_chain}.nc", groups),
+            *("chain_slips", "slip_events", "chain_slips/{scene}.nc", groups),
             priority=LONG,
             minutes=120,
         ),
     ),
     tables=(
         Table(
-            *("chain_events", "tables/chain-events/{event_chain}.tsv"),
-            lambda _config, event_chain: {"slips": f"<results>/chain_slips/{event_chain}.nc"},
+            *("chain_events", "tables/chain-events/{scene}.tsv"),
+            lambda _config, scene: {"slips": f"<results>/chain_slips/{scene}.nc"},
             params={"t_transient": transient},
             script="events_table.py",
         ),
@@ -68,12 +68,20 @@ STUDY = Study(
             *("event_sizes_table", "tables/event-sizes.tsv"),
             lambda config: {"slips": slips(config), "events": events(config)},
             params={
-                "t_transient": transients,
+                "t_transient": lambda config: [transient(config, name) for name in names(config)],
                 "thresholds": lambda config: config["event_sizes"]["thresholds"],
             },
-            wanted=lambda config: bool(config["event_sizes"]["chains"]),
+            wanted=lambda config: bool(names(config)),
         ),
     ),
     figures=(Figure("event_sizes", place=450, **FIGURE),),
-    kinds=(Figure("event_chains", place=90, shows=("event_sizes", "chains"), **FIGURE),),
+    kinds=(
+        Figure(
+            "event_sizes",
+            place=90,
+            shows=("scenes",),
+            shows_entry=lambda config, scene: scene in config["event_sizes"]["scenes"],
+            **FIGURE,
+        ),
+    ),
 )

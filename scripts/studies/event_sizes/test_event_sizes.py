@@ -9,6 +9,7 @@ import xarray as xr
 from made_up_results import NO, PARTLY, YES, Results
 from scipy.ndimage import label
 
+from scripts.namelists.program_groups import scene_groups
 from scripts.studies.event_sizes import figure as event_sizes
 from scripts.studies.event_sizes.claims import decaying_aftershocks, power_law_of_sizes
 from scripts.studies.event_sizes.events_table import event_rows
@@ -30,19 +31,20 @@ RUN = {"t_end": 120.0, "t_transient": 0.0, "sample_interval": FINE, "tolerance":
 
 @pytest.fixture
 def config(filled_config) -> dict:
-    """The paper's configuration with its defaults, to change."""
-    return copy.deepcopy(filled_config)
+    """The paper's configuration with its defaults, to change; one chain is short."""
+    config = copy.deepcopy(filled_config)
+    config["scenes"]["chaos_100"] |= RUN
+    return config
 
 
 @pytest.mark.parametrize(("ends", "threshold"), [("free", 1.0), ("ring", 1.0), ("free", 1.05)])
 def test_events_are_connected_places_of_the_trajectory(programs, config, ends, threshold):
     """Places above the threshold in a fine raster of blocks and times, by SciPy, are the same."""
-    chain = config["event_sizes"]["chains"]["chaos_100"]
-    chain |= {**RUN, "ends": ends, "blocks": 7, "variables": ["v"]}
+    config["scenes"]["chaos_100"] |= {"ends": ends, "blocks": 7}
     config["event_sizes"]["thresholds"] = [threshold, 3.0]
     found = programs.made_of("slip_events", groups(config, "chaos_100"))
     slips = found.isel(event=found.threshold.values == threshold)
-    run = programs.made_of("trajectory", groups(config, "chaos_100"))
+    run = programs.made_of("trajectory", scene_groups(config, "chaos_100"))
     v = run.v.values
     labels, _ = label(v > threshold)
     if ends == "ring":
@@ -66,7 +68,7 @@ def test_events_are_connected_places_of_the_trajectory(programs, config, ends, t
 
 def test_unfinished_events_are_left_out(programs, config):
     """In a chain that the run ends early no event reaches its end."""
-    config["event_sizes"]["chains"]["chaos_100"] |= {**RUN, "t_end": 40.0, "blocks": 3}
+    config["scenes"]["chaos_100"] |= {"t_end": 40.0, "blocks": 3}
     slips = programs.made_of("slip_events", groups(config, "chaos_100"))
     slips = slips.isel(event=slips.threshold.values == 1)
     rows = event_rows(slips, 0.0)
@@ -217,7 +219,7 @@ def test_verdict_on_sizes(change, verdict):
 
     Nor one with a cut-off that another definition of an event does not show.
     """
-    given = {"chains": ["mine"], "decades": 2.0}
+    given = {"scenes": ["mine"], "decades": 2.0}
     rows = [{**ROW, **change}, {**ROW, "threshold": 2.0}]
     assert power_law_of_sizes(Results(event_sizes=rows), **given).verdict == verdict
     rows[1]["size_cutoff"] = 20.0
@@ -239,12 +241,12 @@ def test_verdict_on_sizes(change, verdict):
 def test_verdict_on_aftershocks(change, verdict):
     """A decay by a power; one that may be exponential; none."""
     made = Results(event_sizes=[{**ROW, **change}])
-    assert decaying_aftershocks(made, chains=["mine"]).verdict == verdict
+    assert decaying_aftershocks(made, scenes=["mine"]).verdict == verdict
 
 
 def test_figure_draws_the_distribution(programs, config):
     """The line falls from 1 to one event's share; a chain with few events has no fitted line."""
-    config["event_sizes"]["chains"]["chaos_100"] |= {**RUN, "blocks": 3}
+    config["scenes"]["chaos_100"] |= {"blocks": 3}
     config["event_sizes"]["thresholds"] = [1.0]
     slips = programs.made_of("slip_events", groups(config, "chaos_100"))
     rows = [{"threshold": 1.0, **row} for row in event_rows(slips, 20.0)]

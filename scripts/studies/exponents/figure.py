@@ -14,6 +14,8 @@ from scripts.drawing.style import FAINT
 from scripts.drawing.wording import with_error
 from scripts.tables.exponent_signs import count_in_words
 
+COLOURS = 8
+"""Exponents with a colour of their own."""
 LEAST_SCALE = 1e-3
 """Exponents closer to zero than this are drawn on a linear scale."""
 
@@ -36,7 +38,7 @@ def draw(runs: list[xr.Dataset], table: list[dict]) -> Figure:
         words = spectrum_in_words(rows_at_own_step(table, scene))
         left.set_title(f"$\\bf{{{letter}}}$  scene {scene.replace('_', ' ')}: {words}")
     handles = legend_of(max(run.sizes["exponent"] for run in runs))
-    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
+    figure.legend(handles=handles, loc="outside lower center", ncols=min(len(handles), COLOURS))
     grid[-1, 0].set_xlabel("time averaged over")
     grid[-1, 1].set_xlabel("tolerance of one step")
     grid[-1, 2].set_xlabel("mean step")
@@ -46,7 +48,9 @@ def draw(runs: list[xr.Dataset], table: list[dict]) -> Figure:
 def legend_of(exponents: int) -> list[Line2D]:
     """The exponents by their colours, the largest first."""
     return [
-        Line2D([], [], marker="o", ms=2.5, lw=0.8, color=f"C{i % 8}", label=rf"$\lambda_{i + 1}$")
+        Line2D(
+            [], [], marker="o", ms=2.5, lw=0.8, color=f"C{i % COLOURS}", label=rf"$\lambda_{i + 1}$"
+        )
         for i in range(exponents)
     ]
 
@@ -71,7 +75,7 @@ def draw_times(axes: Axes, run: xr.Dataset) -> None:
     """Plain averages up to each time; at the end the values and their error bars."""
     elapsed = run.t - run.attrs["t_begin"]
     for i in range(run.sizes["exponent"]):
-        axes.plot(elapsed, run.running_average[:, i], color=f"C{i % 8}", lw=0.8)
+        axes.plot(elapsed, run.running_average[:, i], color=f"C{i % COLOURS}", lw=0.8)
     end = run.attrs["t_end"] - run.attrs["t_begin"]
     draw_bars(axes, run, 0, np.full(run.sizes["exponent"], 1.03 * end))
     axes.set(xlim=(0, 1.06 * end), ylabel=r"exponent $\lambda_i$")
@@ -109,7 +113,7 @@ def draw_bars(axes: Axes, run: xr.Dataset, k: int, places: np.ndarray) -> None:
             ms=2.5,
             capsize=2,
             lw=0.8,
-            color=f"C{i % 8}",
+            color=f"C{i % COLOURS}",
         )
 
 

@@ -6,16 +6,22 @@ Formulas and sources: `lyapunov_spectrum.f90`, `tangent_problem.f90`, `tangent_v
 
 from scripts.namelists.parameters import zero_of
 from scripts.namelists.program_groups import scene_groups
-from scripts.plans.declare import LONG_RUN, Figure, Run, Study, Table
+from scripts.plans.declare import LONGEST, Figure, Run, Study, Table
 from scripts.plans.scenes import paths_of_scenes, scenes_with
 
 
 def groups(config: dict, scene: str) -> dict[str, dict]:
     """A scene and how its exponents are measured, by default up to its own end."""
     settings, shared = config["scenes"][scene], config["exponents"] | zero_of(config)
+    own = {"checks": True, **settings.get("exponents", {})}
     default = {"count": shared.pop("count"), "t_end": settings["t_end"]}
-    exponents = {**default, **settings.get("exponents", {}), **shared}
-    return {**scene_groups(config, scene), "exponents": exponents}
+    exponents = {**default, **shared, **own}
+    left_out = (
+        "checks",
+        *[key for key in shared if key.startswith("check_") and not own["checks"]],
+    )
+    measured = {key: value for key, value in exponents.items() if key not in left_out}
+    return {**scene_groups(config, scene), "exponents": measured}
 
 
 def runs_of_scenes(config: dict) -> list[str]:
@@ -23,20 +29,32 @@ def runs_of_scenes(config: dict) -> list[str]:
     return paths_of_scenes("exponents", scenes_with(config, "exponents"))
 
 
+def runs_shown(config: dict) -> list[str]:
+    """Exponents of the scenes with checks; of a scene alone also without."""
+    names = scenes_with(config, "exponents")
+    checked = [name for name in names if config["scenes"][name]["exponents"]["checks"]]
+    return paths_of_scenes("exponents", checked or names)
+
+
 FIGURE = {
     "inputs": lambda config: {
-        "runs": runs_of_scenes(config),
+        "runs": runs_shown(config),
         "table": "<results>/tables/exponents.tsv",
     },
 }
 STUDY = Study(
     reads=("attractors", "cycles", "scenes"),
-    runs=(Run("exponents_runs", "exponents", "exponents/{scene}.nc", groups, **LONG_RUN),),
+    runs=(
+        Run(
+            *("exponents_runs", "exponents", "exponents/{scene}.nc", groups),
+            priority=LONGEST,
+            minutes=120,
+        ),
+    ),
     tables=(
         Table(
             *("exponents_table", "tables/exponents.tsv"),
             lambda config: {"runs": runs_of_scenes(config)},
-            wanted=lambda config: bool(runs_of_scenes(config)),
         ),
     ),
     figures=(Figure("exponents", category="Supplement", place=110, **FIGURE),),
@@ -46,7 +64,7 @@ STUDY = Study(
             category="Exponents",
             place=20,
             shows=("scenes",),
-            entries_with="exponents",
+            shows_entry=lambda config, scene: "exponents" in config["scenes"][scene],
             **FIGURE,
         ),
     ),

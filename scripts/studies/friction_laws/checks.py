@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from scripts.config.checks import check_observation, check_values, window
+from scripts.config.checks import check_observation, check_scenes, check_values, window
 from scripts.config.ranges import range_of
 from scripts.namelists.laws import HISTORY, block_parameters, definitions, own_parameters
 
@@ -25,8 +25,6 @@ def contradictions(config: dict) -> Iterator[str]:
     for law in study["laws"]:
         if law not in bare:
             yield f"{place} laws: {law!r}; expected some of: {', '.join(bare)}"
-    for scene in study["scenes"]:
-        if scene not in config["scenes"]:
-            yield f"{place} scenes: {scene!r}; expected some of: {', '.join(config['scenes'])}"
+    yield from check_scenes(f"{place} scenes", study["scenes"], config["scenes"])
     for name in set(study["planes"]) & set(config["scenes"]):
         yield f"{place} planes: {name!r}; expected a name that no scene has"

@@ -1,13 +1,13 @@
 """Hopf curves in a plane of epsilon and another parameter.
 
-Formulas and sources: (5) `characteristic_function.f90`; (7) to (10) `hopf_condition.f90`;
+Formulas and sources: (5) `characteristic_function.f90`; curves `hopf_curves.f90`;
 supercritical or subcritical `normal_form.f90`; special points `hopf_points.f90`,
 `hopf_unfoldings.f90`, `double_hopf.f90`.
 """
 
 from scripts.namelists.parameters import plane_group
 from scripts.plans.declare import MAIN, PAPER, Figure, Run, Study, Table
-from scripts.plans.scenes import paths_of_scenes, scenes_in_plane
+from scripts.plans.scenes import blocks_of, paths_of_scenes, scenes_in_plane
 
 
 def groups(config: dict, plane: str) -> dict[str, dict]:
@@ -16,10 +16,10 @@ def groups(config: dict, plane: str) -> dict[str, dict]:
 
 
 def inputs_of_points(config: dict) -> dict:
-    """Curves of all planes, and the linear stability of all scenes."""
+    """Curves of all planes, and the linear stability of all scenes of one block."""
     return {
         "curves": [f"<results>/hopf/{plane}.nc" for plane in config["hopf_curves"]],
-        "scenes": paths_of_scenes("linear_stability", config["scenes"]),
+        "scenes": paths_of_scenes("linear_stability", blocks_of(config)),
     }
 
 

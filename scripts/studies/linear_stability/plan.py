@@ -4,15 +4,15 @@ Formulas and sources: (5) `characteristic_roots.f90`, `stability_changes.f90`.
 """
 
 from scripts.namelists.laws import is_law
-from scripts.namelists.parameters import place_of, with_model
+from scripts.namelists.parameters import with_model
 from scripts.plans.declare import Run, Study, Table
-from scripts.plans.scenes import paths_of_scenes
+from scripts.plans.scenes import blocks_of, paths_of_scenes
 
 
 def groups(config: dict, scene: str) -> dict[str, dict]:
     """The parameters of a scene, and the bounds of roots and changes of its linear stability."""
     study, settings = config["linear_stability"], config["scenes"][scene]
-    group = {**with_model(config, place_of(config, settings)), "root_bound": study["root_bound"]}
+    group = {"model": with_model(config, settings)["model"], "root_bound": study["root_bound"]}
     if is_law(config, settings["law"]):
         windows = [0.0, study["tau_most"], -1.0, study["epsilon_most"]]
         group |= {"along": ["tau", "epsilon"], "windows": windows}
@@ -25,8 +25,8 @@ STUDY = Study(
     tables=(
         Table(
             *("linear_stability_table", "tables/linear-stability.tsv"),
-            lambda config: {"scenes": paths_of_scenes("linear_stability", config["scenes"])},
-            wanted=lambda config: bool(config["scenes"]),
+            lambda config: {"scenes": paths_of_scenes("linear_stability", blocks_of(config))},
+            wanted=lambda config: bool(blocks_of(config)),
         ),
     ),
 )

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from scripts.config.si import in_si, units_of
 from scripts.drawing import parameters
+from scripts.drawing.roots import roots_in_words
 from scripts.drawing.si_axes import add_axis, add_time
 from scripts.drawing.spectra import label_peaks, lines_in_words
 from scripts.drawing.style import FAINT
@@ -233,19 +234,6 @@ def class_and_signs(row: dict) -> str:
         kind = f"cycle with {row['period']:g} loops"
     signs = {word: row.get(f"{word}_exponents") for word in SIGNS.values()}
     return kind if math.isnan(signs["zero"]) else f"{kind}; exponents: {count_in_words(signs)}"
-
-
-def roots_in_words(roots: xr.Dataset) -> str:
-    """Whether steady sliding is stable, its unstable pairs, and its rightmost root."""
-    pairs = int(roots.attrs["unstable_pairs"])
-    state = "stable" if pairs == 0 else "unstable"
-    words = f"{state} ({pairs} unstable pair{'' if pairs == 1 else 's'} of roots"
-    if not roots.sizes["root"]:
-        return f"{words}, all real parts below ${roots.attrs['root_bound']:g}$)"
-    first = int(roots.root_real.values.argmax())
-    real, imaginary = float(roots.root_real[first]), abs(float(roots.root_imag[first]))
-    value = f"{real:.4g}" + (rf" \pm {imaginary:.4g}\,i" if imaginary else "")
-    return rf"{words}, rightmost $\lambda = {value}$)"
 
 
 def numbers(

@@ -5,6 +5,7 @@ Formulas and sources: (3), (4) `spring_block.yaml`, `slip_delayed_logarithm.yaml
 
 from scripts.namelists.program_groups import scene_groups
 from scripts.plans.declare import PAPER, Figure, Run, Study
+from scripts.plans.scenes import is_block
 
 
 def spectrum_groups(config: dict, scene: str) -> dict:
@@ -33,7 +34,11 @@ STUDY = Study(
     reads=("attractors", "linear_stability"),
     entries={"scene": ("scenes",)},
     runs=(
-        Run("trajectory", "trajectory", "trajectories/{scene}.nc", scene_groups, priority=PAPER),
+        Run(
+            *("trajectory", "trajectory", "trajectories/{scene}.nc", scene_groups),
+            data="trajectories",
+            priority=PAPER,
+        ),
         Run(
             *("spectrum", "spectrum", "spectra/{scene}.nc", spectrum_groups),
             data="spectra",
@@ -50,6 +55,7 @@ STUDY = Study(
             params=params,
             variables=("u", "v"),
             shows=("scenes",),
+            shows_entry=is_block,
         ),
     ),
 )

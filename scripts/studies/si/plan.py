@@ -4,7 +4,7 @@ Formulas and sources: (2) `scripts/config/si.py`.
 """
 
 from scripts.plans.declare import Study, Table
-from scripts.plans.scenes import scenes_with
+from scripts.plans.scenes import is_block, scenes_with
 
 
 def scenes_in_si(config: dict) -> dict[str, dict]:
@@ -12,9 +12,14 @@ def scenes_in_si(config: dict) -> dict[str, dict]:
     return {name: config["scenes"][name] for name in scenes_with(config, "si")}
 
 
+def blocks_in_si(config: dict) -> list[str]:
+    """Those of one block, whose events have a stress drop."""
+    return [name for name in scenes_with(config, "si") if is_block(config, name)]
+
+
 STUDY = Study(
     reads=("events", "scenes"),
-    wildcards={"si_scene": lambda config: scenes_with(config, "si")},
+    wildcards={"si_scene": blocks_in_si},
     tables=(
         Table(
             *("si_table", "tables/si.tsv"),
@@ -26,7 +31,7 @@ STUDY = Study(
             lambda _config, si_scene: {"events": f"<results>/slip_events/{si_scene}.nc"},
             params={"si": lambda config, si_scene: config["scenes"][si_scene]["si"]},
             script="events_table.py",
-            wanted=lambda config: bool(scenes_in_si(config)),
+            wanted=lambda config: bool(blocks_in_si(config)),
         ),
     ),
 )

@@ -2,7 +2,8 @@
 
 from collections.abc import Iterator
 
-from scripts.config.checks import check_scenes_of_chains, window, wrong
+from scripts.config.checks import check_scenes, window, wrong
+from scripts.namelists.laws import PREFIX, is_law
 
 
 def contradictions(config: dict) -> Iterator[str]:
@@ -10,9 +11,11 @@ def contradictions(config: dict) -> Iterator[str]:
     synchrony = config["synchrony"]
     place = "config synchrony"
     yield from window(place, "s_window", synchrony["s_window"], least=1.0)
-    yield from check_scenes_of_chains(place, synchrony, config["scenes"])
+    yield from check_scenes(f"{place} scenes", synchrony["scenes"], config["scenes"])
     for name in config["scenes"].keys() & set(synchrony["scenes"]):
         scene = config["scenes"][name]
+        if scene["law"].startswith(PREFIX) or not is_law(config, scene["law"]):
+            yield f"{place} scenes: {name!r} has the law {scene['law']}; chains have no such law"
         if synchrony["t_end"] <= scene["t_transient"]:
             expected = f"a finite number > t_transient = {scene['t_transient']} of scene '{name}'"
             yield wrong(place, synchrony, "t_end", expected)

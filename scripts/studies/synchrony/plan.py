@@ -10,9 +10,8 @@ from scripts.plans.declare import LONG_RUN, Figure, Run, Study
 def groups(config: dict, scene: str) -> dict[str, dict]:
     """The motion of one block of a chain with kappa = 1, and the modes that are tried along it."""
     measured = {key: value for key, value in config["synchrony"].items() if key != "scenes"}
-    times = {"t_end": measured["t_end"], "tolerance": measured.pop("tolerance")}
-    alone = {"blocks": 1, "kappa": 1.0, "ends": "free"}
-    return {**scene_groups(config, scene, **times, **alone), "synchrony": measured}
+    alone = {"t_end": measured["t_end"], "blocks": 1, "kappa": 1.0, "ends": "free"}
+    return {**scene_groups(config, scene, **alone), "synchrony": measured}
 
 
 def inputs(config: dict) -> dict:

@@ -4,8 +4,6 @@ import math
 
 import xarray as xr
 
-from scripts.namelists.chains import eigenvalues
-
 
 def has_multipliers(one: xr.Dataset) -> bool:
     """Whether the motion is a cycle of which Floquet multipliers were found."""
@@ -45,11 +43,17 @@ def undecided_blocks(one: xr.Dataset, kappa: float, most: int) -> list[int]:
     sure = [(low, between[0]) for low, _ in growing_ranges(one) if low < between[0]]
     found = []
     for blocks in range(2, most + 1):
-        modes = [1 + kappa * mu for mu in eigenvalues(blocks, "free")[1:]]
+        modes = stiffness_of_modes(blocks, kappa)
         grows = any(low < s < high for s in modes for low, high in sure)
         if not grows and any(between[0] <= s <= between[1] for s in modes):
             found.append(blocks)
     return found
+
+
+def stiffness_of_modes(blocks: int, kappa: float) -> list[float]:
+    """The s of the modes of a chain with free ends but that in which all blocks move alike."""
+    angles = [math.pi * mode / blocks for mode in range(1, blocks)]
+    return [1 + kappa * round(4 * math.sin(angle / 2) ** 2, 12) for angle in angles]
 
 
 def largest_alike(ranges: list[tuple[float, float]], kappa: float) -> int | None:
@@ -66,7 +70,7 @@ def largest_alike(ranges: list[tuple[float, float]], kappa: float) -> int | None
     if widest == 0:
         return None
     for blocks in range(math.floor(math.pi / widest) + 1, 1, -1):
-        modes = [1 + kappa * mu for mu in eigenvalues(blocks, "free")[1:]]
+        modes = stiffness_of_modes(blocks, kappa)
         if not any(low < s < high for s in modes for low, high in ranges):
             return blocks
     return 1

@@ -6,11 +6,10 @@ import math
 import numpy as np
 import pytest
 import xarray as xr
-from independent_chain import whole_chain
 
 from scripts.config.check_config import checked
 from scripts.files.read_config import ConfigError
-from scripts.namelists.chains import groups_of_chain
+from scripts.namelists.program_groups import scene_groups
 from scripts.studies.synchrony.figure import zeros_in_words
 from scripts.studies.synchrony.plan import groups
 from scripts.studies.synchrony.ranges import (
@@ -36,13 +35,12 @@ def measured(programs, config: dict, scene: str, window: list, count: int) -> xr
 
 def test_disturbances_grow_as_between_two_blocks(programs, config):
     """kappa = 0.0875: s = 1.175, where disturbances grow along the paper's torus."""
-    place = {key: config["scenes"]["torus"][key] for key in ("tau", "epsilon", "xi", "gamma")}
-    apart = {"v": [1.1 + 1e-9, 1.1 - 1e-9]}
-    chain = whole_chain(
-        **{**place, "blocks": 2, "kappa": 0.0875, "history": apart, "t_end": 3000.0},
+    config["scenes"]["two"] = {
+        **{**config["scenes"]["torus"], "blocks": 2, "kappa": 0.0875, "t_end": 3000.0},
+        **{"history": {"theta": 0.0, "u": 0.0, "v": [1.1 + 1e-9, 1.1 - 1e-9]}},
         **{"sample_interval": 0.1, "tolerance": 1e-13, "variables": ["u", "v"]},
-    )
-    two = programs.made_of("trajectory", groups_of_chain(config, "mine", chain))
+    }
+    two = programs.made_of("trajectory", scene_groups(config, "two"))
     distance = abs(np.log(two.v).diff("block")) + abs(two.u.diff("block"))
     highest = distance.sel(t=slice(1000.0, None)).isel(block=0).coarsen(t=2000, boundary="trim")
     peaks = highest.max()
@@ -87,12 +85,12 @@ def test_motion_without_cycle_has_no_multipliers(programs, config):
 def test_largest_chain_that_moves_as_one(programs, config, blocks, alike):
     """Along the paper's torus disturbances grow up to s = 1.255: seven blocks separate."""
     assert (largest_alike([(1.0, 1.25493)], 1.0) >= blocks) == alike
-    place = {key: config["scenes"]["torus"][key] for key in ("tau", "epsilon", "xi", "gamma")}
-    chain = whole_chain(
-        **{**place, "blocks": blocks, "kappa": 1.0, "disturbance": {"ln_v": 1e-6}},
-        **{"t_end": 8000.0, "sample_interval": 0.5, "tolerance": 1e-12},
-    )
-    found = programs.made_of("trajectory", groups_of_chain(config, "mine", chain))
+    config["scenes"]["mine"] = {
+        **{**config["scenes"]["torus"], "blocks": blocks, "kappa": 1.0, "t_end": 8000.0},
+        **{"disturbance": {"ln_v": 1e-6, "seed": 1, "block": 0}},
+        **{"sample_interval": 0.5, "tolerance": 1e-12},
+    }
+    found = programs.made_of("trajectory", scene_groups(config, "mine"))
     spread = np.log(found.v).std("block")
     early, late = (float(spread.sel(t=slice(t, t + 500)).max()) for t in (3000, 7500))
     assert (late < early) == alike

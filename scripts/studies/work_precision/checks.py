@@ -2,19 +2,14 @@
 
 from collections.abc import Iterator
 
-from scripts.config.checks import check_reference, check_samples
+from scripts.config.checks import check_reference, check_samples, check_scenes
 
 
 def contradictions(config: dict) -> Iterator[str]:
     """Names that mean nothing or two things, and samples too far apart or too many."""
     place, study, scenes = "config work_precision", config["work_precision"], config["scenes"]
     yield from check_reference(f"{place} reference", study["reference"])
-    for name in study["scenes"]:
-        if name not in scenes:
-            yield (
-                f"{place} scenes: {name!r}; expected one of: {', '.join(scenes)} (or a case with"
-                " its parameters under work_precision cases)"
-            )
+    yield from check_scenes(f"{place} scenes", study["scenes"], scenes)
     for name in study["cases"]:
         if name in scenes:
             yield (

@@ -122,6 +122,8 @@ def test_scenes_of_the_paper_are_measured_as_they_are(config):
 
 def test_scene_of_the_paper_can_be_measured_alone(tmp_path):
     (tmp_path / "mine.yaml").write_text("work_precision: { scenes: { torus: { t_end: 20.0 } } }")
-    config = read_plan({"user_file": str(tmp_path / "mine.yaml")}).config
+    plan = read_plan({"user_file": str(tmp_path / "mine.yaml")})
+    assert "<results>/tables/exponents.tsv" not in plan.targets()
+    config = plan.config
     assert list(config["work_precision"]["scenes"]) == ["torus"]
     assert list(config["scenes"]) == ["torus"]

@@ -1,9 +1,9 @@
 !> The collocation equations of a periodic orbit of x' = T f(x(s), z(s)), z = x_c(s - lag/T), made
 !> linear about an approximation and solved on each interval.
 module orbit_linearisation
-   use dde, only: find_jacobian
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
+   use linear_system, only: find_full_jacobian
    use model_family, only: family_type
    use model_problem, only: model_type
    use orbit_passes, only: orbit_passes_type
@@ -269,36 +269,4 @@ contains
          end do
       end associate
    end subroutine evaluate_point
-
-   !> The Jacobian as full matrices, also of a problem that gives it as a band.
-   pure subroutine find_full_jacobian(problem, y, z, by_y, by_z)
-      class(model_type), intent(in) :: problem
-      real(wp), intent(in) :: y(:), z(:)
-      !> Derivatives by y and z, shapes (n, n) and (n, delays)
-      real(wp), intent(out) :: by_y(:, :), by_z(:, :)
-      real(wp), allocatable :: band(:, :), columns(:, :)
-      integer :: column, first, last
-
-      if (problem%lower < 0) then
-         call find_jacobian(problem, 0.0_wp, y, z, by_y, by_z)
-         return
-      end if
-      associate (n => problem%n, upper => problem%upper, rows => problem%rows)
-         allocate (band(1 + problem%lower + upper, n))
-         allocate (columns(1 + maxval([0, rows(2, :) - rows(1, :)]), size(z)))
-         call find_jacobian(problem, 0.0_wp, y, z, band, columns)
-         by_y = 0.0_wp
-         do column = 1, n
-            first = max(1, column - upper)
-            last = min(n, column + problem%lower)
-            by_y(first:last, column) = band(1 + upper + first - column:1 + upper + last - column, &
-                                            column)
-         end do
-         by_z = 0.0_wp
-         do column = 1, size(z)
-            by_z(rows(1, column):rows(2, column), column) &
-               = columns(:1 + rows(2, column) - rows(1, column), column)
-         end do
-      end associate
-   end subroutine find_full_jacobian
 end module orbit_linearisation

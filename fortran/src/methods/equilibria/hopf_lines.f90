@@ -4,6 +4,7 @@ module hopf_lines
    use characteristic_function, only: characteristic_of, characteristic_type
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
+   use model_modes, only: mode_of
    use model_problem, only: model_type
    use root_counts, only: crossing_frequency, roots_right_of
    implicit none (type, external)
@@ -50,7 +51,7 @@ contains
       integer :: i, roots_here, roots_next
 
       allocate (points(0))
-      block = model%mode(1)
+      block = mode_of(model, 1)
       here = 0.0_wp
       roots_here = unstable_roots(here)
       do i = 1, places

@@ -7,7 +7,7 @@ module linear_system
    use model_problem, only: model_type
    implicit none (type, external)
    private
-   public :: linear_part, linear_system_type
+   public :: find_full_jacobian, linear_part, linear_system_type
 
    !> A linear system with constant lags; an instantaneous term has lag 0.
    type :: linear_system_type
@@ -31,7 +31,7 @@ contains
       integer :: k
 
       state = model%steady_state()
-      call find_jacobian(model, 0.0_wp, state, state(model%component), by_y, by_z)
+      call find_full_jacobian(model, state, state(model%component), by_y, by_z)
       allocate (linear%a(model%n, model%n, size(model%lag) + 1), source=0.0_wp)
       linear%a(:, :, 1) = by_y
       do k = 1, size(model%lag)
@@ -39,6 +39,40 @@ contains
       end do
       linear%lag = [0.0_wp, model%lag]
    end function linear_part
+
+   !> The Jacobian as full matrices, also of a problem that gives it as a band.
+   pure subroutine find_full_jacobian(problem, y, z, by_y, by_z)
+      !> The problem
+      class(model_type), intent(in) :: problem
+      !> State and delayed values
+      real(wp), intent(in) :: y(:), z(:)
+      !> Derivatives by y and z, shapes (n, n) and (n, delays)
+      real(wp), intent(out) :: by_y(:, :), by_z(:, :)
+      real(wp), allocatable :: band(:, :), columns(:, :)
+      integer :: column, first, last
+
+      if (problem%lower < 0) then
+         call find_jacobian(problem, 0.0_wp, y, z, by_y, by_z)
+         return
+      end if
+      associate (n => problem%n, upper => problem%upper, rows => problem%rows)
+         allocate (band(1 + problem%lower + upper, n))
+         allocate (columns(1 + maxval([0, rows(2, :) - rows(1, :)]), size(z)))
+         call find_jacobian(problem, 0.0_wp, y, z, band, columns)
+         by_y = 0.0_wp
+         do column = 1, n
+            first = max(1, column - upper)
+            last = min(n, column + problem%lower)
+            by_y(first:last, column) = band(1 + upper + first - column:1 + upper + last - column, &
+                                            column)
+         end do
+         by_z = 0.0_wp
+         do column = 1, size(z)
+            by_z(rows(1, column):rows(2, column), column) &
+               = columns(:1 + rows(2, column) - rows(1, column), column)
+         end do
+      end associate
+   end subroutine find_full_jacobian
 
    !> Delta(s), singular at characteristic roots.
    pure function characteristic_matrix(self, s) result(matrix)

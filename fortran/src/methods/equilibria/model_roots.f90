@@ -5,6 +5,7 @@ module model_roots
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use linear_system, only: linear_part
+   use model_modes, only: mode_of
    use model_problem, only: model_type
    use root_counts, only: has_more_roots, roots_right_of
    implicit none (type, external)
@@ -27,8 +28,8 @@ contains
       integer :: i
 
       number = 0
-      do i = 1, model%modes()
-         number = number + roots_right_of(characteristic_of(model%mode(i)), bound)
+      do i = 1, model%shape%blocks
+         number = number + roots_right_of(characteristic_of(mode_of(model, i)), bound)
       end do
    end function count_roots
 
@@ -48,8 +49,8 @@ contains
       integer :: i, j, k
 
       allocate (roots(0))
-      do i = 1, model%modes()
-         block = model%mode(i)
+      do i = 1, model%shape%blocks
+         block = mode_of(model, i)
          c = characteristic_of(block)
          if (has_more_roots(c, bound, most_roots)) then
             call raise(error, "roots: more than "//text(most_roots)//" above "//text(bound) &

@@ -68,13 +68,11 @@ contains
       complex(wp), intent(out) :: q(:), p(:)
       !> No convergence
       type(error_type), allocatable, intent(out) :: error
-      complex(wp) :: delta(size(q), size(q))
       real(wp) :: row_size(size(q))
 
-      delta = linear%characteristic_matrix(s)
       ! rows of one size: otherwise the rounding errors of a large row are those of all
-      row_size = maxval(abs(delta), dim=2)
-      call null_vectors(delta/spread(row_size, 2, size(q)), q, p, error)
+      row_size = abs(s) + maxval(sum(abs(linear%a), dim=3), dim=2)
+      call null_vectors(linear%characteristic_matrix(s)/spread(row_size, 2, size(q)), q, p, error)
       if (allocated(error)) return
       p = p/row_size
       p = p/sum(p*matmul(linear%characteristic_slope(s), q))

@@ -101,7 +101,7 @@ contains
       integer :: k
 
       total = 0.0_wp
-      do k = ubound(coefficient, 1), 0, -1
+      do k = size(coefficient) - 1, 0, -1
          total = total*abs(s) + abs(coefficient(k))
       end do
    end function terms_size

@@ -1,97 +1,31 @@
 !> Cycles of the block along lines, against its Hopf points and their kinds.
-module test_block_cycles
-   use block_cycles, only: cycle_settings_type, cycles_type, find_cycles, left_out_type
-   use block_family, only: vector_of, with_vector
-   use block_parameters, only: block_parameters_type
+module test_cycle_branches
+   use block_builder, only: block_at, build_block, by_epsilon, by_tau, by_xi
+   use cycle_branches, only: cycle_line_type, cycle_settings_type, cycles_type, find_cycles, &
+                             left_out_type
    use cycle_curves, only: cycle_curve_type, find_curves
-   use cycle_lines, only: along_epsilon, along_gamma, along_tau, along_xi, cycle_line_type, &
-                          find_hopf_starts, hopf_start_type
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
-   use expectations, only: expect, expect_between, expect_close, expect_success
+   use expectations, only: expect, expect_close, expect_success
    use hopf_curves, only: curve_point_type
-   use hopf_planes, only: curve_plane_type
+   use hopf_lines, only: hopf_on_line_type
    use hopf_points, only: hopf_point_type
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use paper_equations, only: relative_residual
    use special_points, only: fold, torus_bifurcation
    use traced_planes, only: find_points, new_plane
    implicit none (type, external)
    private
-   public :: collect_block_cycles
+   public :: collect_cycle_branches
 
 contains
 
-   subroutine collect_block_cycles(testsuite)
+   subroutine collect_cycle_branches(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("Hopf points on lines", test_hopf_starts), &
-                   new_unittest("Hopf points along a law's own parameter", test_own_parameter), &
-                   new_unittest("folds start at a generalised Hopf point", test_folds), &
+      testsuite = [new_unittest("folds start at a generalised Hopf point", test_folds), &
                    new_unittest("tori start at a double Hopf point", test_tori), &
                    new_unittest("a closed branch", test_closed)]
-   end subroutine collect_block_cycles
-
-   !> They fulfil (5) and lie on the line. A line in tau through one meets it.
-   subroutine test_hopf_starts(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(cycle_line_type) :: line
-      type(failure_type), allocatable :: failure
-      type(hopf_start_type), allocatable :: across(:), starts(:)
-      integer, parameter :: along(3) = [along_epsilon, along_xi, along_gamma]
-      real(wp), parameter :: known(4) = [10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp]
-      real(wp), allocatable :: place(:)
-      integer :: i, j
-
-      do j = 1, size(along)
-         line%along = along(j)
-         line%parameters = with_vector(block_parameters_type(), known)
-         line%window = [0.01_wp, 2.0_wp]
-         call find_hopf_starts(line, starts, failure)
-         call expect_success(error, failure)
-         call expect(error, size(starts) > 0, "Hopf points")
-         if (allocated(error)) return
-         do i = 1, size(starts)
-            associate (p => starts(i)%parameters)
-               place = vector_of(p)
-               call expect_between(error, place(along(j)), 0.01_wp, 2.0_wp, "window")
-               place(along(j)) = known(along(j))
-               call expect_close(error, place(:4), known, 1.0e-9_wp, "the line")
-               call expect_close(error, relative_residual(p, cmplx(0.0_wp, starts(i)%omega, wp)), &
-                                 0.0_wp, 1.0e-10_wp, "residual of (5)")
-               call find_hopf_starts(cycle_line_type(along_tau, p, [0.0_wp, 20.0_wp]), across, &
-                                     failure)
-               call expect_success(error, failure)
-               if (allocated(error)) return
-               call expect_close(error, minval(abs(across%parameters%tau - 10.0_wp)), 0.0_wp, &
-                                 1.0e-9_wp, "tau of the line across")
-            end associate
-         end do
-      end do
-   end subroutine test_hopf_starts
-
-   !> About steady sliding the law with a cut-off is the paper's at (1 + c) xi.
-   subroutine test_own_parameter(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(block_parameters_type) :: p
-      type(failure_type), allocatable :: failure
-      type(hopf_start_type), allocatable :: along_c(:), of_paper(:)
-      integer :: i
-
-      p = block_parameters_type(tau=10.0_wp, epsilon=0.5_wp, xi=0.4_wp, gamma=0.8_wp)
-      call find_hopf_starts(cycle_line_type(along_xi, p, [0.4_wp, 4.0_wp]), of_paper, failure)
-      call expect_success(error, failure)
-      p%law = "slip_cut_off"
-      call find_hopf_starts(cycle_line_type(5, p, [0.0_wp, 9.0_wp]), along_c, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
-      call expect(error, size(along_c) > 0 .and. size(along_c) == size(of_paper), "as many")
-      if (allocated(error)) return
-      call expect_close(error, 0.4_wp*(1.0_wp + [(along_c(i)%parameters%own(1), &
-                                                  i=1, size(along_c))]), &
-                        of_paper%parameters%xi, 1.0e-12_wp, "(1 + c) xi")
-      call expect_close(error, along_c%omega, of_paper%omega, 1.0e-12_wp, "omega")
-   end subroutine test_own_parameter
+   end subroutine collect_cycle_branches
 
    !> The Hopf point of a kind in the plane of epsilon and tau that is nearest to a place.
    subroutine nearest_hopf_point(xi, window, kind, place, nearest, error)
@@ -102,17 +36,15 @@ contains
       type(error_type), allocatable, intent(inout) :: error
       type(curve_point_type), allocatable :: points(:)
       type(hopf_point_type), allocatable :: found(:)
-      type(curve_plane_type) :: plane
       integer :: i
 
       nearest = 1000.0_wp
-      plane = new_plane(along_tau, 0.8_wp, xi, window)
-      call find_points(plane, points, found, error)
+      call find_points(new_plane(by_tau, 0.8_wp, xi, window), points, found, error)
       if (allocated(error)) return
       do i = 1, size(found)
-         associate (p => found(i)%parameters)
-            if (found(i)%kind == kind .and. norm2([p%epsilon, p%tau] - place) &
-                < norm2(nearest - place)) nearest = [p%epsilon, p%tau]
+         associate (there => found(i)%numbers([by_epsilon, by_tau]))
+            if (found(i)%kind /= kind) cycle
+            if (norm2(there - place) < norm2(nearest - place)) nearest = there
          end associate
       end do
    end subroutine nearest_hopf_point
@@ -128,11 +60,12 @@ contains
       type(cycles_type), allocatable :: found(:)
       type(left_out_type), allocatable :: left_out(:)
       type(failure_type), allocatable :: failure
-      type(hopf_start_type), allocatable :: hopf(:)
+      type(hopf_on_line_type), allocatable :: hopf(:)
       real(wp) :: known(2)
       integer :: ends, i, k
 
       settings = line
+      settings%curve_along = [by_epsilon, by_tau]
       settings%curve_window = reshape(window, [2, 2])
       call find_cycles(settings, hopf, found, left_out, failure)
       call expect_success(error, failure)
@@ -147,8 +80,10 @@ contains
                if (part%points(1)%kind /= kind .or. part%ending /= ending) cycle
                ends = ends + 1
                associate (last => part%points(size(part%points))%orbit%parameters)
-                  call nearest_hopf_point(last(3), window, ending, [last(2), last(1)], known, error)
-                  call expect_close(error, [last(2), last(1)], known, 1.0e-4_wp, "end of the curve")
+                  call nearest_hopf_point(last(by_xi), window, ending, &
+                                          last([by_epsilon, by_tau]), known, error)
+                  call expect_close(error, last([by_epsilon, by_tau]), known, 1.0e-4_wp, &
+                                    "end of the curve")
                end associate
             end associate
          end do
@@ -160,7 +95,7 @@ contains
    subroutine test_folds(error)
       type(error_type), allocatable, intent(out) :: error
 
-      call expect_end(settings_on(along_epsilon, [5.9_wp, 0.0_wp, 0.8_wp, 0.8_wp], &
+      call expect_end(settings_on(by_epsilon, [5.9_wp, 0.0_wp, 0.8_wp, 0.8_wp], &
                                   [0.3_wp, 0.6_wp]), &
                       [0.3_wp, 0.6_wp, 5.0_wp, 6.0_wp], fold, "generalised_hopf", error)
    end subroutine test_folds
@@ -169,7 +104,7 @@ contains
    subroutine test_tori(error)
       type(error_type), allocatable, intent(out) :: error
 
-      call expect_end(settings_on(along_tau, [0.0_wp, 0.5_wp, 0.8_wp, 0.8_wp], &
+      call expect_end(settings_on(by_tau, [0.0_wp, 0.5_wp, 0.8_wp, 0.8_wp], &
                                   [12.0_wp, 12.8_wp]), &
                       [0.4_wp, 0.6_wp, 11.5_wp, 12.8_wp], torus_bifurcation, "double_hopf", error)
    end subroutine test_tori
@@ -181,9 +116,8 @@ contains
       real(wp), intent(in) :: parameters(4), window(2)
       type(cycle_settings_type) :: settings
 
-      settings%line = cycle_line_type(along, with_vector(block_parameters_type(), parameters), &
-                                      window)
-      allocate (settings%starts(0), settings%start_v(0))
+      settings%line = cycle_line_type(block_at(parameters), along, window)
+      allocate (settings%starts(0))
       settings%degree = 5
       settings%intervals = 20
       settings%most_orbits = 40
@@ -196,13 +130,11 @@ contains
       type(cycles_type), allocatable :: found(:)
       type(left_out_type), allocatable :: left_out(:)
       type(failure_type), allocatable :: failure
-      type(hopf_start_type), allocatable :: hopf(:)
+      type(hopf_on_line_type), allocatable :: hopf(:)
 
-      settings%line = cycle_line_type(along_tau, &
-                                      block_parameters_type(0.0_wp, 0.7_wp, 0.5_wp, 0.8_wp), &
-                                      [4.8_wp, 5.2_wp])
+      settings%line = cycle_line_type(build_block(0.0_wp, 0.7_wp, 0.5_wp, 0.8_wp, v=1.1_wp), &
+                                      by_tau, [4.8_wp, 5.2_wp])
       settings%starts = [5.0_wp, 5.0_wp]
-      settings%start_v = [1.1_wp, 1.1_wp]
       settings%most_orbits = 100
       call find_cycles(settings, hopf, found, left_out, failure)
       call expect_success(error, failure)
@@ -219,4 +151,4 @@ contains
       call expect(error, left_out(1)%reason == "its cycle is on a branch", "and why")
       call expect_close(error, left_out(1)%at, 5.0_wp, 0.0_wp, "and where")
    end subroutine test_closed
-end module test_block_cycles
+end module test_cycle_branches
