@@ -9,7 +9,6 @@ import xarray as xr
 
 from scripts.claims import declare
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED, Results
-from scripts.files.inputs import with_law_in_words
 from scripts.namelists.laws import PAPER
 from scripts.namelists.parameters import HISTORY, PARAMETERS
 
@@ -286,6 +285,4 @@ def of_other_model(data: xr.Dataset) -> xr.Dataset:
     attributes |= {key: renamed(str(attributes[key])) for key in ("along",) if key in attributes}
     attributes |= {"model": "mackey_glass", "parameters": "beta n tau", "n": 10.0, "signal": "y"}
     names = own(data.variables)
-    return with_law_in_words(
-        data[list(names)].rename(names).drop_attrs(deep=False).assign_attrs(attributes)
-    )
+    return data[list(names)].rename(names).drop_attrs(deep=False).assign_attrs(attributes)
