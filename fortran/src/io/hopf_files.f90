@@ -8,6 +8,7 @@ module hopf_files
    use hopf_points, only: hopf_point_type
    use model_attributes, only: put_model, put_places
    use model_description, only: model_length => word_length
+   use model_modes, only: mode_of
    use model_settings, only: model_settings_type
    use namelist_input, only: namelist_file_type
    use netcdf_output, only: output_file_type
@@ -65,8 +66,8 @@ contains
       plane%window = hopf_curves%windows
       if (allocated(error)) return
       associate (blocks => plane%model%shape%blocks, mode => hopf_curves%mode)
-         if (merge(mode == 0, mode >= 1 .and. mode <= plane%model%modes(), blocks == 1)) then
-            if (blocks > 1) plane%model = plane%model%mode(mode)
+         if (merge(mode == 0, mode >= 1 .and. mode <= plane%model%shape%blocks, blocks == 1)) then
+            if (blocks > 1) plane%model = mode_of(plane%model, mode)
          else
             call raise(error, path//": mode = "//text(mode)//" of blocks = "//text(blocks) &
                        //"; expected one of 1 to blocks, or 0 of one block")
