@@ -6,10 +6,9 @@ from collections.abc import Iterator
 
 import pytest
 
-from conftest import ROOT
 from scripts.config.check_config import checked
 from scripts.config.checks import FEWEST_SAMPLES
-from scripts.files.read_config import ConfigError, read
+from scripts.files.read_config import ConfigError
 from scripts.plans import studies
 
 NO_NUMBERS = ["0.5", True, None, [0.5], {"a": 0.5}, math.nan, math.inf, -math.inf]
@@ -83,7 +82,9 @@ def test_default_config_is_accepted_as_it_stands(config, default_config):
     scenes = checked(config)["scenes"]
     for name, scene in default_config["scenes"].items():
         given = {key: value for key, value in scene.items() if not isinstance(value, str)}
-        assert {key: scenes[name][key] for key in given} == given
+        found = {key: scenes[name][key] for key in given}
+        inside = {key: {**found[key], **one} for key, one in given.items() if isinstance(one, dict)}
+        assert found == given | inside
 
 
 @pytest.mark.parametrize("name", ["smoke", "fine_atlas"])
@@ -94,7 +95,7 @@ def test_overlays_name_only_keys_that_there_are(config, name):
 
 
 def test_smoke_config_has_all_scenes(config):
-    assert set(read(ROOT / "config" / "smoke.yaml")["scenes"]) == set(config["scenes"])
+    assert set(studies.merged("smoke.yaml")["scenes"]) == set(config["scenes"])
 
 
 def test_missing_keys_get_their_defaults(config):
@@ -104,6 +105,7 @@ def test_missing_keys_get_their_defaults(config):
     scenes = checked(config)["scenes"]
     assert scenes["mine"] == {
         **{"tau": 1, "epsilon": 0.5, "xi": 1, "gamma": 1, "t_end": 10},
+        **{"blocks": 1, "kappa": 0.0, "ends": "free", "disturbance": {"seed": 1, "block": 0}},
         "history": {"theta": 0.0, "u": 0.0, "v": 1.1},
         **{"t_transient": 0.0, "sample_interval": 0.05, "tolerance": 1e-9, "method": "auto"},
         "law": "slip_delayed_logarithm",
@@ -213,7 +215,7 @@ def test_unknown_keys_are_refused(whole):
     sections = [path for path in sections if path[:1] != ("claims",)]
     sections = [path for path in sections if path != ("work_precision", "scenes")]
     # of histories: tests/test_models.py; of curves: the parameters of a model
-    beside = {"history", "histories", "curves"}
+    beside = {"history", "histories", "curves", "disturbance"}
     sections = [path for path in sections if not beside & {*path[-1:], *path[-2:-1]}]
     for path in sections:
         section = whole
