@@ -352,9 +352,9 @@ def programs(binaries, tmp_path) -> Programs:
 
 
 def trajectory_settings(config: dict, scene: str) -> dict:
-    """What the namelist of a scene's trajectory holds of the configuration."""
-    studies = ("exponents", "attractors")
-    return {key: value for key, value in config["scenes"][scene].items() if key not in studies}
+    """What the namelist of the trajectory of a scene of one block holds of the configuration."""
+    left_out = ("exponents", "attractors", "blocks", "ends", "kappa", "disturbance")
+    return {key: value for key, value in config["scenes"][scene].items() if key not in left_out}
 
 
 def torus(config: dict, **changes) -> dict:

@@ -1,26 +1,33 @@
 """Results made up for tests of the ledger: curves, spectra and events, and rows of tables."""
 
 import math
+import re
+from collections.abc import Iterable
 
 import numpy as np
 import xarray as xr
 
 from scripts.claims import declare
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED, Results
+from scripts.namelists.laws import PAPER
 from scripts.namelists.parameters import HISTORY, PARAMETERS
 
 YES, PARTLY, NO = REPRODUCED, CORRECTED, NOT_REPRODUCED
 """Verdicts, short for tables of expected ones."""
 CLASSES = ["fixed point", "cycle", "torus", "chaos", "undecided"]
+BLOCK = {"model": PAPER, "parameters": " ".join(PARAMETERS), "signal": "v"}
+"""What a file says of the block."""
 PLACE = {"tau": 10.0, "epsilon": 0.5, "xi": 0.8, "gamma": 0.8}
 """Parameters of a line, but for the one along it."""
 SCENE = {"tau": 3.0, "epsilon": 0.4, "xi": 0.8, "gamma": 0.8}
 """Parameters of a scene."""
 
 
-def hopf_curve(gamma: float = 0.8, xi: float = 0.5, k: int = 1, ordinate: str = "tau"):
+def hopf_curve(
+    gamma: float = 0.8, xi: float = 0.5, k: int = 1, ordinate: str = "tau", scale: float = 1.0
+):
     """A curve by its closed form, independent of (7) to (10), as in results/hopf/."""
-    omega = np.linspace(0.31, 1.43, 12)
+    omega = scale * np.linspace(0.31, 1.43, 12)
     b = xi * (gamma**2 - omega**2) / (gamma**2 * omega)
     values = {
         "epsilon": np.sqrt((1 + omega**2) * (1 + b**2)) - 1,
@@ -30,8 +37,6 @@ def hopf_curve(gamma: float = 0.8, xi: float = 0.5, k: int = 1, ordinate: str = 
         "branch": np.full(omega.size, k),
         "crossing": np.ones(omega.size, dtype=int),
         "residual": np.full(omega.size, 1e-15),
-        "printed_tau": np.ones(omega.size),
-        "printed_residual": np.full(omega.size, 0.5),
         "l1": np.full(omega.size, -0.1),
         "unstable_pairs": np.zeros(omega.size, dtype=int),
     }
@@ -130,7 +135,7 @@ def followed_cycles(along: str = "tau", **fixed: float) -> xr.Dataset:
             f"hopf_{along}": ("hopf", [0.1]),
             f"hopf_{other}": ("hopf", [place[other]]),
         },
-        attrs={"along": along, **place},
+        attrs={"along": along, **BLOCK, **place},
     )
 
 
@@ -178,7 +183,7 @@ def cycles_to_a_torus(along: str = "tau", cusps: int = 0, **fixed: float) -> xr.
             "branch_origin": ("branches", ["hopf"]),
             "branch_ending": ("branches", ["window"]),
         },
-        attrs={"along": along, **place},
+        attrs={"along": along, **BLOCK, **place},
     )
 
 
@@ -187,6 +192,12 @@ def torus_point(at: float = 0.25, **given) -> dict:
     stable = {"kind": "torus", "unstable_before": 0.0, "unstable_behind": 2.0}
     stable |= {"criticality": "supercritical"}
     return {"of": "mine", **PLACE, "tau": at, **stable, **given}
+
+
+def trajectory(t: np.ndarray, **variables: np.ndarray) -> xr.Dataset:
+    """A trajectory at these times, the first variable its signal."""
+    data = {name: ("t", one, {"long_name": f"the {name}"}) for name, one in variables.items()}
+    return xr.Dataset(data, {"t": t}, {"t_transient": 0.0, "signal": next(iter(variables))})
 
 
 def spectrum(kind: str = "periodic", **heights: float) -> xr.Dataset:
@@ -256,4 +267,22 @@ def survey_run(classes: list[str], **given) -> xr.Dataset:
         data[key] = (("point", "exponent"), np.stack([first, first - 1], axis=1))
     data["sign"] = (("point", "exponent"), np.sign(data["lyapunov_exponent"][1]))
     data["problem"] = ("point", words.astype(object))
-    return xr.Dataset(data)
+    return xr.Dataset(data, attrs=BLOCK)
+
+
+def of_other_model(data: xr.Dataset) -> xr.Dataset:
+    """The same of a model that is not the block: beta is in the place of epsilon and y in that of
+    v; it has no xi, gamma, theta and u, and n = 10."""
+
+    def renamed(name: str) -> str:
+        return re.sub(r"(?<![^_])epsilon$", "beta", re.sub(r"(?<![^_])v(?![^_])", "y", name))
+
+    def own(names: Iterable) -> dict[str, str]:
+        kept = [name for name in map(str, names) if not re.search("(^|_)(xi|gamma|theta|u)$", name)]
+        return {name: renamed(name) for name in kept}
+
+    attributes = {new: data.attrs[name] for name, new in own(data.attrs).items()}
+    attributes |= {key: renamed(str(attributes[key])) for key in ("along",) if key in attributes}
+    attributes |= {"model": "mackey_glass", "parameters": "beta n tau", "n": 10.0, "signal": "y"}
+    names = own(data.variables)
+    return data[list(names)].rename(names).drop_attrs(deep=False).assign_attrs(attributes)

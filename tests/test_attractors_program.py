@@ -8,11 +8,10 @@ import math
 import numpy as np
 import pytest
 import xarray as xr
-from namelist_groups import OBSERVATION
+from namelist_groups import OBSERVATION, in_groups
 from scipy.integrate import solve_ivp
 
 from scripts.files.tsv import read_table, write_table
-from scripts.namelists.parameters import HISTORY
 from scripts.tables.attractor_tables import scene_rows
 
 ONE_HISTORY = {"theta": [0.0], "u": [0.0], "v": [1.1]}
@@ -50,17 +49,17 @@ def test_own_parameter_of_a_law_is_an_axis(programs, groups):
     """Each point is as in a run at its value."""
     points = groups["points"] | {"tau_part": [1, 1], "epsilon_part": [3, 3], **ONE_HISTORY}
     # in another order than the definition's
-    points |= {"law": "quasistatic_slip_cut_off", "own_names": ["zeta", "c"]}
+    points |= {"law": "quasistatic_slip_cut_off", "zeta": 0.1}
     alone = []
     for c in (0.0, 0.5):
-        groups["points"] = points | {"own": [0.1, c]}
+        groups["points"] = points | {"c": c}
         alone.append(programs.made_of("attractors", groups))
-        assert (alone[-1].attrs["law_c"], alone[-1].attrs["law_zeta"]) == (c, 0.1)
-    groups["points"] = points | {"own_names": "zeta", "own": 0.1, "tau": 0.0, "ordinate": "c"}
+        assert (alone[-1].attrs["c"], alone[-1].attrs["zeta"]) == (c, 0.1)
+    groups["points"] = points | {"tau": 0.0, "ordinate": "c"}
     groups["points"] |= {"c_window": [0.0, 0.5], "c_count": 2, "c_part": [1, 2]}
     found = programs.made_of("attractors", groups)
-    assert (found.attrs["axes"], found.law_c.values.tolist()) == ("epsilon law_c", [0.0, 0.5])
-    assert found.law_c.attrs["long_name"] == "velocity scale of the cut-off"
+    assert (found.attrs["axes"], found.c.values.tolist()) == ("epsilon c", [0.0, 0.5])
+    assert found.c.attrs["long_name"] == "velocity scale of the cut-off"
     expected = np.array([one.lyapunov_exponent.values[0] for one in alone])
     np.testing.assert_array_equal(found.lyapunov_exponent, expected)
     assert np.nanmax(np.abs(expected[0] - expected[1])) > 1e-3
@@ -187,7 +186,9 @@ def test_same_bytes_in_one_thread_and_in_two(programs, groups, monkeypatch, refi
 
 
 def test_points_without_a_history_are_refused(programs, groups):
-    points = {key: value for key, value in groups["points"].items() if key not in HISTORY}
-    done = programs.run_groups("attractors", {**groups, "points": points})
-    assert "number of histories = 0; expected" in done.stderr
+    given = in_groups(groups)
+    del given["histories"]
+    done = programs.run_groups("attractors", given)
+    assert "namelist group &histories: " in done.stderr
+    assert "expected names and values before the initial time" in done.stderr
     assert programs.left_behind() == []

@@ -5,8 +5,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-import xarray as xr
 from figure_contents import assert_on_page
+from made_up_results import of_other_model, trajectory
 from matplotlib import pyplot as plt
 
 from scripts.drawing import trajectories
@@ -20,18 +20,11 @@ def _closed_figures():
     plt.close("all")
 
 
-def a_trajectory(v: np.ndarray, u: np.ndarray) -> xr.Dataset:
-    """A made-up trajectory with a time step of 0.1."""
-    time = {"t": 0.1 * np.arange(v.size)}
-    attributes = {"tau": 3.0, "epsilon": 0.25, "xi": 0.5, "gamma": 0.75, "t_transient": 50.0}
-    return xr.Dataset({"u": ("t", u), "v": ("t", v)}, time, attributes)
-
-
 def test_dense_oscillations_are_drawn_as_their_envelope():
     """Of an oscillation that grows: all of it lies in a band, whose edges are its extremes."""
     t = 0.1 * np.arange(40_001)
     size = 1 + t / t[-1]
-    run = a_trajectory(1 + size * np.cos(t), 0 * t)
+    run = trajectory(t, v=1 + size * np.cos(t))
     _, axes = plt.subplots()
     assert trajectories.draw_signal(axes, run, 0.0, 4000.0)
     least, most = axes.lines
@@ -46,15 +39,27 @@ def test_dense_oscillations_are_drawn_as_their_envelope():
 def test_missed_part_of_a_maximum():
     """Exact for a parabola, at uneven times; 1 - cos(h/2) at most for a cosine of step h."""
     t = np.array([0.0, 1.0, 1.2, 1.9, 2.5])
-    top = xr.Dataset({"v": ("t", 3 - (t - 1.4) ** 2)}, {"t": t})
+    top = trajectory(t, v=3 - (t - 1.4) ** 2)
     assert trajectories.share_missed(top) == pytest.approx(3 / 2.96 - 1)
     for step in (0.02, 0.2, 0.6):
         t = np.arange(0.0, 1000.0, step)
-        wave = xr.Dataset({"v": ("t", 2 + np.cos(t))}, {"t": t})
+        wave = trajectory(t, v=2 + np.cos(t))
         most = 3 / (2 + np.cos(step / 2)) - 1
         assert trajectories.share_missed(wave) == pytest.approx(most, rel=0.1)
-    steady = xr.Dataset({"v": ("t", np.ones(9))}, {"t": np.arange(9.0)})
+    steady = trajectory(np.arange(9.0), v=np.ones(9))
     assert trajectories.share_missed(steady) == 0
+
+
+def test_portrait_of_one_state_is_over_its_slope():
+    """Without a mark of steady sliding, which is that of the block."""
+    t = np.linspace(0.0, 60.0, 6001)
+    run = of_other_model(trajectory(t, v=np.cos(t)))
+    _, axes = plt.subplots()
+    trajectories.draw_portrait(axes, run, 20.0)
+    attractor = axes.lines[-1]
+    assert (attractor.get_label(), len(axes.lines)) == ("attractor", 2)
+    np.testing.assert_allclose(attractor.get_xdata()[1:-1], -np.sin(t[-2001:][1:-1]), atol=1e-4)
+    assert (axes.get_xlabel(), axes.get_ylabel()) == (r"slope $\dot{y}$", "the v $y$")
 
 
 def test_saved_figures_have_the_same_bytes_each_time(tmp_path):

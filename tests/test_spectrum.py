@@ -11,6 +11,8 @@ from scipy.signal import welch
 from scipy.special import ndtr
 
 INTERVAL = 0.1
+ATTRIBUTES = {"scene": "made_up", "sample_interval": INTERVAL, "t_transient": 0.0, "signal": "v"}
+"""Of a trajectory with even times."""
 
 
 @pytest.fixture
@@ -21,7 +23,7 @@ def settings(good_inputs) -> dict:
 @pytest.fixture
 def spectrum_of(programs, settings):
     def run(v: np.ndarray, t_transient: float = 0.0, **changes) -> xr.Dataset:
-        attributes = {"scene": "made_up", "sample_interval": INTERVAL, "t_transient": t_transient}
+        attributes = {**ATTRIBUTES, "t_transient": t_transient}
         times = INTERVAL * np.arange(v.size)
         signal = xr.Dataset({"v": ("t", v)}, coords={"t": times}, attrs=attributes)
         signal.to_netcdf(programs.folder / settings["trajectory"])
@@ -89,7 +91,7 @@ def test_events_shorter_than_the_interval_leave_no_false_peaks(spectrum_of, prog
     after = (t[:, None] - centres) / width
     v = period * (np.exp(-(after**2) / 2) / np.sqrt(2 * np.pi) / width).sum(axis=1)
     u = period * ndtr(after).sum(axis=1) - t
-    attributes = {"scene": "made_up", "sample_interval": INTERVAL, "t_transient": 0.0}
+    attributes = {**ATTRIBUTES, "integral": "u", "integral_slope": 1.0}
     signal = xr.Dataset({"v": ("t", v), "u": ("t", u)}, coords={"t": t}, attrs=attributes)
     signal.to_netcdf(programs.folder / settings["trajectory"])
     spectrum = programs.made_by("spectrum", {**settings, "segments": 1})

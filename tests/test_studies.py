@@ -2,6 +2,7 @@
 
 import re
 import shutil
+from types import SimpleNamespace
 
 import pytest
 
@@ -9,7 +10,7 @@ from conftest import ROOT, SMOKE, copy_of_project
 from scripts.claims import declare, ledger
 from scripts.files.read_config import ConfigError, read
 from scripts.plans import studies
-from scripts.plans.declare import Table
+from scripts.plans.declare import Figure, Study, Table
 from scripts.workflow.plan import read_plan
 from scripts.workflow.script_imports import modules_of
 
@@ -140,6 +141,15 @@ def test_study_that_another_one_reads_is_missed_by_name(hide):
     words = "studies/basins/ is missing: the plans of atlas, linear_stability read it"
     with pytest.raises(ConfigError, match=words):
         read_plan({})
+
+
+def test_missing_caption_is_named(monkeypatch):
+    study = Study(figures=(Figure("mine", category="Atlas", place=1),))
+    plan = SimpleNamespace(STUDY=study, __doc__="Mine.")
+    monkeypatch.setattr(studies, "load_parts", lambda _part: {"mine": plan})
+    words = "scripts/studies/mine/caption.rst is missing: the caption of the figure mine"
+    with pytest.raises(ConfigError, match=words):
+        studies.studies.__wrapped__()
 
 
 def test_project_without_studies_that_no_other_reads(tmp_path):

@@ -141,9 +141,10 @@ def law_in_words(config: dict, settings: dict) -> str:
 def law_in_file(attributes: Mapping, *axes: str) -> str:
     """The same by the attributes of a file of results, without the parameters of axes."""
     names = attributes["parameters"].split()
-    known = {*block_parameters(), "kappa", *axes}
+    of_block = set(block_parameters()) <= set(names)
+    known = {*block_parameters(), *axes, *["kappa"] * of_block}
     own = {key: attributes[key] for key in names if key not in known and key in attributes}
-    kind = "" if set(block_parameters()) <= set(names) else OF_USER
+    kind = "" if of_block else OF_USER
     return kind + with_values(attributes["model"].removeprefix(CHAIN), **own)
 
 

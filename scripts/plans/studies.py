@@ -37,7 +37,7 @@ def load_parts(part: str) -> dict[str, ModuleType]:
 
 @cache
 def studies() -> dict[str, Study]:
-    """All studies by name; raise ConfigError if one is missing that another one reads."""
+    """All studies by name; raise ConfigError if one that others read, or a caption, is missing."""
     found = {
         name: replace(module.STUDY, title=module.__doc__.splitlines()[0])
         for name, module in load_parts("plan").items()
@@ -47,6 +47,12 @@ def studies() -> dict[str, Study]:
         raise ConfigError(
             f"scripts/studies/{other}/ is missing: the plans of {', '.join(readers)} read it"
         )
+    for name, study in found.items():
+        for figure in (*study.figures, *study.kinds):
+            caption = PROJECT / replace(figure, study=name).template
+            if not caption.exists():
+                place = caption.relative_to(PROJECT)
+                raise ConfigError(f"{place} is missing: the caption of the figure {figure.name}")
     return found
 
 

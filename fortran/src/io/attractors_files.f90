@@ -43,8 +43,9 @@ contains
       type(integration_options), intent(out) :: options
       !> Where they are looked for
       type(points_settings_type), intent(out) :: points
-      !> The model, and histories from which they are reached
+      !> The model
       type(model_type), intent(out) :: model
+      !> Histories from which they are reached
       type(history_type), intent(out) :: history
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
@@ -72,8 +73,9 @@ contains
       character(len=*), intent(in) :: path
       !> Where attractors were looked for, and what is kept of each
       type(points_settings_type), intent(in) :: points
-      !> The model, and the histories
+      !> The model
       type(model_type), intent(in) :: model
+      !> The histories
       type(history_type), intent(in) :: history
       !> All points
       type(point_type), intent(in) :: list(:)

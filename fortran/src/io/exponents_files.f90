@@ -65,8 +65,9 @@ contains
       character(len=*), intent(in) :: path
       !> The scene
       type(scene_type), intent(out) :: scene
-      !> Its model with its past, and its history
+      !> Its model with its past
       type(model_type), intent(out) :: model
+      !> Its history
       type(history_type), intent(out) :: history
       !> The settings
       type(exponents_settings_type), intent(out) :: exponents
@@ -92,8 +93,9 @@ contains
       character(len=*), intent(in) :: path
       !> The scene
       type(scene_type), intent(in) :: scene
-      !> Its model and its history
+      !> Its model
       type(model_type), intent(in) :: model
+      !> Its history
       type(history_type), intent(in) :: history
       !> How they were measured
       type(exponents_settings_type), intent(in) :: settings

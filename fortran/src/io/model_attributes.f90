@@ -94,6 +94,7 @@ contains
 
    !> Names with blanks between them.
    pure function joined(names) result(line)
+      !> The names
       character(len=*), intent(in) :: names(:)
       character(len=:), allocatable :: line
       integer :: i

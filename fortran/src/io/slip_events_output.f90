@@ -19,8 +19,9 @@ contains
       character(len=*), intent(in) :: path
       !> The scene
       type(scene_type), intent(in) :: scene
-      !> Its model and its history
+      !> Its model
       type(model_type), intent(in) :: model
+      !> Its history
       type(history_type), intent(in) :: history
       !> Events of the scene
       type(slip_event_type), intent(in) :: events(:)

@@ -55,8 +55,9 @@ contains
       character(len=*), intent(in) :: path
       !> The scene, a chain of one block with kappa = 1
       type(scene_type), intent(out) :: scene
-      !> Its model with its past, and its history
+      !> Its model with its past
       type(model_type), intent(out) :: model
+      !> Its history
       type(history_type), intent(out) :: history
       !> The settings
       type(synchrony_settings_type), intent(out) :: synchrony
@@ -90,8 +91,9 @@ contains
       character(len=*), intent(in) :: path
       !> The scene
       type(scene_type), intent(in) :: scene
-      !> Its model and its history
+      !> Its model
       type(model_type), intent(in) :: model
+      !> Its history
       type(history_type), intent(in) :: history
       !> How they were measured
       type(synchrony_settings_type), intent(in) :: settings

@@ -98,7 +98,7 @@ contains
       class(model_type), intent(in) :: model
       !> Names of states or of their exponentials
       character(len=*), intent(in) :: names(:)
-      !> Values: of one name after another, block after block, history after history
+      !> Values of one name after another, block after block, history after history
       real(wp), intent(in) :: values(:)
       !> The histories
       type(history_type), intent(out) :: history

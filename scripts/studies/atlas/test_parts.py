@@ -41,7 +41,8 @@ def test_parts_of_the_atlas_divide_its_delays(full):
         assert columns["window"] == settings["abscissa_window"]
         assert lines["window"] == settings["planes"]["fault"]["ordinate_window"]
         assert points["refinements"] == settings["refinements"]
-        assert points["parameters"] == {"xi": 0.5, "gamma": 1e8, "law": PAPER}
+        model = {"name": PAPER, "parameters": ["xi", "gamma"], "values": [0.5, 1e8]}
+        assert points["model"] == model
         delays += range(lines["part"][0], lines["part"][1] + 1)
     assert delays == list(range(1, settings["ordinate_count"] + 1))
 
@@ -52,6 +53,7 @@ def test_parts_of_the_atlas_divide_its_delays(full):
 )
 def test_first_lines_of_a_small_atlas_are_not_too_far_apart(full, columns, lines, refinements):
     """At least six distances in each direction, and never more refinements than asked for."""
-    full["atlas"] |= {"abscissa_count": columns, "tau_count": lines, "parts": 1, "refinements": 2}
+    counts = {"abscissa_count": columns, "ordinate_count": lines}
+    full["atlas"] |= {**counts, "parts": 1, "refinements": 2}
     points = groups(full, "fault", "1")["points"]
     assert points["refinements"] == refinements

@@ -73,7 +73,7 @@ def test_pairs_are_those_of_the_program(smoke, plane, xi):
     counted = [
         [
             unstable_pairs(epsilon=float(epsilon), tau=float(tau), xi=xi, gamma=0.8)
-            for epsilon in curves.map_epsilon
+            for epsilon in curves.map_abscissa
         ]
         for tau in curves.map_ordinate
     ]

@@ -7,7 +7,7 @@ import xarray as xr
 from scripts.files.inputs import read
 from scripts.files.outputs import logged
 from scripts.files.tsv import as_digits, read_table, write_table
-from scripts.namelists.laws import law_of
+from scripts.namelists.laws import law_in_file, law_of
 from scripts.namelists.parameters import PARAMETERS
 from scripts.studies.cycles.branches import cycles_there, most_of
 from scripts.tables.attractor_tables import SAME_MAXIMUM
@@ -33,15 +33,17 @@ def rows_of(line: str, cycles: xr.Dataset, swept: list[dict]) -> list[dict]:
     points = [cycles.isel(special=i) for i in range(cycles.sizes["special"])]
     rows = [{**row_of(point), "confirmed": confirmed(point, cycles, swept)} for point in points]
     for i in range(cycles.sizes["cusp"]):
-        cusp = place(cycles.isel(cusp=i), "cusp")
-        rows.append({"kind": "cusp", **cusp, "confirmed": "not simulated"})
+        # beside the line its curve's parameters have other values
+        axes = [key for key in cycles.attrs["parameters"].split() if f"curve_{key}" in cycles]
+        cusp = place(cycles.isel(cusp=i), "cusp", axes)
+        law = law_in_file(cycles.attrs, *axes)
+        rows.append({"law": law, "kind": "cusp", **cusp, "confirmed": "not simulated"})
     return [{"of": line, "law": law_of(cycles.attrs), **row} for row in rows]
 
 
-def place(point: xr.Dataset, name: str) -> dict:
-    """Where a point lies, with its error; its variables begin with `name`."""
-    axis = point.attrs["along"]
-    numbers = [*dict.fromkeys([*PARAMETERS, axis]), "period", most_of(point)]
+def place(point: xr.Dataset, name: str, axes: list[str]) -> dict:
+    """Where a point lies over some axes, with its error; its variables begin with `name`."""
+    numbers = [*dict.fromkeys([*PARAMETERS, *axes]), "period", most_of(point)]
     known = [key for key in numbers if f"{name}_{key}" in point]
     return {
         **{key: as_digits(point[f"{name}_{key}"], 12) for key in known},
@@ -55,7 +57,7 @@ def row_of(point: xr.Dataset) -> dict:
         "kind": str(point.special_kind.values),
         "branch": int(point.special_branch),
         "origin": str(point.branch_origin.values[int(point.special_branch) - 1]),
-        **place(point, "special"),
+        **place(point, "special", [point.attrs["along"]]),
         "unstable_before": int(point.special_unstable_before),
         "unstable_behind": int(point.special_unstable_behind),
         "criticality": str(point.special_criticality.values),
@@ -114,8 +116,9 @@ def sweeps_over(cycles: xr.Dataset, routes: list[dict]) -> list[dict]:
         row
         for row in routes
         if row["run"] in ("up", "down")
-        and all(row[key] == cycles.attrs[key] for key in fixed if key in cycles.attrs)
+        # rows of other models have other parameters
         and law_of(row) == law_of(cycles.attrs)
+        and all(row[key] == cycles.attrs[key] for key in fixed if key in cycles.attrs)
     ]
 
 

@@ -3,7 +3,8 @@
 import copy
 
 import pytest
-from made_up_results import followed_cycles
+from figure_contents import title_of
+from made_up_results import followed_cycles, of_other_model
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -73,6 +74,17 @@ def test_special_points_have_markers_by_kind(cycles_drawn):
             assert points.get_xydata().tolist() == places
         (hopf,) = labelled(axes, "Hopf point")
         assert hopf.get_xydata().tolist() == [[0.1, 1.0]]
+
+
+def test_cycles_of_a_model_that_is_not_the_block():
+    """Neither steady sliding nor Hopf points at v = 1 are drawn."""
+    (axes,) = cycles.draw([of_other_model(followed_cycles("epsilon"))], [], [[]], {}).axes
+    labels = {str(line.get_label()) for line in axes.lines}
+    assert not labels & {"steady sliding", "Hopf point"}
+    assert {"fold", "torus bifurcation", "period doubling"} <= labels
+    assert (axes.get_xlabel(), axes.get_ylabel()) == (r"$\beta$", "maxima of $y$")
+    words = r"$\tau = 10$, model mackey glass (n = 10): 2 branches, 4 special points"
+    assert title_of(axes).endswith(words)
 
 
 def test_sweeps_on_lines_are_found_by_their_parameters(filled_config):

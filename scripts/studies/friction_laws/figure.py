@@ -13,8 +13,8 @@ from scripts.drawing.si_axes import TIMES, add_axis
 from scripts.drawing.style import INK
 from scripts.drawing.wording import place_in_words
 from scripts.namelists.laws import spoken
-from scripts.studies.friction_laws.table import rows_of_planes, scenes_of, shares_of
-from scripts.tables.motion_rows import COLOURS, UNDECIDED, kind_of, planes_of
+from scripts.studies.friction_laws.table import planes_of, rows_of_planes, scenes_of, shares_of
+from scripts.tables.motion_rows import COLOURS, UNDECIDED, kind_of
 
 MARKS = ["o", "s", "^", "D", "v", "P"]
 LEAST_OF_FAULTS = 1e4

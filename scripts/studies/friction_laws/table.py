@@ -7,7 +7,7 @@ from scripts.files.inputs import read
 from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
 from scripts.tables.attractor_tables import rows_of
-from scripts.tables.motion_rows import kind_of, planes_of
+from scripts.tables.motion_rows import kind_of
 
 
 def law_rows(path: Path, run, scenes: list[str]) -> list[dict]:
@@ -26,6 +26,14 @@ def law_rows(path: Path, run, scenes: list[str]) -> list[dict]:
 def rows_of_planes(table: list[dict]) -> list[dict]:
     """Rows of points of planes."""
     return [row for row in table if row["of"] == "plane"]
+
+
+def planes_of(rows: list[dict]) -> dict[tuple, list[dict]]:
+    """Rows of planes by gamma, xi and law, in ascending order."""
+    places = sorted({(row["gamma"], row["xi"], row["law"]) for row in rows})
+    return {
+        at: [row for row in rows if (row["gamma"], row["xi"], row["law"]) == at] for at in places
+    }
 
 
 def shares_of(table: list[dict]) -> list[dict]:

@@ -75,7 +75,7 @@ def test_special_points_solve_the_characteristic_equation(curves):
         omegas = [float(row[key]) for key in ("omega_1", "omega_2") if key in row]
         assert max(residual(1j * omega, *place) for omega in omegas) < 1e-10
         assert (row["l1_1"] == "0") is (row["kind"] == "generalised_hopf")
-        of_two_pairs = {"g2100", "theta", "omega_2", "angle_1", "start_tau_2"}
+        of_two_pairs = {"g2100", "theta", "omega_2", "angle_1", "start_epsilon_2"}
         assert of_two_pairs & set(row) == (of_two_pairs if row["kind"] == "double_hopf" else set())
         if row["kind"] == "double_hopf":
             g = {key: float(row[f"g{key}"]) for key in ("2100", "1011", "1110", "0021")}

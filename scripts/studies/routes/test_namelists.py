@@ -25,9 +25,10 @@ def test_runs_of_a_route_go_along_its_parameter(full, run, sweep):
     count = line["count"]
     axis = {"along": "epsilon", "window": line["window"], "count": count, "part": [1, count]}
     assert points["axes"] == [axis]
-    assert points["parameters"]["tau"] == 7.0
+    model = {"name": PAPER, "parameters": ["tau", "xi", "gamma"], "values": [7.0, 0.5, 0.8]}
+    assert points["model"] == model
     history = routes["histories"].get(run, routes["histories"]["near"])
-    assert groups["histories"] == {key: [history[key]] for key in HISTORY}
+    assert groups["histories"] == {"names": HISTORY, "values": [history[key] for key in HISTORY]}
     assert groups["observation"].items() >= full["spectra"].items()
     assert (points["refinements"], points["kept"]) == (0, routes["observation"]["kept"])
 
@@ -38,8 +39,9 @@ def test_route_along_a_value_of_the_history(full):
     full["routes"]["lines"]["mine"] = line | {"xi": 0.5, "gamma": 0.8, "law": PAPER}
     groups = plan.groups(full, "mine", "slip")
     points, histories = groups["points"], groups["histories"]
-    assert histories["v"] == [0.5, 1.0, 1.5]
-    assert histories["u"] == [full["routes"]["histories"]["slip"]["u"]] * 3
+    theta, u = (full["routes"]["histories"]["slip"][key] for key in ("theta", "u"))
+    assert histories["names"] == HISTORY
+    assert histories["values"] == [theta, u, 0.5, theta, u, 1.0, theta, u, 1.5]
     assert "axes" not in points
     assert points["sweep"] == "none"
     names = [path.split("/")[-1] for path in plan.runs_of_route(full, "mine")]

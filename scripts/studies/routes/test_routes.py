@@ -1,9 +1,11 @@
 """Verdicts on what changes along a parameter, on made-up tables of routes."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 from made_up_results import (
     NO,
     PARTLY,
@@ -12,8 +14,10 @@ from made_up_results import (
     attractor_row,
     changed,
     hopf_curve,
+    of_other_model,
     route_rows,
     stability_row,
+    survey_run,
     torus_point,
 )
 
@@ -32,6 +36,7 @@ from scripts.studies.routes.claims import (
     torus_route,
     two_supercritical_hopfs,
 )
+from scripts.tables.attractor_tables import route_rows as route_rows_of
 from scripts.tables.motion_rows import UNDECIDED
 
 CYCLE_TORUS = {"routes": ["mine"], "expected": ["cycle", "torus"]}
@@ -213,6 +218,19 @@ def test_independent_of_spring(given, classes, verdict):
     assert found.verdict == verdict
 
 
+def words_of_caption(folder: Path, rows: list[dict], run: xr.Dataset) -> str:
+    """The caption of a route of one's own, whose runs say the same of their model."""
+    write_table(folder / "route.tsv", rows)
+    run.to_netcdf(folder / "run.nc")
+    claims = [{"id": name, "verdict": VERDICTS[0]} for name in paper_claims()]
+    inputs = {"tables": [folder / "route.tsv"], "runs": [folder / "run.nc"]}
+    figure = {
+        **{"template": studies.FOLDER / "routes" / "caption.rst", "drawing": "routes.figure"},
+        **{"inputs": inputs, "params": {}, "paper": False},
+    }
+    return " ".join(caption_of(figure, claims).split())
+
+
 def test_caption_of_a_route(tmp_path):
     """Where classes first appear, runs that agree, and where motions coexist."""
     kept = {"smallest_maximum": 2.0, "largest_maximum": 3.0, "problem": math.nan}
@@ -224,12 +242,17 @@ def test_caption_of_a_route(tmp_path):
     ]
     # a cycle of another size
     rows[7] |= {"smallest_maximum": 4.0, "largest_maximum": 5.0}
-    write_table(tmp_path / "route.tsv", rows)
-    claims = [{"id": name, "verdict": VERDICTS[0]} for name in paper_claims()]
-    figure = {
-        **{"template": studies.FOLDER / "routes" / "caption.rst", "drawing": "routes.figure"},
-        **{"inputs": {"tables": [tmp_path / "route.tsv"]}, "params": {}, "paper": False},
-    }
-    words = " ".join(caption_of(figure, claims).split())
+    words = words_of_caption(tmp_path, rows, survey_run(["cycle"]))
     assert "15 points. In runs near and up each class first appears at this value" in words
+    assert "maxima of v on the attractor." in words
     assert "motions at 2 of 5 values of :math:`\\tau`: 0.3 and 0.5." in words
+
+
+def test_caption_of_a_route_of_a_model_that_is_not_the_block(tmp_path):
+    run = of_other_model(survey_run(["cycle", "chaos"], epsilon=[0.1, 0.2], period=[1, 0]))
+    run.attrs["axes"] = "beta"
+    rows = route_rows_of(Path("mine/own.nc"), run)
+    words = words_of_caption(tmp_path, rows, run)
+    place = r":math:`\tau = 1`, model mackey glass (n = 10)"
+    assert words.startswith(rf"Route along :math:`\beta` at {place}: 2 points.")
+    assert "maxima of y on the attractor." in words

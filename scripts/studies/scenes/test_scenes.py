@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 import xarray as xr
-from made_up_results import attractor_row, spectrum
+from made_up_results import attractor_row, spectrum, trajectory
 from matplotlib import pyplot as plt
 
 from scripts.drawing.trajectories import draw_signal
@@ -22,7 +22,7 @@ def run_with(largest: float, first: float | None = None, count: int = 30) -> xr.
     phase = np.sin(0.1 * np.pi * t) ** 200
     heights = np.where(t < 10.0, largest if first is None else first, largest)
     v = 0.004 * (heights / 0.004) ** phase
-    return xr.Dataset({"v": ("t", v)}, {"t": t}, {"t_transient": 0.0})
+    return trajectory(t, v=v)
 
 
 def row_of(motion: str, **given) -> dict:

@@ -22,7 +22,7 @@ def test_family_is_all_combinations():
     """Names say what differs, sample times divide the run."""
     lists = {"tau": [0.0, 1.0], "epsilon": [0.7], "xi": [0.5], "gamma": [1e4, 0.8]}
     history = {"theta": [0.0], "u": [0.0], "v": [1.1]}
-    family = {**lists, **history, "law": PAPER, "t_end": 100.0, "samples": 200}
+    family = {**lists, "history": history, "law": PAPER, "t_end": 100.0, "samples": 200}
     config = {"laws": {}, "stability": {"families": {"made": family}}}
     cases = cases_of_family(config, "made")
     assert [case["name"] for case in cases] == [
