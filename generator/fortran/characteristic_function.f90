@@ -27,7 +27,7 @@ module characteristic_function
       procedure :: by_parameter
       procedure :: part
       procedure :: part_by_parameter
-      procedure :: slope_bound
+      procedure :: curvature_bound
       procedure :: root_by
       procedure :: relative_residual
    end type characteristic_type
@@ -136,25 +136,27 @@ contains
       value = -self%by_parameter(parameter, s)/self%by_s(s)
    end function root_by
 
-   !> Sum of the sizes of the terms of the derivative of Delta by s.
-   pure real(wp) function slope_bound(self, s) result(value)
+   !> Sum of the sizes of the terms of the second derivative of Delta by s.
+   pure real(wp) function curvature_bound(self, s) result(value)
       class(characteristic_type), intent(in) :: self
       !> Point of the complex plane
       complex(wp), intent(in) :: s
-      real(wp) :: size_of_s, total
+      real(wp) :: size_of_c(0:self%n), size_of_s, total
       integer :: i, power
 
       size_of_s = abs(s)
       value = 0.0_wp
       do i = 1, size(self%delay)
+         size_of_c = abs(self%coefficient(:, i))
          total = 0.0_wp
          do power = self%n, 0, -1
-            total = total*size_of_s + abs(self%coefficient(power, i))*self%delay(i)
-            if (power < self%n) total = total + (power + 1)*abs(self%coefficient(power + 1, i))
+            total = total*size_of_s + size_of_c(power)*self%delay(i)**2
+            if (power < self%n) total = total + 2*(power + 1)*size_of_c(power + 1)*self%delay(i)
+            if (power < self%n - 1) total = total + (power + 2)*(power + 1)*size_of_c(power + 2)
          end do
          value = value + total*exp(-real(s)*self%delay(i))
       end do
-   end function slope_bound
+   end function curvature_bound
 
    !> |Delta(s)| over its largest term: how well s is a characteristic root.
    pure real(wp) function relative_residual(self, s) result(value)

@@ -104,6 +104,8 @@ contains
       if (allocated(error)) return
       do i = 1, size(found)
          start = axis_point_type(plane%place_of(found(i)%numbers), found(i)%omega)
+         ! at a double pair curves meet, and none has a direction
+         if (abs(found(i)%pairs_behind - found(i)%pairs_before) > 1) cycle
          if (is_known(pieces, start)) cycle
          allocate (longer(size(pieces) + 1))
          longer(:size(pieces)) = pieces

@@ -1,5 +1,5 @@
-!> Events are the times in which the signal of a block is above a threshold. Of the spring block they
-!> are slips: with v > 1 it is faster than the plate, and its spring unloads.
+!> Events are the times in which the signal of a block is above a threshold. Of the spring block
+!> they are slips: with v > 1 it is faster than the plate, and its spring unloads.
 module slip_events
    use dde, only: event_watcher_type, instant, integrate, integration_options, &
                   integration_result

@@ -17,6 +17,8 @@ module hopf_lines
    !> Newton's method ends when steps are below this share, or after so many steps
    real(wp), parameter :: accuracy = 1.0e-14_wp
    integer, parameter :: most_steps = 20
+   !> Residual up to which there is a double pair where Newton's method does not converge
+   real(wp), parameter :: small_residual = 1.0e-5_wp
    real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
 
    !> A Hopf point.
@@ -94,34 +96,39 @@ contains
          real(wp), intent(in) :: start, end
          !> Numbers of unstable roots at its ends
          integer, intent(in) :: roots_start, roots_end
+         logical :: found
          real(wp) :: middle
          integer :: roots_middle
 
          if (abs(roots_end - roots_start) < 2 .or. allocated(error)) return
-         if (end - start > merge(narrow, narrowest, abs(roots_end - roots_start) == 2)) then
-            middle = 0.5_wp*(start + end)
-            roots_middle = unstable_roots(middle)
-            call search(start, middle, roots_start, roots_middle)
-            call search(middle, end, roots_middle, roots_end)
-         else
-            call add(start, end, roots_start, roots_end)
+         found = .false.
+         if (end - start <= merge(narrow, narrowest, abs(roots_end - roots_start) == 2)) then
+            call add(start, end, roots_start, roots_end, found)
          end if
+         if (found .or. allocated(error)) return
+         middle = 0.5_wp*(start + end)
+         roots_middle = unstable_roots(middle)
+         call search(start, middle, roots_start, roots_middle)
+         call search(middle, end, roots_middle, roots_end)
       end subroutine search
 
-      !> Add the Hopf point of a short interval by Newton's method for Delta(i omega) = 0.
-      subroutine add(start, end, roots_start, roots_end)
+      !> Add the Hopf point of a short interval by Newton's method for Delta(i omega) = 0. Where the
+      !> pair is double, that fails, and the shortest interval says where it is.
+      subroutine add(start, end, roots_start, roots_end, found)
          real(wp), intent(in) :: start, end
          integer, intent(in) :: roots_start, roots_end
+         logical, intent(out) :: found
          type(hopf_on_line_type) :: point
          type(characteristic_type) :: c
          complex(wp) :: by_omega, by_x, delta, s
-         real(wp) :: step(2), x
+         real(wp) :: crossing, step(2), x
          integer :: i
          logical, allocatable :: earlier(:)
 
          ! off the ends, at which the pair may be on the axis
-         point%omega = crossing_frequency(function_at(2.0_wp*start - end), &
-                                          function_at(2.0_wp*end - start))
+         crossing = crossing_frequency(function_at(2.0_wp*start - end), &
+                                       function_at(2.0_wp*end - start))
+         point%omega = crossing
          x = 0.5_wp*(start + end)
          do i = 1, most_steps
             c = function_at(x)
@@ -135,7 +142,15 @@ contains
             x = x + step(2)
             if (all(abs(step) <= accuracy*abs([point%omega, x]))) exit
          end do
-         if (.not. abs(x - 0.5_wp*(start + end)) <= 2.0_wp*(end - start) + accuracy) then
+         found = abs(x - 0.5_wp*(start + end)) <= 2.0_wp*(end - start) + accuracy
+         if (.not. found) then
+            if (end - start > narrowest) return
+            x = 0.5_wp*(start + end)
+            point%omega = crossing
+            c = function_at(x)
+            found = c%relative_residual(cmplx(0.0_wp, crossing, kind=wp)) <= small_residual
+         end if
+         if (.not. found) then
             call raise(error, "Hopf points: a pair of roots crosses the axis between the shares " &
                        //text(start)//" and "//text(end)//" of the line, and Newton's method " &
                        //"does not find where")

@@ -168,16 +168,18 @@ contains
       type(characteristic_type), intent(in) :: c
       real(wp), intent(in) :: bound, from, to
       complex(wp) :: s, value, value_before
-      real(wp) :: step, w
+      real(wp) :: change, slope, step, w
 
       growth = 0.0_wp
       w = from
       s = cmplx(bound, w, kind=wp)
       value = c%value(s)
       do while (w < to)
+         slope = abs(c%by_s(s))
+         change = step_share*abs(value)
          ! the bound grows with w: a step that holds it at the end of a longer one holds it
-         step = step_share*abs(value)/c%slope_bound(s)
-         step = step_share*abs(value)/c%slope_bound(cmplx(bound, w + step, kind=wp))
+         step = step_of(change, slope, c%curvature_bound(s))
+         step = step_of(change, slope, c%curvature_bound(cmplx(bound, w + step, kind=wp)))
          step = max(step, least_share*w + least_step)
          w = min(w + step, to)
          value_before = value
@@ -186,6 +188,14 @@ contains
          growth = growth + angle(value*conjg(value_before))
       end do
    end function line_growth
+
+   !> The step in which a function changes by at most `change`, given its slope at the start and a
+   !> bound on its curvature. Near a double root it is a share of the distance from there.
+   pure real(wp) function step_of(change, slope, curvature) result(step)
+      real(wp), intent(in) :: change, slope, curvature
+
+      step = 2.0_wp*change/max(slope + sqrt(slope**2 + 2.0_wp*curvature*change), tiny(1.0_wp))
+   end function step_of
 
    !> Growth of the argument of Delta along the half circle to the right of i omega.
    pure real(wp) function arc_growth(c, omega, radius) result(growth)
