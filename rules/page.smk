@@ -39,7 +39,11 @@ rule page:
         figures=expand("<results>/figures/{figure}.svg", figure=plan.figures),
         captions=expand("<results>/figures/{figure}.rst", figure=plan.figures),
         claims="<results>/tables/claims.json" if plan.claims else [],
-        attractors=made("<results>/tables/attractors.tsv") if scenes_with(config, "attractors") else [],
+        attractors=(
+            made("<results>/tables/attractors.tsv")
+            if scenes_with(config, "attractors")
+            else []
+        ),
         tables=[path for path in plan.tables() if plan.is_users and made(path)],
         trajectories=plan.trajectories(),
         play=made(PLAY) if studies.inside(config, ("atlas", "planes")) else [],

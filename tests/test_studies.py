@@ -203,7 +203,6 @@ def test_names_are_given_once():
     for names in (
         [one.rule for study in every for one in (*study.runs, *study.tables)],
         [figure.name for study in every for figure in study.figures],
-        # figures of one kind may be of different entries
         [(kind.name, kind.shows_entry) for study in every for kind in study.kinds],
         [name for study in every for name in (*study.entries, *study.wildcards)],
     ):

@@ -19,7 +19,7 @@ def inputs(config: dict) -> dict[str, list[str]]:
 
 
 STUDY = Study(
-    reads=("exponents", "scenes"),
+    reads=("chain", "exponents", "scenes"),
     tables=(
         Table(
             *("chain_motions_table", "tables/chain-motions.tsv", inputs),

@@ -5,10 +5,12 @@ import pytest
 
 from scripts.config.check_config import checked
 from scripts.namelists.program_groups import scene_groups
+from scripts.plans.studies import studies
 from scripts.studies.chain_motions import figure as chain_exponents
 from scripts.studies.chain_motions.finding import describe
 from scripts.studies.chain_motions.table import exponents_of, motion_of, motion_row
-from scripts.studies.exponents.plan import groups
+
+(EXPONENTS,) = studies()["exponents"].runs
 
 
 def row_of(programs, config: dict, **given) -> dict:
@@ -20,7 +22,7 @@ def row_of(programs, config: dict, **given) -> dict:
     config["scenes"]["mine"] = {**place, **times, **measured, **disturbance, **given}
     checked(config)
     trajectory = programs.made_of("trajectory", scene_groups(config, "mine"))
-    return motion_row(trajectory, programs.made_of("exponents", groups(config, "mine")))
+    return motion_row(trajectory, programs.made_of("exponents", EXPONENTS.groups(config, "mine")))
 
 
 def test_stiff_springs_keep_blocks_alike(programs, config):
@@ -75,10 +77,10 @@ def test_motion_in_words():
 
 def test_exponents_of_a_chain_are_measured_once(filled_config):
     """Two more than it has blocks, up to its own end; one block is checked at other tolerances."""
-    exponents = groups(filled_config, "chaos_5")["exponents"]
+    exponents = EXPONENTS.groups(filled_config, "chaos_5")["exponents"]
     assert (exponents["count"], exponents["t_end"], exponents["t_turning"]) == (7, 9000.0, 200.0)
     assert not [key for key in exponents if key.startswith("check")]
-    assert "check_tolerances" in groups(filled_config, "torus")["exponents"]
+    assert "check_tolerances" in EXPONENTS.groups(filled_config, "torus")["exponents"]
 
 
 PLACE = {"ends": "free", "tau": 7.0, "epsilon": 0.7, "xi": 0.5, "gamma": 0.8, "law": "slip"}
