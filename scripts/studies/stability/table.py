@@ -4,7 +4,6 @@ import numpy as np
 
 from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
-from scripts.namelists.laws import law_of
 from scripts.namelists.parameters import PARAMETERS
 from scripts.tables.accuracy import (
     Reference,
@@ -40,7 +39,7 @@ def row_of(family: str, kind: str, run: dict, reference: Reference | None) -> di
     return {
         "case": run["case"],
         "family": family,
-        "law": law_of(run),
+        "law": run["law"],
         **{name: run[name] for name in run if name in PARAMETERS or name.startswith("history_")},
         **{name: run[name] for name in ("t_end", "method")},
         "tolerance": run["setting"],
