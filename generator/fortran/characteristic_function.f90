@@ -28,6 +28,7 @@ module characteristic_function
       procedure :: part
       procedure :: part_by_parameter
       procedure :: curvature_bound
+      procedure :: largest_term
       procedure :: root_by
       procedure :: relative_residual
    end type characteristic_type
@@ -163,7 +164,15 @@ contains
       class(characteristic_type), intent(in) :: self
       !> Point of the complex plane
       complex(wp), intent(in) :: s
-      real(wp) :: largest
+
+      value = abs(self%value(s))/self%largest_term(s)
+   end function relative_residual
+
+   !> Size of the largest term of Delta(s).
+   pure real(wp) function largest_term(self, s) result(largest)
+      class(characteristic_type), intent(in) :: self
+      !> Point of the complex plane
+      complex(wp), intent(in) :: s
       integer :: i, power
 
       largest = 0.0_wp
@@ -173,8 +182,7 @@ contains
                           *exp(-real(s)*self%delay(i)))
          end do
       end do
-      value = abs(self%value(s))/largest
-   end function relative_residual
+   end function largest_term
 
    !> A polynomial with real coefficients.
    pure complex(wp) function polynomial(coefficient, s) result(value)

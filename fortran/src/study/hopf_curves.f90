@@ -18,9 +18,11 @@ module hopf_curves
    real(wp), parameter :: first_step = 1.0e-3_wp, least_step = 1.0e-9_wp, growth = 1.5_wp
    !> A point is on a known curve if it is so near to it, in units of the window and of omega.
    real(wp), parameter :: near = 1.0e-3_wp
-   !> Most points of a curve in one direction, and the least frequency over that at its start.
+   !> Most points of a curve in one direction.
    integer, parameter :: most_points = 20000
-   real(wp), parameter :: least_share = 1.0e-8_wp
+   !> A curve ends at a double root 0, where the term of second order in omega is less than this
+   !> share of the largest term of Delta.
+   real(wp), parameter :: least_share = 1.0e-9_wp
 
    !> An unbroken piece of a curve, from one end to the other, that with the lower frequency first.
    type :: piece_type
@@ -105,7 +107,7 @@ contains
       do i = 1, size(found)
          start = axis_point_type(plane%place_of(found(i)%numbers), found(i)%omega)
          ! at a double pair curves meet, and none has a direction
-         if (abs(found(i)%pairs_behind - found(i)%pairs_before) > 1) cycle
+         if (found(i)%is_double) cycle
          if (is_known(pieces, start)) cycle
          allocate (longer(size(pieces) + 1))
          longer(:size(pieces)) = pieces
@@ -225,7 +227,7 @@ contains
             call add_end(plane, here, next, points)
             return
          end if
-         if (next%omega < least_share*start%omega) return
+         if (is_at_double_zero(plane, next)) return
          if (number > 2 .and. passes(here, next, start)) then
             points = [points, start]
             closed = .true.
@@ -237,6 +239,18 @@ contains
          length = growth*length
       end do
    end subroutine follow
+
+   !> Whether the frequency is so small that Delta(i omega) is nearly its rounding.
+   logical function is_at_double_zero(plane, point) result(value)
+      type(curve_plane_type), intent(in) :: plane
+      type(axis_point_type), intent(in) :: point
+      type(characteristic_type) :: c
+      complex(wp) :: s
+
+      c = plane%function_at(point%place)
+      s = cmplx(0.0_wp, point%omega, kind=wp)
+      value = c%curvature_bound(s)*point%omega**2 < least_share*c%largest_term(s)
+   end function is_at_double_zero
 
    !> A point further along a direction.
    pure type(axis_point_type) function moved(point, direction, length) result(there)

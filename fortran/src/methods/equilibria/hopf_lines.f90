@@ -11,14 +11,15 @@ module hopf_lines
    private
    public :: find_hopf_on_line, hopf_on_line_type
 
-   !> An interval with one pair is halved to this length before Newton's method, one with several to
-   !> that, in units of the line
+   !> An interval is halved to this length before Newton's method, one with several pairs, or where
+   !> that does not converge, to at least that, in units of the line
    real(wp), parameter :: narrow = 1.0e-7_wp, narrowest = 1.0e-13_wp
    !> Newton's method ends when steps are below this share, or after so many steps
    real(wp), parameter :: accuracy = 1.0e-14_wp
    integer, parameter :: most_steps = 20
-   !> Residual up to which there is a double pair where Newton's method does not converge
-   real(wp), parameter :: small_residual = 1.0e-5_wp
+   !> The frequency of a double pair is found between places this far from it; there the slope of
+   !> Delta by s is this small in units of its curvature and frequency
+   real(wp), parameter :: wide = 1.0e-6_wp, small_slope = 1.0e-4_wp
    real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
 
    !> A Hopf point.
@@ -29,6 +30,8 @@ module hopf_lines
       real(wp) :: omega = 0.0_wp
       !> Longest delay there
       real(wp) :: delay = 0.0_wp
+      !> Whether a pair is double there; the place is then known to 1e-7 of the line
+      logical :: is_double = .false.
       !> Unstable pairs before and behind it along the line
       integer :: pairs_before = 0, pairs_behind = 0
    end type hopf_on_line_type
@@ -96,39 +99,46 @@ contains
          real(wp), intent(in) :: start, end
          !> Numbers of unstable roots at its ends
          integer, intent(in) :: roots_start, roots_end
+         type(hopf_on_line_type) :: point
          logical :: found
          real(wp) :: middle
          integer :: roots_middle
 
          if (abs(roots_end - roots_start) < 2 .or. allocated(error)) return
          found = .false.
-         if (end - start <= merge(narrow, narrowest, abs(roots_end - roots_start) == 2)) then
-            call add(start, end, roots_start, roots_end, found)
+         if (end - start <= narrow) then
+            if (abs(roots_end - roots_start) == 2) call correct(start, end, point, found)
+            if (.not. found) call find_double(0.5_wp*(start + end), point, found)
          end if
-         if (found .or. allocated(error)) return
-         middle = 0.5_wp*(start + end)
-         roots_middle = unstable_roots(middle)
-         call search(start, middle, roots_start, roots_middle)
-         call search(middle, end, roots_middle, roots_end)
+         if (found) then
+            point%pairs_before = roots_start/2
+            point%pairs_behind = roots_end/2
+            call insert(point)
+         else if (end - start <= narrowest) then
+            call raise(error, "Hopf points: a pair of roots crosses the axis between the shares " &
+                       //text(start)//" and "//text(end)//" of the line, and Newton's method " &
+                       //"does not find where")
+         else
+            middle = 0.5_wp*(start + end)
+            roots_middle = unstable_roots(middle)
+            call search(start, middle, roots_start, roots_middle)
+            call search(middle, end, roots_middle, roots_end)
+         end if
       end subroutine search
 
-      !> Add the Hopf point of a short interval by Newton's method for Delta(i omega) = 0. Where the
-      !> pair is double, that fails, and the shortest interval says where it is.
-      subroutine add(start, end, roots_start, roots_end, found)
+      !> The Hopf point of a short interval by Newton's method for Delta(i omega) = 0.
+      subroutine correct(start, end, point, found)
          real(wp), intent(in) :: start, end
-         integer, intent(in) :: roots_start, roots_end
+         type(hopf_on_line_type), intent(out) :: point
          logical, intent(out) :: found
-         type(hopf_on_line_type) :: point
          type(characteristic_type) :: c
          complex(wp) :: by_omega, by_x, delta, s
-         real(wp) :: crossing, step(2), x
+         real(wp) :: step(2), x
          integer :: i
-         logical, allocatable :: earlier(:)
 
          ! off the ends, at which the pair may be on the axis
-         crossing = crossing_frequency(function_at(2.0_wp*start - end), &
-                                       function_at(2.0_wp*end - start))
-         point%omega = crossing
+         point%omega = crossing_frequency(function_at(2.0_wp*start - end), &
+                                          function_at(2.0_wp*end - start))
          x = 0.5_wp*(start + end)
          do i = 1, most_steps
             c = function_at(x)
@@ -143,26 +153,37 @@ contains
             if (all(abs(step) <= accuracy*abs([point%omega, x]))) exit
          end do
          found = abs(x - 0.5_wp*(start + end)) <= 2.0_wp*(end - start) + accuracy
-         if (.not. found) then
-            if (end - start > narrowest) return
-            x = 0.5_wp*(start + end)
-            point%omega = crossing
-            c = function_at(x)
-            found = c%relative_residual(cmplx(0.0_wp, crossing, kind=wp)) <= small_residual
-         end if
-         if (.not. found) then
-            call raise(error, "Hopf points: a pair of roots crosses the axis between the shares " &
-                       //text(start)//" and "//text(end)//" of the line, and Newton's method " &
-                       //"does not find where")
-            return
-         end if
          point%numbers = numbers_at(x)
          point%delay = maxval(c%delay)
-         point%pairs_before = roots_start/2
-         point%pairs_behind = roots_end/2
+      end subroutine correct
+
+      !> A double pair at a place that is known to `narrow`: nearer to it Delta is less than its
+      !> rounding.
+      subroutine find_double(x, point, found)
+         real(wp), intent(in) :: x
+         type(hopf_on_line_type), intent(out) :: point
+         logical, intent(out) :: found
+         type(characteristic_type) :: c
+         complex(wp) :: s
+
+         point%omega = crossing_frequency(function_at(x - wide), function_at(x + wide))
+         c = function_at(x)
+         s = cmplx(0.0_wp, point%omega, kind=wp)
+         found = abs(c%by_s(s)) <= small_slope*point%omega*c%curvature_bound(s)
+         point%is_double = found
+         point%numbers = numbers_at(x)
+         point%delay = maxval(c%delay)
+      end subroutine find_double
+
+      !> Insert a point in the order of the points.
+      subroutine insert(point)
+         type(hopf_on_line_type), intent(in) :: point
+         logical, allocatable :: earlier(:)
+         integer :: i
+
          earlier = [(is_before(points(i), point), i=1, size(points))]
          points = [pack(points, earlier), point, pack(points, .not. earlier)]
-      end subroutine add
+      end subroutine insert
 
       !> Derivative of Delta along the line.
       pure complex(wp) function slope_along(c, s) result(slope)
