@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 
 from scripts.drawing.style import FAINT, INK
 from scripts.drawing.wording import short
-from scripts.namelists.laws import is_of_block
+from scripts.namelists.laws import BEFORE, HISTORY, is_of_block
 
 MOST_MISSED = 0.01
 """Maxima of v that exceed their samples by a larger share are mentioned."""
@@ -35,9 +35,12 @@ def signal_of(trajectory: xr.Dataset) -> xr.DataArray:
     return trajectory[trajectory.attrs["signal"]]
 
 
-def axis_of(variable: xr.DataArray) -> str:
+def axis_of(trajectory: xr.Dataset, name: str) -> str:
     """Meaning and name of a variable for an axis."""
-    return f"{variable.attrs['long_name'].split(',')[0]} ${variable.name}$"
+    known = HISTORY if is_of_block(trajectory.attrs) else {}
+    meaning = trajectory[name].attrs["long_name"]
+    meaning = known.get(name, {"meaning": meaning})["meaning"].removesuffix(BEFORE)
+    return f"{meaning.split(',')[0]} ${name}$"
 
 
 def share_missed(trajectory: xr.Dataset) -> float:
@@ -59,7 +62,7 @@ def draw_signal(axes: Axes, trajectory: xr.Dataset, start: float, end: float) ->
     shown = signal_of(trajectory).sel(t=slice(start, end))
     seen = scale_signal(axes, shown)
     oscillations = len(turns(seen.values)) // 2
-    axes.set(xlabel="time $t$", ylabel=axis_of(shown), xlim=(start, end))
+    axes.set(xlabel="time $t$", ylabel=axis_of(trajectory, shown.name), xlim=(start, end))
     if oscillations <= MOST_TURNS:
         axes.plot(shown.t, shown, color="C0", lw=0.7)
         return False
@@ -105,7 +108,7 @@ def draw_portrait(axes: Axes, trajectory: xr.Dataset, shown: float) -> None:
     extent = np.ptp(signal_of(transient).values)
     if np.ptp(signal_of(attractor).values) < 0.01 * extent:
         axes.plot(x[-1], y[-1], "o", color="C1")
-    axes.set(xlabel=words, ylabel=axis_of(y))
+    axes.set(xlabel=words, ylabel=axis_of(trajectory, y.name))
 
 
 def beside_signal(trajectory: xr.Dataset) -> tuple[xr.DataArray, str]:
@@ -114,7 +117,7 @@ def beside_signal(trajectory: xr.Dataset) -> tuple[xr.DataArray, str]:
     others = [name for name in ("u", *trajectory.data_vars) if name in trajectory]
     others = [name for name in others if name != signal and trajectory[name].dims == ("t",)]
     if others:
-        return trajectory[others[0]], axis_of(trajectory[others[0]])
+        return trajectory[others[0]], axis_of(trajectory, others[0])
     return trajectory[signal].differentiate("t"), f"slope $\\dot{{{signal}}}$"
 
 

@@ -27,10 +27,11 @@ OF_USER = "model "
 """What stands before the name of a model that is not the block, in words."""
 CHAIN = "chain_"
 """What stands before the name of the law of a chain of blocks."""
+BEFORE = " before the start"
 HISTORY = {
-    "theta": {"meaning": "friction state before the start", "default": 0.0},
-    "u": {"meaning": "displacement before the start", "default": 0.0},
-    "v": {"meaning": "velocity before the start", "default": 1.1, "above": 0.0},
+    "theta": {"meaning": f"friction state{BEFORE}", "default": 0.0},
+    "u": {"meaning": f"displacement{BEFORE}", "default": 0.0},
+    "v": {"meaning": f"velocity{BEFORE}", "default": 1.1, "above": 0.0},
 }
 """Values of the block before the initial time."""
 
@@ -89,7 +90,7 @@ def history_of(config: dict, model: str) -> dict[str, dict]:
     if is_law(config, model):
         return HISTORY
     states = models_of_user(config)[model]["states"]
-    return {name: {"meaning": f"{meaning} before the start"} for name, meaning in states.items()}
+    return {name: {"meaning": f"{meaning}{BEFORE}"} for name, meaning in states.items()}
 
 
 @cache
