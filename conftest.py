@@ -398,7 +398,8 @@ def good_groups(good_inputs) -> dict[str, dict[str, dict]]:
     """Namelist groups that each program accepts, to change."""
     groups = {program: {group: good_inputs[program]} for program, group in GROUPS.items()}
     groups["exponents"] = {"scene": good_inputs["trajectory"], "exponents": EXPONENTS}
-    groups["synchrony"] = {"scene": good_inputs["trajectory"], "synchrony": SYNCHRONY}
+    chain = {"blocks": 1, "kappa": 1.0, "ends": "free"}
+    groups["synchrony"] = {"scene": good_inputs["trajectory"] | chain, "synchrony": SYNCHRONY}
     groups["attractors"] = {"observation": OBSERVATION, "points": POINTS}
     groups["measure"] = {"cases": CASES, "measure": MEASURE}
     groups["reference"] = {"cases": CASES, "reference": REFERENCE}

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from conftest import ROOT
+from conftest import ROOT, SMOKE
 from scripts.workflow import manifest
 
 LISTS = ("results/manifest.sha256", "results/measured.sha256")
@@ -107,7 +107,7 @@ def test_run_makes_damaged_and_removed_results_again(smoke, scratch):
     # the same bytes with a new time
     os.utime(scratch.folder / "build" / "release" / "bin" / "spring_block")
     written = other.stat().st_mtime_ns
-    run = scratch.reproduce("--configfile", "config/smoke.yaml")
+    run = scratch.reproduce(*SMOKE)
     assert run.returncode == 0, run.stdout
     for name in ("hopf/xi_of_epsilon.nc", "tables/claims.tsv"):
         assert f"results/{name}: was changed or damaged since a run made it" in run.stdout

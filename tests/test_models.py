@@ -289,7 +289,7 @@ def test_results_say_which_law_they_have(programs, filled_config):
     values = torus(filled_config, t_end=5.0, t_transient=1.0, variables=["v"])
     programs.made_by("trajectory", {**values, "law": "slip_cut_off", "c": 0.25})
     attributes = read(programs.output).attrs
-    assert attributes["law"] == "slip_cut_off (c = 0.25)"
+    assert laws.law_of(attributes) == "slip_cut_off (c = 0.25)"
     assert (attributes["model"], attributes["c"]) == ("slip_cut_off", 0.25)
     assert "log1p(c/(1 + c)*expm1(w(t - tau)))" in attributes["model_equations"]
 

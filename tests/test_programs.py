@@ -21,7 +21,7 @@ from scripts.files.read_config import read
 from scripts.namelists.laws import BLOCK, PAPER
 
 NUMBER = "expected a finite number >"
-NO_WORD = f"parameter of the law {PAPER} = 'w'; expected one of 'tau' "
+NO_WORD = f"parameter of the model {PAPER} = 'w'; expected one of 'tau' "
 REFUSED = [
     # a number out of range, of each command
     ("trajectory", "scene", {"tau": -1.0}, f"scene 'torus': tau = -1.0; {NUMBER}= "),
@@ -48,12 +48,11 @@ REFUSED = [
     # a word that is unknown
     ("spectrum", "spectrum", {"window": "w"}, "spectrum: window = 'w'; expected one of 'hann'"),
     ("hopf", "hopf_curves", {"ordinate": "w", "tau": 7.0}, NO_WORD),
-    ("hopf", "hopf_curves", {"ordinate": "epsilon", "tau": 7.0}, "ordinate = 'epsilon'; expected "),
+    ("hopf", "hopf_curves", {"ordinate": "epsilon", "tau": 7.0}, "along = 'epsilon' twice; exp"),
     ("cycles", "cycles", {"along": "w", "epsilon": 0.5}, NO_WORD),
     ("attractors", "points", {"sweep": "w"}, "points: sweep = 'w'; expected one of 'none'"),
     # a law that is no name of one
-    ("trajectory", "scene", {"law": "../models/slip_cut_off"}, "scene 'torus': law = '../m"),
-    ("trajectory", "scene", {"law": "chain_slip_cut_off"}, "scene 'torus': law = 'chain_"),
+    ("trajectory", "scene", {"law": "../models/slip_cut_off"}, "scene 'torus': model = '../m"),
 ]
 """Commands, a group of their namelist, values that are refused, and words of the refusal."""
 
@@ -120,7 +119,7 @@ def test_bad_value_is_refused(programs, good_groups, program, group, changes, wo
     ("change", "words"),
     [
         (lambda scene: scene | {"absent": 1.0}, "namelist group &settings: .*absent"),
-        (lambda scene: scene | {"tau": None}, "scene%parameters%tau = NaN; .*missing"),
+        (lambda scene: scene | {"tau": None}, "scene 'torus': tau is missing; expected a "),
         # the first step is impossible
         (
             lambda scene: scene | {"history": {**scene["history"], "v": 1e-300}},
@@ -251,7 +250,7 @@ def test_help_lists_commands_and_keys(programs):
     assert set(COMMANDS) - {"reference"} <= set(listed.split())
     keys = programs.run("hopf", "--help")
     assert (keys.returncode, keys.stderr) == (0, "")
-    assert "hopf_curves%parameters%gamma= must be given" in keys.stdout
+    assert "hopf_curves%windows= must be given" in keys.stdout
     assert programs.left_behind() == []
 
 
@@ -266,7 +265,7 @@ def other_interface(content: bytes) -> bytes:
     ("damage", "words"),
     [
         (None, "tau = -1.0; expected a finite number >= 0"),
-        (lambda content: None, "law = 'slip_delayed_logarithm'; expected one of"),
+        (lambda content: None, "model = 'slip_delayed_logarithm'; expected one of"),
         (lambda content: content[:1000], "/slip_delayed_logarithm.so: cannot be opened: "),
         (lambda content: b"", "/slip_delayed_logarithm.so: cannot be opened: "),
         (other_interface, "/slip_delayed_logarithm.so: is no model for this program; compile it "),
@@ -297,6 +296,6 @@ def test_delay_that_is_negative_is_refused(programs, good_groups, monkeypatch):
     monkeypatch.setenv("MODELS", str(models))
     scene = good_groups["trajectory"]["scene"] | {"law": "ahead", "tau": 7.0}
     line = refusal(programs, programs.run_groups("trajectory", {"scene": scene}))
-    assert "law ahead: delay 1 = -3.0; expected a finite number >= 0" in line
+    assert "delay 1 of the model = -3.0; expected a finite number >= 0" in line
     scene["tau"] = 12.0
     assert programs.run_groups("trajectory", {"scene": scene}).returncode == 0

@@ -93,9 +93,13 @@ def test_changed_values_make_anew_only_what_depends_on_them(smoke, tmp_path):
     rules = (
         "all claims captions first_page page"
         " trajectory spectrum exponents_runs exponents_table figure_5 figure_6 true_torus exponents"
+        " synchrony_runs synchrony"
         " stability_reference stability_runs stability_table stability figure_7"
     )
-    data = "exponents/torus.nc spectra/torus.nc trajectories/torus.nc stability/spring.nc"
+    data = (
+        "exponents/torus.nc spectra/torus.nc trajectories/torus.nc synchrony/torus.nc"
+        " stability/spring.nc"
+    )
     assert rules_in(run.stdout) == set(rules.split())
     assert data_of_jobs(set(jobs_in(run.stdout))) == set(data.split())
 

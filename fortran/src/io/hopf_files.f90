@@ -63,6 +63,10 @@ contains
          call check_choice(error, path, "along", hopf_curves%along(i), plane%model%names)
          plane%along(i) = plane%model%number_of(hopf_curves%along(i))
       end do
+      if (plane%along(1) == plane%along(2)) then
+         call raise(error, path//": along = '"//trim(hopf_curves%along(2)) &
+                    //"' twice; expected two parameters")
+      end if
       plane%window = hopf_curves%windows
       if (allocated(error)) return
       associate (blocks => plane%model%shape%blocks, mode => hopf_curves%mode)
