@@ -209,7 +209,7 @@ def test_bad_value_is_refused(whole, path, value, words):
 
 def test_unknown_keys_are_refused(whole):
     """In every section of fixed keys: the line names section and key, and lists what is known."""
-    named = ["scenes", "hopf_curves", "si", "claims", "laws"]
+    named = ["scenes", "hopf_curves", "si", "claims", "laws", "models"]
     named += ["parameters", "planes", "families", "histories", "lines", "places", "cases", "rows"]
     sections = [path for path in sections_in(whole) if not path or path[-1] not in named]
     sections = [path for path in sections if path[:1] != ("claims",)]
