@@ -31,6 +31,9 @@ def mark_scenes(
     places: dict[tuple[float, float], list[str]] = {}
     for name, scene in scenes.items():
         x, y = (scene[key] for key in along)
+        (left, right), (below, above) = axes.get_xlim(), axes.get_ylim()
+        if not (left <= x <= right and below <= y <= above):
+            continue
         places.setdefault((x, y), []).append(name.replace("_", " "))
     for place, names in places.items():
         axes.plot(*place, clip_on=False, zorder=5, **SCENE)

@@ -6,8 +6,11 @@ import xarray as xr
 def roots_in_words(roots: xr.Dataset) -> str:
     """Whether steady sliding is stable, its unstable pairs, and its rightmost root."""
     pairs = int(roots.attrs["unstable_pairs"])
-    state = "stable" if pairs == 0 else "unstable"
+    # an odd number of real roots is in no pair
+    alone = int(((roots.root_real > 0) & (roots.root_imag == 0)).sum()) % 2
+    state = "unstable" if pairs or alone else "stable"
     words = f"{state} ({pairs} unstable pair{'' if pairs == 1 else 's'} of roots"
+    words += " and a real one" * alone
     if not roots.sizes["root"]:
         return f"{words}, all real parts below ${roots.attrs['root_bound']:g}$)"
     first = int(roots.root_real.values.argmax())

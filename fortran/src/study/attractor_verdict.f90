@@ -7,8 +7,8 @@ module attractor_verdict
    use exponent_averages, only: average_growth, exponent_type
    use lyapunov_spectrum, only: growth_type
    use motion_classes, only: agree, chaos, class_by_exponents, clear_by_exponents, &
-                             cycle_motion, no_class_by_exponents, none, three_torus, torus, &
-                             undecided
+                             cycle_motion, fixed_point, no_class_by_exponents, none, &
+                             three_torus, torus, undecided
    use observed_motion, only: observed_motion_type
    use section_motion, only: find_third_phase, not_measured, period_of_tail, section_roughness, &
                              torus_roughness
@@ -19,6 +19,9 @@ module attractor_verdict
    implicit none (type, external)
    private
    public :: attractor_settings_type, attractor_type, judge, on_cycle
+
+   !> A motion is at rest whose signal changes by less than this share.
+   real(wp), parameter :: least_range = 1.0e-9_wp
 
    !> How an attractor is found and judged; all of it must be given.
    type :: attractor_settings_type
@@ -107,6 +110,10 @@ contains
       attractor%line_share = not_measured
       attractor%reason = no_class_by_exponents
       if (attractor%by_exponents == undecided .and. .not. last) return
+      if (attractor%by_exponents == cycle_motion .and. is_at_rest(attractor%motion)) then
+         call settle(attractor)
+         return
+      end if
       associate (motion => attractor%motion)
          attractor%period = period_of_tail(motion%section, motion%scale(), &
                                            on_the_way=attractor%by_exponents == cycle_motion)
@@ -129,6 +136,29 @@ contains
       call agree(attractor%by_exponents, clear, attractor%by_section, attractor%by_spectrum, &
                  attractor%class, attractor%reason)
    end subroutine judge
+
+   !> Whether the signal no longer changes: the model has come to another state of rest than that of
+   !> its definition.
+   pure logical function is_at_rest(motion) result(value)
+      type(observed_motion_type), intent(in) :: motion
+
+      associate (signal => motion%signal_shown())
+         value = maxval(signal) - minval(signal) <= least_range*max(1.0_wp, maxval(abs(signal)))
+      end associate
+   end function is_at_rest
+
+   !> Give a motion the class of a fixed point. There the flow has no direction, and so no exponent.
+   subroutine settle(attractor)
+      type(attractor_type), intent(inout) :: attractor
+
+      attractor%class = fixed_point
+      attractor%by_exponents = fixed_point
+      attractor%by_section = fixed_point
+      attractor%by_spectrum = fixed_point
+      attractor%reason = none
+      attractor%period = 0
+      attractor%exponents = pack(attractor%exponents, abs(attractor%exponents%value) > 0.0_wp)
+   end subroutine settle
 
    !> The class by the lines in the spectrum of the signal.
    subroutine judge_spectrum(signal, settings, attractor, peaks, error)

@@ -51,6 +51,7 @@ contains
       type(model_type) :: block
       complex(wp) :: known, s
       real(wp), parameter :: h = 5.0e-4_wp
+      complex(wp), parameter :: unit_step = (0.0_wp, 1.0_wp)
       real(wp) :: numbers(4), unit
       integer :: by, i
 
@@ -71,8 +72,9 @@ contains
                               0.0_wp, 1.0e-7_wp, "misfit at point "//text(i)//", derivative " &
                               //text(by))
          end do
-         call expect_between(error, abs(c%by_s(s))/c%slope_bound(s), 0.0_wp, 1.0_wp + 1.0e-14_wp, &
-                             "slope over its bound at point "//text(i))
+         call expect_between(error, abs(c%by_s(s + h*unit_step) - c%by_s(s)) &
+                             /(h*c%curvature_bound(s + h*unit_step)), 0.0_wp, 1.0_wp + 1.0e-9_wp, &
+                             "curvature over its bound at point "//text(i))
       end do
 
    contains

@@ -12,7 +12,8 @@ from scripts.drawing.hopf_plane import SCENE, SUBCRITICAL, draw_piece, mark_scen
 from scripts.drawing.parameters import axis_of, in_words, symbol_of
 from scripts.drawing.special_points import words_of
 from scripts.drawing.style import INK
-from scripts.drawing.wording import counted_at, place_in_words, short, words_of_state
+from scripts.drawing.wording import counted_at, place_in_words, short
+from scripts.namelists.laws import is_of_block
 from scripts.tables.motion_rows import axes_of
 
 DARKEST = 0.3
@@ -127,7 +128,9 @@ def numbers(curves: xr.Dataset, scenes: dict[str, dict]) -> dict:
     }
     return {
         "place": place_in_words(curves.attrs, *along),
-        "state": words_of_state(curves.attrs),
+        "stable_in": "Steady sliding is stable"
+        if is_of_block(curves.attrs)
+        else "No pair of roots is unstable",
         "abscissa": f":math:`{symbol_of(along[0])}`",
         "ordinate": f":math:`{symbol_of(along[1])}`",
         "branches": np.unique(curves.branch).size,
