@@ -142,9 +142,12 @@ contains
    pure logical function is_at_rest(motion) result(value)
       type(observed_motion_type), intent(in) :: motion
 
-      associate (signal => motion%signal_shown())
-         value = maxval(signal) - minval(signal) <= least_range*max(1.0_wp, maxval(abs(signal)))
-      end associate
+      real(wp), allocatable :: signal(:)
+
+      signal = motion%signal_shown()
+      value = size(signal) > 0
+      if (value) value = maxval(abs(signal - signal(1))) &
+                         <= least_range*max(1.0_wp, abs(signal(1)))
    end function is_at_rest
 
    !> Give a motion the class of a fixed point. There the flow has no direction, and so no exponent.
