@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 
 from conftest import torus
 from generator.compile import compile_module
-from generator.definition import read_files
+from generator.definition import read_files, read_model
 from generator.module import write_module
 from scripts.config.check_config import checked
 from scripts.files.inputs import read
@@ -393,3 +393,23 @@ def test_passages_near_steady_sliding_keep_their_digits(programs, good_groups, l
     expected = first_passage(law, 0.6, 0.5, own.get("c", 0.0), own.get("zeta", 0.0), 1.1)
     # the absolute tolerance is far above the motion
     assert passage == pytest.approx(expected, abs=0.05)
+
+
+def test_other_state_of_rest_is_a_fixed_point(programs, good_groups, monkeypatch):
+    """The definition has y = 0, which is unstable; the motion comes to rest at y = 1."""
+    fork = {
+        **{"name": "fork", "parameters": {"r": {}, "tau": {"at_least": 0}}},
+        **{"states": {"y": "state"}, "equations": {"y": "r*y(t - tau) - y**3"}},
+        "steady_state": {"y": "0"},
+    }
+    compile_module(write_module(read_model(fork)), programs.folder / "fork.so")
+    monkeypatch.setenv("MODELS", str(programs.folder))
+    model = {"name": "fork", "parameters": ["r", "tau"], "values": [1.0, 0.1]}
+    points = {"name": "fork", "model": model, "sweep": "none", "refinements": 0, "kept": 10}
+    histories = {"names": ["y"], "values": [0.5]}
+    observation = good_groups["attractors"]["observation"]
+    groups = {"observation": observation, "points": points, "histories": histories}
+    found = programs.made_of("attractors", groups)
+    assert found["class"].attrs["flag_meanings"].split()[int(found["class"][0])] == "fixed_point"
+    # of y' = y(t - 0.1) - 3 y, and none is zero
+    assert (found.lyapunov_exponent[0].dropna("exponent") < -0.5).all()
