@@ -276,17 +276,18 @@ contains
    pure function scale(self) result(scales)
       class(observed_motion_type), intent(in) :: self
       real(wp) :: scales(2)
-      integer :: given, i
+      real(wp), allocatable :: x(:)
+      integer :: given, i, n, row
 
       given = size(self%sampler%wanted) - 1
       do i = 1, 2
          if (i == given + 1) then
             scales(i) = sum(self%section(i, :))/max(1, size(self%section, 2))
          else
-            associate (x => self%sampler%rows(merge(i + 1, 1, i <= given), :self%sampler%kept), &
-                       n => max(1, self%sampler%kept))
-               scales(i) = norm2(x - sum(x)/n)/sqrt(real(n, wp))
-            end associate
+            row = merge(i + 1, 1, i <= given)
+            x = self%sampler%rows(row, :self%sampler%kept)
+            n = max(1, self%sampler%kept)
+            scales(i) = norm2(x - sum(x)/n)/sqrt(real(n, wp))
          end if
       end do
       scales = max(scales, tiny(1.0_wp))
