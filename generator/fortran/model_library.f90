@@ -14,7 +14,7 @@ module model_library
    use model_problem, only: code_type, model_type
    implicit none (type, external)
    private
-   public :: list_models, open_model
+   public :: list_models, open_model, open_object
 
    !> Letters of paths, and of lists of names.
    integer, parameter :: path_length = 4096
@@ -77,8 +77,6 @@ contains
       !> Error if there is no model of this name, or one that does not fit this program
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: path
-      type(c_ptr) :: library
-      type(description_type) :: about
 
       path = path_of(name)
       if (path == "") then
@@ -86,6 +84,20 @@ contains
                     //in_a_list(list_models("")))
          return
       end if
+      call open_object(path, model, error)
+   end subroutine open_model
+
+   !> Open a compiled model by the path of its object. It has no parameters yet.
+   subroutine open_object(path, model, error)
+      !> Path of the object
+      character(len=*), intent(in) :: path
+      !> The model
+      type(model_type), intent(out) :: model
+      !> Error if it cannot be opened, or does not fit this program
+      type(error_type), allocatable, intent(out) :: error
+      type(c_ptr) :: library
+      type(description_type) :: about
+
       if (model_is_whole(path//c_null_char) == 0) then
          call raise(error, path//": cannot be opened: it is no whole shared object; " &
                     //"compile the model again")
@@ -107,7 +119,7 @@ contains
       model%sizes = sizes_of(model%code%description)
       about = model%describe()
       model%names = about%parameters%name
-   end subroutine open_model
+   end subroutine open_object
 
    !> Names of the models that there are with a beginning, without this.
    function list_models(beginning) result(names)

@@ -6,8 +6,8 @@ module dde
    use dde_integrator, only: integrate
    use dde_jacobian, only: find_jacobian
    use dde_kinds, only: wp
-   use dde_outcome, only: event_met, integration_result, out_of_memory, reached_end, refused, &
-                          step_underflow, too_many_steps, value_not_finite
+   use dde_outcome, only: event_met, integration_result, interrupted, out_of_memory, reached_end, &
+                          refused, step_underflow, stop_requested, too_many_steps, value_not_finite
    use dde_problem, only: dde_problem_type
    use dde_request, only: integration_options, methods
    use dde_sampler, only: sampler_type, table_sampler
@@ -23,5 +23,5 @@ module dde
    public :: sampler_type, table_sampler
    public :: integrate, integration_options, integration_result, methods
    public :: event_met, out_of_memory, reached_end, refused, step_underflow, too_many_steps
-   public :: value_not_finite
+   public :: interrupted, stop_requested, value_not_finite
 end module dde

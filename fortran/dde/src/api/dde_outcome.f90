@@ -1,25 +1,29 @@
 !> The result of an integration, and why it ended.
 module dde_outcome
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use, intrinsic :: iso_c_binding, only: c_int
    use dde_request, only: integration_options
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
    public :: explain, integration_result, limit_met
-   public :: event_met, out_of_memory, reached_end, refused, step_underflow, too_many_steps
-   public :: value_not_finite
+   public :: event_met, interrupted, out_of_memory, reached_end, refused, step_underflow
+   public :: stop_requested, too_many_steps, value_not_finite
+
+   !> Not 0: all runs of this process end before their next step, as `interrupted`.
+   integer(c_int), volatile, bind(c, name="dde_stop_requested") :: stop_requested = 0
 
    !> Why an integration ended.
    enum, bind(c)
       enumerator :: reached_end, event_met, refused, step_underflow, too_many_steps, &
-         value_not_finite, out_of_memory
+         value_not_finite, out_of_memory, interrupted
    end enum
 
    !> The result of an integration.
    type :: integration_result
       !> Why it ended: reached_end, event_met, step_underflow, too_many_steps, value_not_finite,
-      !> out_of_memory or refused
+      !> out_of_memory, interrupted or refused
       integer :: reason = refused
       !> Final time reached
       real(wp) :: t = 0.0_wp
@@ -48,7 +52,7 @@ module dde_outcome
 contains
 
    !> The limit that forbids another attempt, or `reached_end` if none does.
-   pure integer function limit_met(outcome, last_error, options, h, shortest) result(reason)
+   integer function limit_met(outcome, last_error, options, h, shortest) result(reason)
       !> Counts so far
       type(integration_result), intent(in) :: outcome
       !> Error estimate of the last attempt
@@ -66,6 +70,8 @@ contains
          if (.not. ieee_is_finite(last_error)) reason = value_not_finite
       else if (outcome%accepted + outcome%rejected >= options%most_steps) then
          reason = too_many_steps
+      else if (stop_requested /= 0) then
+         reason = interrupted
       end if
    end function limit_met
 
@@ -97,6 +103,8 @@ contains
          if (len(culprit) > 0) why = why//"; "
       case (out_of_memory)
          why = "no memory for another "//text(lacking)//" bytes"
+      case (interrupted)
+         why = "interrupted"
       case default
          why = "a value is not finite at every step length down to "//text(h)//": "
       end select

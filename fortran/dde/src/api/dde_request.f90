@@ -44,6 +44,8 @@ module dde_request
       !> Times at which the right-hand side jumps (before the initial time: the history), in any
       !> order. Steps end there.
       real(wp), allocatable :: break_at(:)
+      !> Whether a continuation keeps all components over the whole run: it then is dense output
+      logical :: keep_all = .false.
    end type integration_options
 
 contains

@@ -1,4 +1,4 @@
-!> The past of one integration: the polynomials of accepted steps, for the delayed components only.
+!> The past of one integration: the polynomials of accepted steps, of the delayed components or more.
 !> It is a ring of slots. It drops the oldest steps on request and doubles when it is full. The
 !> coefficients of a step never move: a new step takes over those of a dropped one. Other
 !> modules ask it for values: steps have numbers, times in a step are counted from its start. Before
@@ -73,18 +73,21 @@ module dde_history
 contains
 
    !> An empty past that begins at `origin`.
-   pure function new_history(problem, origin) result(past)
+   pure function new_history(problem, origin, also) result(past)
       class(dde_problem_type), intent(in) :: problem
       type(instant), intent(in) :: origin
+      !> Components that are kept beside the delayed ones
+      integer, intent(in) :: also(:)
       type(history_type) :: past
       integer, allocatable :: row_of(:)
-      logical, allocatable :: delayed(:)
+      logical, allocatable :: wanted(:)
       integer :: i, k
 
       past%origin = origin
-      allocate (delayed(problem%n), source=.false.)
-      delayed(problem%component) = .true.
-      past%kept = pack([(i, i=1, problem%n)], delayed)
+      allocate (wanted(problem%n), source=.false.)
+      wanted(problem%component) = .true.
+      wanted(also) = .true.
+      past%kept = pack([(i, i=1, problem%n)], wanted)
       allocate (row_of(problem%n))
       row_of(past%kept) = [(i, i=1, size(past%kept))]
       past%row = [(row_of(problem%component(k)), k=1, size(problem%lag))]

@@ -109,6 +109,7 @@ contains
       self%context%cursor = cursor_type(problem)
       self%context%work = work_type(problem%n)
       self%reach = maxval([problem%lag, options%past_kept])
+      if (options%keep_all) self%reach = huge(1.0_wp)
       if (continued) then
          call self%continue_run(instant(t_end), options, lacking, continuation)
       else
@@ -141,7 +142,7 @@ contains
          call check_finite("integrate: the initial state has y", self%step%y, error)
          if (allocated(error)) return
          call context%work%set_cost(self%step%constants%evaluation_cost)
-         context%past = history_type(problem, start)
+         context%past = history_type(problem, start, pack([(k, k=1, problem%n)], options%keep_all))
          first = kink_type(start)
          do k = 1, size(problem%lag)
             associate (component => problem%component(k))
@@ -183,7 +184,7 @@ contains
          call context%work%set_cost(self%step%constants%evaluation_cost)
          self%step%y = continuation%y
          self%first_slope = continuation%slope
-         context%past = history_type(problem, origin)
+         context%past = history_type(problem, origin, continuation%kept)
          call continuation%restore(context%past, kinks)
          call self%points%begin([kinks, causes(options, origin)], origin, self%now, finish, &
                                 problem%lag, problem%n, self%step%constants%order - 1)

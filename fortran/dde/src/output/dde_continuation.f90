@@ -104,11 +104,11 @@ contains
       else if (.not. consistent(self)) then
          call raise(error, "integrate: the arrays of the continuation do not fit each other; " &
                     //"expected as an earlier run left them")
-      else if (.not. same_set(self%kept, problem%component)) then
+      else if (.not. holds(self%kept, problem%component)) then
          call list(self%kept, kept)
          call list(problem%component, delayed)
          call raise(error, "integrate: the continuation keeps components"//kept &
-                    //", delayed are"//delayed//"; the same expected")
+                    //", delayed are"//delayed//"; these at least expected")
       else if (abs(t_start - self%time(1)) > 0.0_wp) then
          call raise(error, "integrate: t_start = "//text(t_start)//" is " &
                     //text(t_start - self%time(1))//" off the time "//text(self%time(1)) &
@@ -171,7 +171,8 @@ contains
               .and. allocated(self%coefficients)
       if (.not. value) return
       steps = size(self%step_length)
-      value = any(size(self%slope) == [0, size(self%y)]) &
+      value = all(self%kept >= 1 .and. self%kept <= size(self%y)) &
+              .and. any(size(self%slope) == [0, size(self%y)]) &
               .and. any(size(self%rate) == [0, size(self%y)]) &
               .and. all(shape(self%kink) == [2, size(self%passages)]) &
               .and. size(self%generation) == size(self%passages) &
@@ -182,14 +183,13 @@ contains
                         == [1 + size(self%nodes, 1), size(self%kept), steps])
    end function consistent
 
-   !> Whether each of some components is among the others.
-   pure logical function same_set(one, other) result(value)
-      integer, intent(in) :: one(:), other(:)
+   !> Whether some components hold all of the others.
+   pure logical function holds(some, others) result(value)
+      integer, intent(in) :: some(:), others(:)
       integer :: i
 
-      value = all([(any(other == one(i)), i=1, size(one))]) &
-              .and. all([(any(one == other(i)), i=1, size(other))])
-   end function same_set
+      value = all([(any(some == others(i)), i=1, size(others))])
+   end function holds
 
    !> Numbers as words, each with a blank before it.
    pure subroutine list(numbers, words)

@@ -1,5 +1,5 @@
 !> The dense output of accepted steps: events go to the watcher, samples to the sampler, and the
-!> polynomials of delayed components to the past.
+!> polynomials of the components that are kept to the past.
 module dde_output
    use dde_events, only: event_watcher_type
    use dde_history, only: history_type
@@ -28,7 +28,7 @@ contains
       !> Receiver of events
       class(event_watcher_type), intent(in), optional :: watcher
 
-      value = size(run%context%problem%lag) > 0 .or. present(watcher)
+      value = size(run%context%past%kept) > 0 .or. present(watcher)
       if (.not. present(sampler)) return
       call limit_next(sampler, run%now%hi, h)
       value = value .or. sample_is_due(sampler, step_end)
@@ -64,14 +64,14 @@ contains
       if (present(sampler)) then
          if (sample_is_due(sampler, step_end)) call sample(sampler, run%step, run%now, step_end)
       end if
-      if (size(run%context%problem%lag) > 0 .and. share > 0.0_wp) then
+      if (size(run%context%past%kept) > 0 .and. share > 0.0_wp) then
          ! no polynomial is valid beyond the next kink
          call remember(run%context%past, run%step, run%now, run%points%time_to_next(run%now), share)
-         call run%context%past%forget(later(step_end, -run%reach))
+         if (run%reach < huge(1.0_wp)) call run%context%past%forget(later(step_end, -run%reach))
       end if
    end subroutine deliver
 
-   !> Append the delayed components' dense output to the past.
+   !> Append the dense output of the components that are kept to the past.
    pure subroutine remember(past, step, start, smooth, share)
       type(history_type), intent(inout) :: past
       class(step_type), intent(in) :: step

@@ -1,0 +1,16 @@
+"""Models with constant delays: runs, exponents, Hopf points, cycles and scans."""
+
+from delaykit.errors import DelaykitError, InterruptedRun, ModelError, RunError
+from delaykit.events import Event
+from delaykit.model import Model
+from delaykit.version import __version__
+
+__all__ = [
+    "DelaykitError",
+    "Event",
+    "InterruptedRun",
+    "Model",
+    "ModelError",
+    "RunError",
+    "__version__",
+]

@@ -1,0 +1,214 @@
+"""Arguments of runs, checked and as the library takes them."""
+
+import ctypes
+import math
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from delaykit.errors import ModelError, check_name
+from delaykit.events import Event
+from delaykit.history import Pieces, fit
+from delaykit.library import Request, address
+
+HUGE = sys.float_info.max
+ENDS = ("free", "ring", "plate")
+"""What is beyond the ends of a chain, in the order of the library."""
+
+
+def number_of(what: str, value) -> float:
+    """A finite real number; raise ModelError for anything else."""
+    if isinstance(value, complex | np.complexfloating):
+        raise ModelError(f"{what}: {value!r}; expected a real number")
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise ModelError(f"{what}: {value!r}; expected a finite number") from None
+    if not math.isfinite(number):
+        raise ModelError(f"{what}: {number!r}; expected a finite number")
+    return number
+
+
+@dataclass
+class Start:
+    """Where a run begins."""
+
+    t: float
+    rest: float
+    """What rounding took from t"""
+    past: np.ndarray
+    """Constant states before, shape (n)"""
+    state: np.ndarray | None = None
+    """The state at t, where it does not follow from the past"""
+    pieces: Pieces | None = None
+
+
+class Arguments:
+    """Checks arguments for a model with values of its parameters."""
+
+    def __init__(self, model, parameters: Mapping | None = None):
+        self.model = model
+        self.numbers = model.numbers(parameters)
+        self.states = model.states
+        self.n = len(self.states) * model.blocks
+        # of a ring the library keeps neighbours at most two places apart
+        self.order = np.arange(model.blocks)
+        if model.ends == "ring":
+            place = np.arange(1, model.blocks + 1)
+            self.order = np.where(place % 2, (place - 1) // 2, model.blocks - place // 2)
+
+    number = staticmethod(number_of)
+
+    def array(self, what: str, values) -> np.ndarray:
+        """Finite numbers in a row."""
+        try:
+            array = np.array(values, float)
+        except (TypeError, ValueError):
+            raise ModelError(f"{what}: {values!r}; expected numbers") from None
+        if array.ndim != 1 or not np.isfinite(array).all():
+            raise ModelError(f"{what}: {values!r}; expected finite numbers in a row")
+        return array
+
+    def times(self, values, start: float) -> np.ndarray:
+        """Ascending times from the start on."""
+        times = self.array("t_eval", values)
+        if (np.diff(times) < 0).any() or (len(times) and times[0] < start):
+            raise ModelError(f"t_eval: expected ascending times from t_start = {start} on")
+        return times
+
+    def tolerance(self, what: str, value) -> np.ndarray:
+        """A tolerance for each component of the state vector."""
+        if isinstance(value, Mapping):
+            for state in value:
+                check_name(f"{what} of the state", state, self.states)
+            missing = [state for state in self.states if state not in value]
+            if missing:
+                raise ModelError(f"{what}: no value for {missing[0]}; expected one for each state")
+            each = [number_of(f"{what} of {state}", value[state]) for state in self.states]
+        else:
+            each = [number_of(what, value)] * len(self.states)
+        return np.tile(each, self.model.blocks)
+
+    def component(self, what: str, name: str) -> tuple[int, bool]:
+        """Number of a state from 0, and whether the name is that of its exponential."""
+        check_name(what, name, [*self.states, *self.model.auxiliary])
+        state = self.model.auxiliary.get(name, name)
+        return self.states.index(state), state != name
+
+    def events(self, events: list[Event]) -> dict[str, np.ndarray]:
+        """Events as arrays of the library."""
+        rows = []
+        for one in events:
+            component, exponential = self.component("state of an event", one.state)
+            level = number_of("level of an event", one.level)
+            if exponential and not one.of_slope:
+                if level <= 0:
+                    raise ModelError(f"level of an event of {one.state}: {level}; expected > 0")
+                level = math.log(level)
+            if one.direction not in (-1, 0, 1):
+                raise ModelError(f"direction: {one.direction!r}; expected -1, 0 or 1")
+            rows.append((level, 1 + component, one.direction, one.terminal, one.of_slope))
+        columns = list(zip(*rows, strict=True)) or [()] * 5
+        names = ("level", "component", "direction", "terminal", "of_slope")
+        return {
+            name: np.array(column, np.float64 if name == "level" else np.int32)
+            for name, column in zip(names, columns, strict=True)
+        }
+
+    def doses(self, doses, start: float, end: float) -> list[np.ndarray]:
+        """Changes of the state: each a time and n numbers, in order of time."""
+        found = []
+        for time, change in doses:
+            time = number_of("time of a dose", time)
+            if not start <= time <= end:
+                raise ModelError(f"time of a dose: {time}; expected {start} <= t <= {end}")
+            for state in change:
+                check_name("state of a dose", state, self.states)
+            each = [number_of(f"dose of {s}", change.get(s, 0.0)) for s in self.states]
+            found.append(np.concatenate([[time], np.tile(each, self.model.blocks)]))
+        return sorted(found, key=lambda one: one[0])
+
+    def by_block(self, rows: np.ndarray) -> np.ndarray:
+        """State vectors, shape (rows, n), with the blocks of a ring in their order."""
+        if self.model.ends != "ring":
+            return rows
+        blocks = rows.reshape(len(rows), self.model.blocks, -1)
+        return blocks[:, np.argsort(self.order)].reshape(len(rows), -1)
+
+    def by_place(self, values: np.ndarray) -> np.ndarray:
+        """The state vector of values of shape (blocks, states)."""
+        return values[self.order].ravel()
+
+    def values(self, what: str, given: Mapping, t: float | None = None) -> np.ndarray:
+        """The state vector of values by state or auxiliary: numbers, or functions read at t."""
+        found = np.full((self.model.blocks, len(self.states)), np.nan)
+        for name, value in given.items():
+            component, exponential = self.component(f"{what} of", name)
+            if callable(value):
+                value = value(t)
+            try:
+                array = np.broadcast_to(np.asarray(value, float), self.model.blocks)
+            except (TypeError, ValueError):
+                raise ModelError(
+                    f"{what} of {name}: {value!r}; expected a number"
+                    + (f" or {self.model.blocks} numbers" if self.model.blocks > 1 else "")
+                ) from None
+            if exponential and not (array > 0).all():
+                raise ModelError(f"{what} of {name}: {value!r}; expected a number > 0")
+            found[:, component] = np.log(array) if exponential else array
+        for component, state in enumerate(self.states):
+            named = {state, *(k for k, v in self.model.auxiliary.items() if v == state)}
+            if not named & set(given):
+                raise ModelError(f"{what} of {state}: no value; expected one for each state")
+        if t is None and not np.isfinite(found).all():
+            raise ModelError(f"{what}: {dict(given)!r}; expected finite numbers")
+        return self.by_place(found)
+
+    def by_name(self, what: str, given) -> Mapping:
+        """Values by state; a model with one state may leave out its name."""
+        if isinstance(given, Mapping):
+            return given
+        if len(self.states) == 1 and given is not None:
+            return {self.states[0]: given}
+        raise ModelError(f"{what}: {given!r}; expected a value for each of {', '.join(self.states)}")
+
+    def request(self, start: Start, t_end: float) -> tuple[Request, list]:
+        """A request with all that is not an option, and what must live as long as it."""
+        request = Request()
+        request.parameters, request.past = address(self.numbers), address(start.past)
+        request.t_start, request.t_start_rest, request.t_end = start.t, start.rest, t_end
+        request.blocks = self.model.blocks
+        request.ends = 1 + ENDS.index(self.model.ends)
+        kept: list = [start]
+        if start.state is not None:
+            structure, arrays = start.pieces.structure()
+            kept += [structure, arrays]
+            request.state, request.history = address(start.state), ctypes.addressof(structure)
+        return request, kept
+
+
+def begin(own: Arguments, history, t_start: float, initial, breaks, rtol, atol) -> Start:
+    """Where a run begins: after constant states, after functions of time, or after a run."""
+    pieces = getattr(history, "pieces", None)
+    if pieces is not None:
+        start = Start(pieces.end[0], pieces.end[1], pieces.state, pieces.state, pieces)
+    else:
+        given = own.by_name("history", history)
+        if any(callable(value) for value in given.values()):
+            longest = max(own.model.delays_of(own.numbers), default=0.0)
+            pieces = fit(
+                lambda t: own.values("history", given, t),
+                t_start - max(longest, sys.float_info.min), t_start, breaks, rtol, atol,
+            )  # fmt: skip
+            pieces = pieces.with_kink(0)
+            start = Start(t_start, 0.0, pieces.state, pieces.state, pieces)
+        else:
+            start = Start(t_start, 0.0, own.values("history", given))
+    if initial is None:
+        return start
+    state = own.values("initial", own.by_name("initial", initial))
+    start.pieces = (start.pieces or Pieces.none(t_start, start.past)).with_kink(-1)
+    start.state = state
+    return start

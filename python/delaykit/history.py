@@ -1,0 +1,166 @@
+"""What a model did before the initial time: as numbers, functions, arrays, or an earlier run."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from delaykit.errors import ModelError
+from delaykit.library import History, address
+
+DEGREE = 12
+"""Degree of the polynomials that stand for a function."""
+SHARE = 0.1
+"""Their error as a share of the tolerance of the run."""
+MOST_PIECES = 4096
+NODES = np.array([(1 - math.cos(math.pi * (k + 0.5) / (DEGREE + 1))) / 2 for k in range(DEGREE + 1)])
+"""Where a function is read in each piece: Chebyshev points of 0..1 ..."""
+
+
+def leja(points: np.ndarray) -> np.ndarray:
+    """Points in an order in which Newton's form loses no digits."""
+    left, order = list(points), []
+    while left:
+        far = [math.prod(abs(x - y) for y in order) if order else abs(x - 0.5) for x in left]
+        order.append(left.pop(int(np.argmax(far))))
+    return np.array(order)
+
+
+NODES = leja(NODES)
+TESTS = np.linspace(0.02, 0.98, 2 * DEGREE + 1)
+"""... and where the polynomial is compared with it."""
+
+
+@dataclass
+class Pieces:
+    """A past in polynomials of all states, and the kinks in it."""
+
+    start: np.ndarray
+    """Start of each piece as a pair whose sum it is, shape (pieces, 2)"""
+    length: np.ndarray
+    valid_for: np.ndarray
+    nodes: np.ndarray
+    """Newton nodes in units of the length, shape (pieces, degree)"""
+    coefficients: np.ndarray
+    """Newton coefficients, shape (pieces, states, 1 + degree)"""
+    kinks: np.ndarray
+    """Times where a derivative jumps, as pairs, shape (kinks, 2)"""
+    passages: np.ndarray
+    """Delays passed since; -1 where the solution jumps"""
+    generation: np.ndarray
+    origin: np.ndarray
+    """Before it the constant past holds, a pair"""
+    end: np.ndarray
+    """Where they end, a pair"""
+    state: np.ndarray
+    """The state there, shape (states)"""
+
+    @classmethod
+    def none(cls, t: float, state: np.ndarray) -> "Pieces":
+        """No piece: the constant past holds up to t."""
+        pair, n = np.array([t, 0.0]), len(state)
+        return cls(
+            start=np.empty((0, 2)),
+            length=np.empty(0),
+            valid_for=np.empty(0),
+            nodes=np.empty((0, 0)),
+            coefficients=np.empty((0, n, 1)),
+            kinks=np.empty((0, 2)),
+            passages=np.empty(0),
+            generation=np.empty(0),
+            origin=pair,
+            end=pair,
+            state=state,
+        )
+
+    def with_kink(self, passages: int) -> "Pieces":
+        """The same with a kink at the end, a jump if `passages` is -1."""
+        return replace(
+            self,
+            kinks=np.vstack([self.kinks, self.end]),
+            passages=np.append(self.passages, passages),
+            generation=np.append(self.generation, 0),
+        )
+
+    def structure(self) -> tuple[History, list]:
+        """As the library takes it, and the arrays that must outlive the call."""
+        kept = np.arange(1, self.coefficients.shape[1] + 1, dtype=np.int32)
+        reals = [self.origin, self.kinks, self.start, self.length, self.valid_for, self.nodes]
+        arrays = [np.ascontiguousarray(one, np.float64) for one in [*reals, self.coefficients]]
+        arrays += [np.ascontiguousarray(one, np.int32) for one in (self.passages, self.generation)]
+        arrays.append(kept)
+        sizes = (len(self.passages), len(self.length), self.nodes.shape[1], len(kept))
+        return History(*map(address, arrays), *sizes), arrays
+
+    def __call__(self, t: np.ndarray) -> np.ndarray:
+        """All states at times, shape (times, states)."""
+        t = np.asarray(t, float)
+        piece = np.clip(np.searchsorted(self.start[:, 0], t, side="right") - 1, 0, None)
+        share = (t - self.start[piece, 0] - self.start[piece, 1]) / self.length[piece]
+        value = self.coefficients[piece, :, -1]
+        for k in range(self.nodes.shape[1] - 1, -1, -1):
+            factor = (share - self.nodes[piece, k])[:, None]
+            value = self.coefficients[piece, :, k] + factor * value
+        return value
+
+
+def fit(function: Callable[[float], np.ndarray], begin: float, end: float, breaks,
+        rtol: np.ndarray, atol: np.ndarray) -> Pieces:
+    """The pieces of a function of time on [begin, end], within a tenth of the tolerance.
+
+    function: of a time, shape (states). Raise ModelError where it is not finite or too rough.
+    """
+    edges = sorted({begin, end, *(t for t in breaks if begin < t < end)})
+    todo = [*zip(edges[:-1], edges[1:], strict=True)][::-1]
+    done = []
+    while todo:
+        left, right = todo.pop()
+        values = np.array([function(left + (right - left) * x) for x in NODES])
+        coefficients = newton(values)
+        read = np.array([function(left + (right - left) * x) for x in TESTS])
+        fitted = np.array([newton_value(coefficients, x) for x in TESTS])
+        if not np.isfinite(values).all() or not np.isfinite(read).all():
+            raise ModelError(f"the history is not finite between t = {left} and {right}")
+        if (np.abs(read - fitted) <= SHARE * (atol + rtol * np.abs(read))).all():
+            done.append((left, right, coefficients))
+        elif len(done) + len(todo) >= MOST_PIECES or (left + right) / 2 in (left, right):
+            raise ModelError(
+                f"the history cannot be fitted to the tolerance near t = {left}; expected a "
+                "smooth function, with its jumps and kinks in `breaks`"
+            )
+        else:
+            middle = (left + right) / 2
+            todo += [(middle, right), (left, middle)]
+    start = np.array([[left, 0.0] for left, _, _ in done])
+    length = np.array([right - left for left, right, _ in done])
+    inner = np.array([t for t in edges[1:-1]])
+    return Pieces(
+        start=start,
+        length=length,
+        valid_for=length,
+        nodes=np.tile(NODES[:DEGREE], (len(done), 1)),
+        coefficients=np.array([coefficients.T for _, _, coefficients in done]),
+        kinks=np.column_stack([inner, np.zeros_like(inner)]),
+        passages=np.full(len(inner), -1),
+        generation=np.zeros(len(inner)),
+        origin=np.array([begin, 0.0]),
+        end=np.array([end, 0.0]),
+        state=np.asarray(function(end), float),
+    )
+
+
+def newton(values: np.ndarray) -> np.ndarray:
+    """Newton coefficients of values at NODES, shape (1 + degree, states)."""
+    table = values.astype(float)
+    for k in range(1, len(NODES)):
+        table[k:] = (table[k:] - table[k - 1 : -1]) / (NODES[k:] - NODES[: len(NODES) - k])[:, None]
+    return table
+
+
+def newton_value(coefficients: np.ndarray, x: float) -> np.ndarray:
+    """Their polynomial at a place in 0..1."""
+    value = coefficients[-1]
+    for k in range(DEGREE - 1, -1, -1):
+        value = coefficients[k] + (x - NODES[k]) * value
+    return value

@@ -1,0 +1,142 @@
+"""The compiled library of the solver and the methods, called over its interface to C."""
+
+import contextlib
+import ctypes
+import threading
+from pathlib import Path
+
+import numpy as np
+
+from delaykit.errors import InterruptedRun, RunError
+
+PATH = Path(__file__).with_name("libdelaykit.so")
+MESSAGE = 2048
+"""Room for a message, in letters."""
+REALS = ctypes.POINTER(ctypes.c_double)
+INTEGERS = ctypes.POINTER(ctypes.c_int)
+
+
+def structure(*fields: str) -> list[tuple[str, type]]:
+    """Fields of a structure from words `name:kind`."""
+    kinds = {
+        "r": ctypes.c_double,
+        "i": ctypes.c_int,
+        "l": ctypes.c_int64,
+        "p": ctypes.c_void_p,
+        "s": ctypes.c_char_p,
+    }
+    return [(name, kinds[kind]) for name, kind in (field.split(":") for field in fields)]
+
+
+class History(ctypes.Structure):
+    """dk_history: a past in polynomials."""
+
+    _fields_ = structure(
+        *("origin:p", "kink:p", "step_start:p", "step_length:p", "valid_for:p", "nodes:p"),
+        *("coefficients:p", "passages:p", "generation:p", "kept:p"),
+        *("kinks:i", "steps:i", "degree:i", "components:i"),
+    )
+
+
+class Request(ctypes.Structure):
+    """dk_request: what is wanted of a run."""
+
+    _fields_ = structure(
+        *("parameters:p", "past:p", "state:p", "t_start:r", "t_start_rest:r", "t_end:r", "method:s"),
+        *("rtol:p", "atol:p", "first_step:r", "max_step:r", "max_steps:l"),
+        *("times:p", "breaks:p", "doses:p", "event_level:p", "event_component:p"),
+        *("event_direction:p", "event_terminal:p", "event_of_slope:p", "share:r"),
+        *("blocks:i", "ends:i", "time_count:i", "break_count:i", "dose_count:i"),
+        *("event_count:i", "keep_all:i", "history:p"),
+    )
+
+
+def load() -> ctypes.CDLL:
+    """The library, with the types of its procedures."""
+    library = ctypes.CDLL(str(PATH))
+    handle, text, number = ctypes.c_void_p, ctypes.c_char_p, ctypes.c_int
+    to_handle = ctypes.POINTER(handle)
+    types = {
+        "dk_open": (number, [text, to_handle, text, number]),
+        "dk_close": (None, [handle]),
+        "dk_free": (None, [handle]),
+        "dk_delays": (None, [handle, handle, handle, ctypes.POINTER(number)]),
+        "dk_values": (handle, [handle, text, ctypes.POINTER(number)]),
+        "dk_describe": (number, [handle, text, number]),
+        "dk_integrate": (number, [handle, ctypes.POINTER(Request), to_handle, text, number]),
+        "dk_watch": (None, [number]),
+        "dk_stop": (None, [number]),
+    }
+    for name, (result, arguments) in types.items():
+        procedure = getattr(library, name)
+        procedure.restype, procedure.argtypes = result, arguments
+    return library
+
+
+LIBRARY = load()
+
+
+@contextlib.contextmanager
+def interruptible():
+    """Let Ctrl-C end the calls within, if this is the main thread: Python raises then as usual."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    LIBRARY.dk_watch(1)
+    try:
+        yield
+    finally:
+        LIBRARY.dk_watch(0)
+        LIBRARY.dk_stop(0)
+
+
+def open_object(path: Path) -> ctypes.c_void_p:
+    """The handle of a compiled model."""
+    handle, message = ctypes.c_void_p(), ctypes.create_string_buffer(MESSAGE)
+    if LIBRARY.dk_open(str(path).encode(), ctypes.byref(handle), message, MESSAGE):
+        raise RunError(message.value.decode(errors="replace"))
+    return handle
+
+
+class Results:
+    """Results that the library holds; their arrays are copies."""
+
+    def __init__(self, handle: ctypes.c_void_p):
+        self.handle = handle
+
+    def __del__(self):
+        LIBRARY.dk_free(self.handle)
+
+    def values(self, name: str, kind=np.float64) -> np.ndarray:
+        """A variable as a row of numbers; empty if there is none of this name."""
+        length = ctypes.c_int()
+        address = LIBRARY.dk_values(self.handle, name.encode(), ctypes.byref(length))
+        if not address:
+            return np.empty(0, kind)
+        size = length.value * np.dtype(kind).itemsize
+        return np.frombuffer(ctypes.string_at(address, size), kind).copy()
+
+    def description(self) -> list[list[str]]:
+        """The lines of dk_describe, in words."""
+        length = LIBRARY.dk_describe(self.handle, None, 0) + 1
+        text = ctypes.create_string_buffer(length)
+        LIBRARY.dk_describe(self.handle, text, length)
+        lines = text.value.decode(errors="replace").splitlines()
+        return [line.split("\t") for line in lines]
+
+
+def call(procedure, *arguments) -> Results:
+    """Results of a procedure that ends with the arguments result, message and length."""
+    handle, message = ctypes.c_void_p(), ctypes.create_string_buffer(MESSAGE)
+    with interruptible():
+        failed = procedure(*arguments, ctypes.byref(handle), message, MESSAGE)
+    results = Results(handle)
+    if failed:
+        text = message.value.decode(errors="replace")
+        raise (InterruptedRun if text.endswith("interrupted") else RunError)(text, results)
+    return results
+
+
+def address(array: np.ndarray | None) -> int | None:
+    """Where the numbers of an array begin."""
+    return None if array is None else array.ctypes.data

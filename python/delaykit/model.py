@@ -1,0 +1,177 @@
+"""A model with constant delays: its equations, parameters, and what can be computed of it."""
+
+import copy
+import ctypes
+import weakref
+from collections.abc import Mapping
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from delaykit import objects, runs
+from delaykit.arguments import ENDS, number_of
+from delaykit.errors import ModelError, check_name
+from delaykit.library import LIBRARY, address, open_object
+
+OPTIONS = {
+    *("about", "source", "auxiliary", "definitions", "fast", "domain", "event", "section"),
+    *("integral", "coordinates", "steady_state"),
+}
+"""Keys of a definition that may be given by name (generator/README.md explains them)."""
+MOST_DELAYED = 1 << 14
+
+
+class Model:
+    """Equations y' = f(t, y(t), y(t - delay), ...) with named parameters.
+
+    equations: by state, in the order of the state vector, each a text such as
+        "beta*y(t - tau)/(1 + y(t - tau)**n) - rate*y" or a SymPy expression in which a delayed
+        state is a function of time, y(t - tau). Texts are parsed, never evaluated.
+    parameters: by name, a value, or a dict of `default`, `meaning`, `unit`, `above`, `at_least`.
+    steady_state: by state an expression of parameters, or {"near": {state: guess}}.
+    blocks, ends: of a chain, whose equations have second_difference(STATE): the number of blocks,
+        and free, ring or plate.
+
+    The model is compiled when it is first needed, and kept in the user's cache.
+    """
+
+    def __init__(self, equations: Mapping, parameters: Mapping | None = None, *, states=None,
+                 name="model", blocks=1, ends="free", **options):
+        for key in options:
+            check_name("option", key, OPTIONS)
+        if not isinstance(equations, Mapping) or not equations:
+            raise ModelError(f"equations: {equations!r}; expected a text for each state")
+        if not isinstance(blocks, int) or blocks < 1:
+            raise ModelError(f"blocks: {blocks!r}; expected a whole number >= 1")
+        check_name("ends", ends, ENDS)
+        self.blocks, self.ends = blocks, ends
+        texts = {str(key): str(text) for key, text in equations.items()}
+        self.definition = {
+            "name": str(name),
+            "parameters": {str(key): entry_of(key, v) for key, v in (parameters or {}).items()},
+            "states": {key: str((states or {}).get(key, key)) for key in texts},
+            "equations": texts,
+            **{key: plain(value) for key, value in options.items() if value is not None},
+        }
+        self.auxiliary = {
+            str(key): str(text).replace(" ", "")[4:-1]
+            for key, text in (options.get("auxiliary") or {}).items()
+        }
+        self.parameters = {
+            key: entry["default"]
+            for key, entry in self.definition["parameters"].items()
+            if "default" in entry
+        }
+
+    @classmethod
+    def from_file(cls, *paths: str | Path, **parameters) -> "Model":
+        """The model that files of the generator define together; later ones replace."""
+        from ruamel.yaml import YAML
+
+        from generator.definition import overlaid
+
+        whole: dict = {}
+        for path in paths:
+            whole = overlaid(whole, YAML(typ="safe", pure=True).load(Path(path)))
+        whole.pop("history", None)
+        whole["parameters"] = {
+            key: {**(entry or {}), **({"default": parameters[key]} if key in parameters else {})}
+            for key, entry in whole.get("parameters", {}).items()
+        }
+        for key in parameters:
+            check_name("parameter", key, whole["parameters"])
+        return cls(whole.pop("equations"), whole.pop("parameters"), **whole)
+
+    @property
+    def states(self) -> tuple[str, ...]:
+        """Names of the states, in the order of the state vector."""
+        return tuple(self.definition["states"])
+
+    @cached_property
+    def path(self) -> Path:
+        """The compiled object."""
+        return objects.compiled(self.definition)
+
+    @cached_property
+    def handle(self) -> ctypes.c_void_p:
+        """The handle of the compiled model in the library."""
+        handle = open_object(self.path)
+        weakref.finalize(self, LIBRARY.dk_close, handle)
+        return handle
+
+    def __getstate__(self):
+        return {k: v for k, v in self.__dict__.items() if k not in ("handle", "path")}
+
+    def __repr__(self):
+        lines = [f"{state}' = {text}" for state, text in self.definition["equations"].items()]
+        numbers = ", ".join(f"{key} = {value:g}" for key, value in self.parameters.items())
+        return f"<delaykit.Model {self.definition['name']}: {'; '.join(lines)}; {numbers}>"
+
+    def with_parameters(self, **values) -> "Model":
+        """The same model with other values of parameters."""
+        other = copy.copy(self)
+        other.__dict__.pop("handle", None)
+        other.parameters = {**self.parameters, **self.checked(values)}
+        return other
+
+    def checked(self, values: Mapping) -> dict[str, float]:
+        """Values of parameters; raise ModelError for a name or a number that cannot be."""
+        return {key: self.checked_value(key, value) for key, value in values.items()}
+
+    def checked_value(self, key: str, value) -> float:
+        """One of them."""
+        check_name("parameter", key, self.definition["parameters"])
+        number = number_of(f"parameter {key}", value)
+        entry = self.definition["parameters"][key]
+        if "above" in entry and not number > entry["above"]:
+            raise ModelError(f"parameter {key}: {number!r}; expected a number > {entry['above']}")
+        if "at_least" in entry and not number >= entry["at_least"]:
+            low = entry["at_least"]
+            raise ModelError(f"parameter {key}: {number!r}; expected a number >= {low}")
+        return number
+
+    def numbers(self, values: Mapping | None = None) -> np.ndarray:
+        """All parameters in the order of the definition, some with other values."""
+        known = {**self.parameters, **(self.checked(values) if values else {})}
+        missing = [key for key in self.definition["parameters"] if key not in known]
+        if missing:
+            raise ModelError(f"parameter {missing[0]}: no value; expected a number")
+        return np.array([known[key] for key in self.definition["parameters"]], float)
+
+    def delays(self, **values) -> np.ndarray:
+        """The delays with these values of parameters, in units of time."""
+        return self.delays_of(self.numbers(values))
+
+    def delays_of(self, numbers: np.ndarray) -> np.ndarray:
+        """The delays with these parameters, all in the order of the definition."""
+        lags = np.empty(MOST_DELAYED)
+        count = ctypes.c_int()
+        LIBRARY.dk_delays(self.handle, address(numbers), address(lags), ctypes.byref(count))
+        return lags[: count.value].copy()
+
+    def integrate(self, history=None, t_end=None, **options) -> "runs.Solution":
+        """A run as plain arrays; the arguments are those of `run`."""
+        return runs.integrate(self, history, t_end, **options)
+
+    def run(self, history=None, t_end=None, **options):
+        """A run as an xarray.Dataset; `runs.integrate` explains the arguments."""
+        return runs.integrate(self, history, t_end, **options).to_dataset()
+
+
+def plain(value):
+    """A value of a definition without SymPy or NumPy in it."""
+    if isinstance(value, Mapping):
+        return {str(key): plain(one) for key, one in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(one) for one in value]
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        return value
+    return str(value)
+
+
+def entry_of(name, value) -> dict:
+    """The entry of a parameter in a definition."""
+    if isinstance(value, Mapping):
+        return plain(value)
+    return {} if value is None else {"default": number_of(f"parameter {name}", value)}

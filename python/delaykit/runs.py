@@ -1,0 +1,158 @@
+"""Runs: a model integrated from its history."""
+
+import ctypes
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from delaykit.arguments import HUGE, Arguments, begin
+from delaykit.errors import RunError, check_name
+from delaykit.events import Event
+from delaykit.history import Pieces
+from delaykit.library import LIBRARY, Results, address, call
+
+METHODS = ("auto", "explicit", "bs5", "dop853", "taylor", "radau5", "radau9", "radau13")
+COUNTS = (
+    *("steps_accepted", "steps_rejected", "steps_implicit", "evaluations", "factorisations"),
+    "breaking_points",
+)
+
+
+@dataclass
+class Solution:
+    """A run as arrays; the words are those of scipy.integrate.solve_ivp where it has them."""
+
+    model: object
+    numbers: np.ndarray
+    """Parameters, in the order of the definition"""
+    t: np.ndarray
+    """Times, shape (times)"""
+    y: np.ndarray
+    """States, shape (states, times), of a chain (blocks, states, times)"""
+    t_events: list[np.ndarray]
+    """Times of each event"""
+    y_events: list[np.ndarray]
+    """States at each, shape (events, states)"""
+    status: int
+    """0: reached the end; 1: an event ended the run"""
+    counts: dict[str, int]
+    """Counts of the solver, and its method at the end"""
+    options: dict = field(default_factory=dict)
+    pieces: Pieces | None = None
+    """Dense output, if it was asked for"""
+
+    @cached_property
+    def sol(self) -> Callable:
+        """Dense output: a function of times, shape (states, times)."""
+        if self.pieces is None:
+            raise RunError("this run has no dense output; expected one with dense_output=True")
+        return lambda t: self.pieces(np.atleast_1d(t)).T
+
+    def to_dataset(self):
+        """The run as an xarray.Dataset."""
+        from delaykit.datasets import dataset_of_run
+
+        return dataset_of_run(self)
+
+
+def integrate(model, history=None, t_end=None, *, t_start=0.0, t_eval=None, parameters=None,
+              method="auto", rtol=1e-9, atol=1e-9, events=(), dense_output=False, initial=None,
+              breaks=(), doses=(), first_step=0.0, max_step=math.inf, max_steps=10**8,
+              samples_per_step=4) -> Solution:
+    """Integrate a model from t_start to t_end.
+
+    history: before t_start, of each state or auxiliary a number or a function of t, as a dict (of
+        a model with one state without it); arrays over time as an xarray.Dataset or a dict of
+        pairs (times, values); or an earlier run with dense output, which goes on.
+    initial: the state at t_start where it differs from the history (a jump).
+    t_eval: times of the samples; otherwise they follow the steps, `samples_per_step` in each.
+    rtol, atol: tolerances of a step, numbers or a dict by state.
+    events: texts such as "y = 1 rising" or "y' = 0 falling stop", or Event.
+    breaks: times at which the equations or the history jump.
+    doses: pairs (time, {state: change}).
+
+    All times in the model's unit. Raise ModelError before the run for arguments that cannot be,
+    RunError with the solver's words where it stops.
+    """
+    own = Arguments(model, parameters)
+    t_end = own.number("t_end", t_end)
+    rtol, atol = own.tolerance("rtol", rtol), own.tolerance("atol", atol)
+    breaks = own.array("breaks", breaks)
+    start = begin(own, history, own.number("t_start", t_start), initial, breaks, rtol, atol)
+    request, kept = own.request(start, t_end)
+    check_name("method", method, METHODS)
+    request.method = method.encode()
+    request.rtol, request.atol = address(rtol), address(atol)
+    request.first_step = own.number("first_step", first_step)
+    request.max_step = own.number("max_step", min(max_step, HUGE))
+    request.max_steps = int(own.number("max_steps", max_steps))
+    request.share = 1.0 / own.number("samples_per_step", samples_per_step)
+    request.keep_all = int(bool(dense_output))
+    request.breaks, request.break_count = address(breaks), len(breaks)
+    request.time_count = -1
+    if t_eval is not None:
+        times = own.times(t_eval, start.t)
+        request.times, request.time_count = address(times), len(times)
+    events = [Event.read(one) for one in ([events] if isinstance(events, str | Event) else events)]
+    watched = own.events(events)
+    if events:
+        for name, array in watched.items():
+            setattr(request, f"event_{name}", address(array))
+        request.event_count = len(events)
+    if dosed := own.doses(doses, start.t, t_end):
+        changes = np.array(dosed)
+        request.doses, request.dose_count = address(changes), len(changes)
+    try:
+        found = call(LIBRARY.dk_integrate, model.handle, ctypes.byref(request))
+    except RunError as problem:
+        problem.partial = solution_of(own, problem.partial, events)
+        raise
+    solution = solution_of(own, found, events)
+    solution.options = {"method": method, "rtol": rtol.tolist(), "atol": atol.tolist()}
+    del kept
+    return solution
+
+
+def solution_of(own: Arguments, found: Results, events: list[Event]) -> Solution:
+    """The arrays of results of the library."""
+    model, t = own.model, found.values("t")
+    y = own.by_block(found.values("y").reshape(len(t), own.n)).T
+    which = found.values("event_which", np.int32)
+    times = found.values("event_time")
+    states = own.by_block(found.values("event_y").reshape(len(times), own.n))
+    words = {line[2]: line[4] for line in found.description() if line[:2] == ["attribute", ""]}
+    return Solution(
+        model=model,
+        numbers=own.numbers,
+        t=t,
+        y=y,
+        t_events=[times[which == 1 + i] for i in range(len(events))],
+        y_events=[states[which == 1 + i] for i in range(len(events))],
+        status=int(words.get("reason", -1)),
+        counts={name: int(float(words[name])) for name in COUNTS if name in words},
+        pieces=pieces_of(own, found),
+    )
+
+
+def pieces_of(own: Arguments, found: Results) -> Pieces | None:
+    """The dense output of results, if they have one."""
+    length = found.values("dense_length")
+    if not len(length):
+        return None
+    steps = len(length)
+    return Pieces(
+        start=found.values("dense_start").reshape(steps, 2),
+        length=length,
+        valid_for=found.values("dense_valid_for"),
+        nodes=found.values("dense_nodes").reshape(steps, -1),
+        coefficients=found.values("dense_coefficients").reshape(steps, own.n, -1),
+        kinks=found.values("dense_kink_time").reshape(-1, 2),
+        passages=found.values("dense_passages", np.int32),
+        generation=found.values("dense_generation", np.int32),
+        origin=found.values("dense_origin"),
+        end=found.values("dense_end"),
+        state=found.values("dense_state"),
+    )

@@ -1,0 +1,351 @@
+!> Runs of compiled models, for callers in C: a request in plain arrays, results by their names.
+module delaykit_runs
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_int, &
+                                          c_int64_t, c_loc, c_ptr
+   use dataset, only: dataset_type
+   use dde, only: continuation_type, event_met, event_table, integrate, integration_options, &
+                  integration_result, sampler_type, table_sampler
+   use dde_errors, only: error_type, raise, text
+   use dde_kinds, only: wp
+   use delaykit_handles, only: message_of, model_of, string_of
+   use model_chain, only: chain_ends, find_neighbours
+   use model_problem, only: model_type
+   implicit none (type, external)
+   private
+
+   !> What is wanted of a run; `delaykit.h` explains its components, which are those of dk_request.
+   type, bind(c) :: request_type
+      type(c_ptr) :: parameters, past, state
+      real(c_double) :: t_start(2), t_end
+      type(c_ptr) :: method, rtol, atol
+      real(c_double) :: first_step, max_step
+      integer(c_int64_t) :: max_steps
+      type(c_ptr) :: times, breaks, doses
+      type(c_ptr) :: event_level
+      type(c_ptr) :: event_component, event_direction, event_terminal, event_of_slope
+      real(c_double) :: share
+      integer(c_int) :: blocks, ends
+      integer(c_int) :: time_count, break_count, dose_count, event_count, keep_all
+      type(c_ptr) :: history
+   end type request_type
+
+   !> A past in polynomials; `delaykit.h` explains it, as dk_history.
+   type, bind(c) :: pieces_type
+      type(c_ptr) :: origin, kink, step_start, step_length, valid_for, nodes, coefficients
+      type(c_ptr) :: passages, generation, kept
+      integer(c_int) :: kinks, steps, degree, components
+   end type pieces_type
+
+   !> Samples that follow the steps, of all components.
+   type, extends(sampler_type) :: steps_sampler
+      !> Number of samples
+      integer :: received = 0
+      !> When, and the states, shape (n, at least received)
+      real(wp), allocatable :: time(:), values(:, :)
+   contains
+      procedure :: take => take_sample
+   end type steps_sampler
+
+contains
+
+   !> Keep a sample; the solver brings the time of the next one forward.
+   subroutine take_sample(self, y)
+      class(steps_sampler), intent(inout) :: self
+      real(wp), intent(in) :: y(:)
+      real(wp), allocatable :: times(:), values(:, :)
+
+      if (self%received == size(self%time)) then
+         allocate (times(2*self%received), values(size(y), 2*self%received))
+         times(:self%received) = self%time
+         values(:, :self%received) = self%values
+         call move_alloc(times, self%time)
+         call move_alloc(values, self%values)
+      end if
+      self%received = self%received + 1
+      self%time(self%received) = self%next
+      self%values(:, self%received) = y
+      self%next = huge(1.0_wp)
+   end subroutine take_sample
+
+   !> Integrate a model; 0 if it succeeded, else 1 with a message. The results hold what was reached
+   !> even then.
+   integer(c_int) function dk_integrate(handle, request, result, message, length) result(status) &
+      bind(c)
+      !> The model, as dk_open gave it
+      type(c_ptr), value :: handle
+      !> What is wanted
+      type(request_type), intent(in) :: request
+      !> The results
+      type(c_ptr), intent(out) :: result
+      !> Room for a message and its size
+      character(kind=c_char), intent(inout) :: message(*)
+      integer(c_int), value :: length
+      type(dataset_type), pointer :: data
+      type(error_type), allocatable :: error
+      type(model_type) :: model
+
+      allocate (data)
+      result = c_loc(data)
+      model = model_of(handle)
+      call set_model(request, model, error)
+      if (.not. allocated(error)) call run(request, model, data, error)
+      status = message_of(error, message, length)
+   end function dk_integrate
+
+   !> Delays of a model with these parameters, shape (delayed states), and their number.
+   subroutine dk_delays(handle, parameters, lag, number) bind(c)
+      type(c_ptr), value :: handle
+      real(c_double), intent(in) :: parameters(*)
+      real(c_double), intent(inout) :: lag(*)
+      integer(c_int), intent(out) :: number
+      type(model_type) :: model
+
+      model = model_of(handle)
+      number = model%sizes%delayed
+      lag(:number) = model%delays(parameters(:model%sizes%parameters))
+   end subroutine dk_delays
+
+   !> Give a model its parameters, blocks and constant past.
+   subroutine set_model(request, model, error)
+      type(request_type), intent(in) :: request
+      type(model_type), intent(inout) :: model
+      !> A delay is negative
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), pointer :: numbers(:), past(:)
+      real(wp) :: lag(model%sizes%delayed)
+      integer :: k
+
+      numbers => reals_at(request%parameters, model%sizes%parameters)
+      lag = model%delays(numbers)
+      do k = 1, size(lag)
+         if (lag(k) >= 0.0_wp) cycle
+         call raise(error, "delay "//text(k)//" of the model is "//text(lag(k))//"; >= 0 expected")
+         return
+      end do
+      if (size(model%sizes%couplings) > 0) then
+         model%ends = chain_ends(request%ends)
+         call find_neighbours(request%blocks, trim(model%ends), model%left, model%right)
+      end if
+      past => reals_at(request%past, model%sizes%states*request%blocks)
+      call model%set(numbers, past)
+   end subroutine set_model
+
+   !> The run, from dose to dose.
+   subroutine run(request, model, data, error)
+      type(request_type), intent(in) :: request
+      type(model_type), intent(in) :: model
+      type(dataset_type), intent(inout) :: data
+      type(error_type), allocatable, intent(out) :: error
+      type(continuation_type) :: now
+      type(event_table) :: watcher
+      type(integration_options) :: options
+      type(integration_result) :: outcome, total
+      type(steps_sampler) :: followed
+      type(table_sampler) :: table
+      real(wp), pointer :: doses(:, :)
+      real(wp) :: from, to
+      integer :: k
+      logical :: follows
+
+      call set_options(request, model%n, options)
+      call begin(request, model, now)
+      follows = request%time_count < 0
+      if (follows) then
+         followed%wanted = [(k, k=1, model%n)]
+         followed%share_of_step = request%share
+         followed%next = request%t_start(1)
+         allocate (followed%time(64), followed%values(model%n, 64))
+      else
+         table = table_sampler([(k, k=1, model%n)], reals_at(request%times, request%time_count))
+      end if
+      watcher = event_table(integers_at(request%event_component, request%event_count), &
+                            reals_at(request%event_level, request%event_count), &
+                            integers_at(request%event_direction, request%event_count), &
+                            integers_at(request%event_terminal, request%event_count) /= 0, &
+                            integers_at(request%event_of_slope, request%event_count) /= 0)
+      call c_f_pointer(request%doses, doses, [1 + model%n, request%dose_count])
+      from = request%t_start(1)
+      do k = 1, request%dose_count + 1
+         to = request%t_end
+         if (k <= request%dose_count) to = doses(1, k)
+         if (follows .and. request%event_count > 0) then
+            call integrate(model, from, to, options, outcome, error, followed, watcher, now)
+         else if (follows) then
+            call integrate(model, from, to, options, outcome, error, followed, continuation=now)
+         else if (request%event_count > 0) then
+            call integrate(model, from, to, options, outcome, error, table, watcher, now)
+         else
+            call integrate(model, from, to, options, outcome, error, table, continuation=now)
+         end if
+         call add(outcome, total)
+         if (allocated(error) .or. outcome%reason == event_met) exit
+         from = to
+         if (k > request%dose_count) exit
+         call now%change_state(outcome%y + doses(2:, k), error)
+         if (allocated(error)) exit
+      end do
+      if (.not. allocated(outcome%y)) return
+      if (follows) then
+         if (followed%time(max(1, followed%received)) < outcome%t) then
+            followed%next = outcome%t
+            call followed%take(outcome%y)
+         end if
+         call put_samples(data, followed%time(:followed%received), &
+                          followed%values(:, :followed%received))
+      else
+         call put_samples(data, table%time, table%values)
+      end if
+      call put_events(data, watcher)
+      call put_outcome(data, total, now)
+      if (request%keep_all /= 0 .and. allocated(now%step_length)) call put_past(data, now)
+   end subroutine run
+
+   !> Method, tolerances and limits.
+   subroutine set_options(request, n, options)
+      type(request_type), intent(in) :: request
+      integer, intent(in) :: n
+      type(integration_options), intent(out) :: options
+
+      options%method = string_of(request%method)
+      options%each_relative = reals_at(request%rtol, n)
+      options%each_absolute = reals_at(request%atol, n)
+      options%first_step = request%first_step
+      options%longest_step = request%max_step
+      options%most_steps = request%max_steps
+      options%keep_all = request%keep_all /= 0
+      if (request%break_count > 0) then
+         options%break_at = reals_at(request%breaks, request%break_count)
+      end if
+   end subroutine set_options
+
+   !> Where the run begins: a state that differs from the past, or a past in polynomials. It is empty
+   !> if the past is constant and goes on without a jump.
+   subroutine begin(request, model, now)
+      type(request_type), intent(in) :: request
+      type(model_type), intent(in) :: model
+      type(continuation_type), intent(out) :: now
+      type(pieces_type), pointer :: given
+
+      if (.not. c_associated(request%state)) return
+      call c_f_pointer(request%history, given)
+      now%time = request%t_start
+      now%y = reals_at(request%state, model%n)
+      allocate (now%slope(0), now%rate(0))
+      now%origin = reals_at(given%origin, 2)
+      now%kept = integers_at(given%kept, given%components)
+      now%kink = reshape(reals_at(given%kink, 2*given%kinks), [2, given%kinks])
+      now%passages = integers_at(given%passages, given%kinks)
+      now%generation = integers_at(given%generation, given%kinks)
+      associate (steps => given%steps, degree => given%degree)
+         now%step_start = reshape(reals_at(given%step_start, 2*steps), [2, steps])
+         now%step_length = reals_at(given%step_length, steps)
+         now%valid_for = reals_at(given%valid_for, steps)
+         now%nodes = reshape(reals_at(given%nodes, degree*steps), [degree, steps])
+         now%coefficients = reshape( &
+                            reals_at(given%coefficients, (1 + degree)*given%components*steps), &
+                            [1 + degree, given%components, steps])
+      end associate
+   end subroutine begin
+
+   !> Add the counts of a part of a run.
+   subroutine add(outcome, total)
+      type(integration_result), intent(in) :: outcome
+      type(integration_result), intent(inout) :: total
+
+      total%reason = outcome%reason
+      total%accepted = total%accepted + outcome%accepted
+      total%rejected = total%rejected + outcome%rejected
+      total%implicit_steps = total%implicit_steps + outcome%implicit_steps
+      total%evaluations = total%evaluations + outcome%evaluations
+      total%factorisations = total%factorisations + outcome%factorisations
+      total%breaking_points = total%breaking_points + outcome%breaking_points
+   end subroutine add
+
+   !> Times and states.
+   subroutine put_samples(data, time, values)
+      type(dataset_type), intent(inout) :: data
+      real(wp), intent(in) :: time(:), values(:, :)
+      integer :: rows
+
+      rows = data%dimension("t", size(time))
+      call data%column(rows, "t", time, "time")
+      call data%table([data%dimension("state", size(values, 1)), rows], "y", values, "states")
+   end subroutine put_samples
+
+   !> Events.
+   subroutine put_events(data, watcher)
+      type(dataset_type), intent(inout) :: data
+      type(event_table), intent(in) :: watcher
+      integer :: rows
+
+      if (watcher%received == 0) return
+      rows = data%dimension("event", watcher%received)
+      call data%column(rows, "event_time", watcher%time(:watcher%received)%hi, "time of the event")
+      call data%column(rows, "event_which", watcher%which(:watcher%received), &
+                       "number of the event, from 1")
+      call data%table([data%dimension("state", size(watcher%y, 1)), rows], "event_y", &
+                      watcher%y(:, :watcher%received), "state at the event")
+   end subroutine put_events
+
+   !> What the solver did, and where it ended.
+   subroutine put_outcome(data, outcome, now)
+      type(dataset_type), intent(inout) :: data
+      type(integration_result), intent(in) :: outcome
+      type(continuation_type), intent(in) :: now
+
+      call data%attribute("reason", outcome%reason)
+      call data%attribute("steps_accepted", outcome%accepted)
+      call data%attribute("steps_rejected", outcome%rejected)
+      call data%attribute("steps_implicit", outcome%implicit_steps)
+      call data%attribute("evaluations", outcome%evaluations)
+      call data%attribute("factorisations", outcome%factorisations)
+      call data%attribute("breaking_points", outcome%breaking_points)
+      call data%attribute("method_at_end", trim(now%method))
+   end subroutine put_outcome
+
+   !> The past in polynomials, with which another run can begin: dense output.
+   subroutine put_past(data, now)
+      type(dataset_type), intent(inout) :: data
+      type(continuation_type), intent(in) :: now
+      integer :: kinks, nodes, rows, steps
+
+      rows = data%dimension("dense_pair", 2)
+      kinks = data%dimension("dense_kink", size(now%passages))
+      steps = data%dimension("dense_step", size(now%step_length))
+      nodes = data%dimension("dense_node", size(now%nodes, 1))
+      call data%column(rows, "dense_origin", now%origin, "initial time of the first run")
+      call data%column(rows, "dense_end", now%time, "final time")
+      call data%column(data%dimension("state", size(now%y)), "dense_state", now%y, "final state")
+      call data%table([rows, kinks], "dense_kink_time", now%kink, "where a derivative jumps")
+      call data%column(kinks, "dense_passages", now%passages, "passages through a delay")
+      call data%column(kinks, "dense_generation", now%generation, "passages since the cause")
+      call data%table([rows, steps], "dense_start", now%step_start, "start of the step")
+      call data%column(steps, "dense_length", now%step_length, "length of the step")
+      call data%column(steps, "dense_valid_for", now%valid_for, &
+                       "time for which its polynomial is valid")
+      call data%table([nodes, steps], "dense_nodes", now%nodes, "Newton nodes")
+      call data%table([data%dimension("dense_coefficient", size(now%coefficients, 1) &
+                                      *size(now%kept)), steps], "dense_coefficients", &
+                      reshape(now%coefficients, [size(now%coefficients, 1)*size(now%kept), &
+                                                 size(now%step_length)]), &
+                      "Newton coefficients, state after state")
+   end subroutine put_past
+
+   !> Numbers that a caller owns.
+   function reals_at(address, length) result(values)
+      type(c_ptr), intent(in) :: address
+      integer, intent(in) :: length
+      real(wp), pointer :: values(:)
+
+      call c_f_pointer(address, values, [max(0, length)])
+   end function reals_at
+
+   !> Integers that a caller owns.
+   function integers_at(address, length) result(values)
+      type(c_ptr), intent(in) :: address
+      integer, intent(in) :: length
+      integer(c_int), pointer :: values(:)
+
+      call c_f_pointer(address, values, [max(0, length)])
+   end function integers_at
+end module delaykit_runs
