@@ -1,15 +1,13 @@
 """A model with constant delays: its equations, parameters, and what can be computed of it."""
 
-import copy
 import ctypes
-import weakref
 from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
 
 import numpy as np
 
-from delaykit import objects, runs
+from delaykit import objects, runs, scans
 from delaykit.arguments import ENDS, number_of
 from delaykit.errors import ModelError, check_name
 from delaykit.library import LIBRARY, address, open_object
@@ -20,6 +18,17 @@ OPTIONS = {
 }
 """Keys of a definition that may be given by name (generator/README.md explains them)."""
 MOST_DELAYED = 1 << 14
+
+
+class Handle(ctypes.c_void_p):
+    """A model that the library has opened, until nobody has it."""
+
+    def __init__(self, path: Path):
+        super().__init__(open_object(path).value)
+
+    def __del__(self):
+        if self.value:
+            LIBRARY.dk_close(self)
 
 
 class Model:
@@ -94,11 +103,9 @@ class Model:
         return objects.compiled(self.definition)
 
     @cached_property
-    def handle(self) -> ctypes.c_void_p:
+    def handle(self) -> "Handle":
         """The handle of the compiled model in the library."""
-        handle = open_object(self.path)
-        weakref.finalize(self, LIBRARY.dk_close, handle)
-        return handle
+        return Handle(self.path)
 
     def __getstate__(self):
         return {k: v for k, v in self.__dict__.items() if k not in ("handle", "path")}
@@ -110,8 +117,8 @@ class Model:
 
     def with_parameters(self, **values) -> "Model":
         """The same model with other values of parameters."""
-        other = copy.copy(self)
-        other.__dict__.pop("handle", None)
+        other = object.__new__(type(self))
+        other.__dict__.update(self.__dict__)
         other.parameters = {**self.parameters, **self.checked(values)}
         return other
 
@@ -157,6 +164,10 @@ class Model:
     def run(self, history=None, t_end=None, **options):
         """A run as an xarray.Dataset; `runs.integrate` explains the arguments."""
         return runs.integrate(self, history, t_end, **options).to_dataset()
+
+    def scan(self, measure="maxima", **options):
+        """What is measured of runs over arrays of parameters; `scans.scan` explains it."""
+        return scans.scan(self, measure, **options)
 
 
 def plain(value):

@@ -1,0 +1,138 @@
+"""Scans: what is measured of runs, over arrays of parameters and all cores."""
+
+import os
+import threading
+from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor, as_completed
+
+import numpy as np
+import xarray as xr
+from tqdm import tqdm
+
+from delaykit.errors import DelaykitError, ModelError, check_name
+from delaykit.library import LIBRARY
+
+STACK = 1 << 28
+"""Bytes of the stack of a thread: compiled models have their work arrays there."""
+DELAYS_OF_RUN, SHARE_LEFT_OUT = 400, 0.5
+"""Length of a run in longest delays where it is not given, and the share that is left out."""
+
+
+def extrema(model, sign: int, options: dict) -> np.ndarray:
+    """Values of a state at its maxima or minima after the transient."""
+    state = options.pop("state", model.states[0])
+    left_out = options.pop("t_transient", None)
+    if options.get("t_end") is None:
+        longest = max(model.delays(), default=0.0)
+        options["t_end"] = DELAYS_OF_RUN * (longest or 1.0)
+    if left_out is None:
+        left_out = SHARE_LEFT_OUT * options["t_end"]
+    word = "falling" if sign > 0 else "rising"
+    run = model.integrate(events=f"{state}' = 0 {word}", t_eval=(), **options)
+    number = model.states.index(model.auxiliary.get(state, state))
+    values = run.y_events[0][run.t_events[0] >= left_out, number]
+    return np.exp(values) if state in model.auxiliary else values
+
+
+def final(model, options: dict) -> np.ndarray:
+    """The state at the end."""
+    run = model.integrate(**{**options, "t_eval": [options["t_end"]]})
+    return run.y[..., -1]
+
+
+MEASURES: dict[str, tuple[str, Callable]] = {
+    "maxima": ("extremum", lambda model, options: extrema(model, 1, options)),
+    "minima": ("extremum", lambda model, options: extrema(model, -1, options)),
+    "final": ("state", final),
+}
+"""By name, the dimension of what is measured, and how."""
+
+
+def scan(model, measure="maxima", *, workers=None, progress=True, most=200, **options) -> xr.Dataset:
+    """Measure runs for all combinations of arrays of parameters.
+
+    Parameters are given by name: numbers; arrays, each a dimension of its own name; or DataArrays,
+    which broadcast by their dimensions. measure: one of MEASURES, or a function of the model that
+    returns a number or a row of numbers. The other options are those of `run`; of maxima and
+    minima also `state` and `t_transient`. most: numbers kept of each point.
+
+    A point that fails is not a number, with its reason in `reason`.
+    """
+    arrays = {
+        key: axis(key, options.pop(key))
+        for key in list(options)
+        if key in model.definition["parameters"]
+    }
+    if not arrays:
+        raise ModelError("scan: no parameter varies; expected arrays of parameters by name")
+    if callable(measure):
+        name, dimension, compute = getattr(measure, "__name__", "value"), "entry", None
+    else:
+        check_name("measure", measure, MEASURES)
+        name, (dimension, compute) = measure, MEASURES[measure]
+    grids = xr.broadcast(*arrays.values())
+    shape = grids[0].shape
+    places = [
+        {key: float(grid.values[index]) for key, grid in zip(arrays, grids, strict=True)}
+        for index in np.ndindex(shape)
+    ]
+
+    def measured(values: dict) -> np.ndarray:
+        here = model.with_parameters(**values)
+        found = measure(here) if compute is None else compute(here, dict(options))
+        return np.atleast_1d(np.asarray(found, float)).ravel()[:most]
+
+    model.handle  # noqa: B018  compiled once, before there are threads
+    rows, reasons = in_threads(measured, places, workers, progress)
+    width = max(map(len, rows), default=0)
+    table = np.full((len(rows), max(width, 1)), np.nan)
+    for i, row in enumerate(rows):
+        table[i, : len(row)] = row
+    dims = grids[0].dims
+    return xr.Dataset(
+        {
+            name: ((*dims, dimension), table.reshape(*shape, -1)),
+            "reason": (dims, np.array(reasons).reshape(shape)),
+        },
+        {key: array for key, array in arrays.items() if array.ndim},
+        {"model": model.definition["name"], "measure": name},
+    )
+
+
+def axis(key: str, values) -> xr.DataArray:
+    """An array of a parameter."""
+    if isinstance(values, xr.DataArray):
+        array = values
+    else:
+        numbers = np.asarray(values)
+        array = xr.DataArray(numbers, dims=(key,) if numbers.ndim == 1 else None)
+    if array.dtype.kind not in "iuf" or (not isinstance(values, xr.DataArray) and array.ndim > 1):
+        raise ModelError(f"parameter {key}: {values!r}; expected a number or a row of numbers")
+    if list(array.dims) == [key]:
+        array = array.assign_coords({key: array.values.astype(float)})
+    return array.astype(float)
+
+
+def in_threads(compute: Callable, places: list, workers: int | None, progress: bool):
+    """What is computed at each place, and why nothing was where it failed."""
+    rows: list = [np.empty(0)] * len(places)
+    reasons = [""] * len(places)
+    before = threading.stack_size(STACK)
+    pool = ThreadPoolExecutor(workers or os.cpu_count())
+    try:
+        todo: dict[Future, int] = {pool.submit(compute, one): i for i, one in enumerate(places)}
+        for done in tqdm(as_completed(todo), total=len(todo), disable=not progress):
+            number = todo[done]
+            try:
+                rows[number] = done.result()
+            except DelaykitError as problem:
+                reasons[number] = str(problem)
+    except BaseException:
+        LIBRARY.dk_stop(1)
+        pool.shutdown(wait=True, cancel_futures=True)
+        LIBRARY.dk_stop(0)
+        raise
+    finally:
+        threading.stack_size(before)
+    pool.shutdown()
+    return rows, reasons
