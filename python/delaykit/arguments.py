@@ -8,6 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from scipy.interpolate import CubicSpline
+
 from delaykit.errors import ModelError, check_name
 from delaykit.events import Event
 from delaykit.history import Pieces, fit
@@ -134,8 +136,8 @@ class Arguments:
         """State vectors, shape (rows, n), with the blocks of a ring in their order."""
         if self.model.ends != "ring":
             return rows
-        blocks = rows.reshape(len(rows), self.model.blocks, -1)
-        return blocks[:, np.argsort(self.order)].reshape(len(rows), -1)
+        blocks = rows.reshape(len(rows), self.model.blocks, len(self.states))
+        return blocks[:, np.argsort(self.order)].reshape(rows.shape)
 
     def by_place(self, values: np.ndarray) -> np.ndarray:
         """The state vector of values of shape (blocks, states)."""
@@ -174,6 +176,26 @@ class Arguments:
             return {self.states[0]: given}
         raise ModelError(f"{what}: {given!r}; expected a value for each of {', '.join(self.states)}")
 
+    def over_time(self, given: Mapping) -> Mapping:
+        """Arrays over time, pairs (times, values) or DataArrays over t, as functions of time."""
+        found = {}
+        for name, value in given.items():
+            pair = value
+            if hasattr(value, "dims") and value.dims == ("t",):
+                pair = (value.t.values, value.values)
+            if isinstance(pair, tuple):
+                if len(pair) != 2:
+                    raise ModelError(f"history of {name}: expected a pair (times, values)")
+                times, values = (self.array(f"history of {name}", one) for one in pair)
+                if len(times) < 2 or len(times) != len(values) or (np.diff(times) <= 0).any():
+                    raise ModelError(
+                        f"history of {name}: {len(times)} times and {len(values)} values; expected "
+                        "ascending times, at least two, and a value for each"
+                    )
+                value = CubicSpline(times, values, extrapolate=False)
+            found[str(name)] = value
+        return found
+
     def request(self, start: Start, t_end: float) -> tuple[Request, list]:
         """A request with all that is not an option, and what must live as long as it."""
         request = Request()
@@ -195,7 +217,7 @@ def begin(own: Arguments, history, t_start: float, initial, breaks, rtol, atol) 
     if pieces is not None:
         start = Start(pieces.end[0], pieces.end[1], pieces.state, pieces.state, pieces)
     else:
-        given = own.by_name("history", history)
+        given = own.over_time(own.by_name("history", history))
         if any(callable(value) for value in given.values()):
             longest = max(own.model.delays_of(own.numbers), default=0.0)
             pieces = fit(

@@ -2,9 +2,7 @@
 
 import ctypes
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import cached_property
 
 import numpy as np
 
@@ -44,12 +42,11 @@ class Solution:
     pieces: Pieces | None = None
     """Dense output, if it was asked for"""
 
-    @cached_property
-    def sol(self) -> Callable:
-        """Dense output: a function of times, shape (states, times)."""
+    def sol(self, t) -> np.ndarray:
+        """Dense output at times, shape (states, times); of a run with dense_output=True."""
         if self.pieces is None:
             raise RunError("this run has no dense output; expected one with dense_output=True")
-        return lambda t: self.pieces(np.atleast_1d(t)).T
+        return self.pieces(np.atleast_1d(t)).T
 
     def to_dataset(self):
         """The run as an xarray.Dataset."""

@@ -3,7 +3,7 @@
 import os
 import threading
 from collections.abc import Callable
-from concurrent.futures import Future, ThreadPoolExecutor, as_completed
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 
 import numpy as np
 import xarray as xr
@@ -14,6 +14,8 @@ from delaykit.library import LIBRARY
 
 STACK = 1 << 28
 """Bytes of the stack of a thread: compiled models have their work arrays there."""
+PATIENCE = 0.2
+"""Seconds between two looks for Ctrl-C."""
 DELAYS_OF_RUN, SHARE_LEFT_OUT = 400, 0.5
 """Length of a run in longest delays where it is not given, and the share that is left out."""
 
@@ -121,12 +123,16 @@ def in_threads(compute: Callable, places: list, workers: int | None, progress: b
     pool = ThreadPoolExecutor(workers or os.cpu_count())
     try:
         todo: dict[Future, int] = {pool.submit(compute, one): i for i, one in enumerate(places)}
-        for done in tqdm(as_completed(todo), total=len(todo), disable=not progress):
-            number = todo[done]
-            try:
-                rows[number] = done.result()
-            except DelaykitError as problem:
-                reasons[number] = str(problem)
+        with tqdm(total=len(todo), disable=not progress) as bar:
+            while todo:
+                # woken now and then: Ctrl-C may come to another thread
+                for done in wait(todo, PATIENCE, FIRST_COMPLETED).done:
+                    number = todo.pop(done)
+                    bar.update()
+                    try:
+                        rows[number] = done.result()
+                    except DelaykitError as problem:
+                        reasons[number] = str(problem)
     except BaseException:
         LIBRARY.dk_stop(1)
         pool.shutdown(wait=True, cancel_futures=True)

@@ -1,0 +1,204 @@
+"""Runs against exact solutions and published values, and what is refused."""
+
+import math
+import multiprocessing
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import textwrap
+import threading
+import time
+
+import delaykit as dk
+import numpy as np
+import pytest
+from conftest import MACKEY_GLASS, NUMBERS
+
+
+def test_published_values(mackey_glass):
+    # fortran/dde/README.md
+    run = mackey_glass.integrate(1.2, 200, t_eval=[50, 200])
+    np.testing.assert_allclose(run.y[0], [1.06095436, 1.18671810], rtol=1e-8)
+
+
+@pytest.mark.parametrize("method", ["auto", "bs5", "dop853", "taylor", "radau5", "radau13"])
+def test_a_history_that_is_a_function(sine, method):
+    t = np.linspace(0, 20, 41)
+    run = sine.integrate(math.sin, 20, t_eval=t, method=method, rtol=1e-10, atol=1e-10)
+    np.testing.assert_allclose(run.y[0], np.sin(t), atol=3e-8)
+
+
+def test_dense_output_and_continuation(sine):
+    first = sine.integrate(math.sin, 10, dense_output=True)
+    t = np.linspace(0, 10, 201)
+    np.testing.assert_allclose(first.sol(t)[0], np.sin(t), atol=3e-8)
+    onward = sine.integrate(first, 20, t_eval=[15, 20])
+    np.testing.assert_allclose(onward.y[0], np.sin([15, 20]), atol=1e-7)
+    loaded = pickle.loads(pickle.dumps(first))
+    assert (sine.integrate(loaded, 20, t_eval=[15, 20]).y == onward.y).all()
+
+
+def test_a_history_in_an_array(sine):
+    times = np.linspace(-2, 0, 400)
+    run = sine.integrate((times, np.sin(times)), 10, t_eval=[5, 10], rtol=1e-7, atol=1e-7)
+    np.testing.assert_allclose(run.y[0], np.sin([5, 10]), atol=1e-5)
+
+
+def test_a_jump_at_the_start_and_doses():
+    """y' = -y(t - 1) with y = 0 before and 1 at 0: polynomials on each unit of time."""
+    model = dk.Model({"y": "-y(t - 1)"})
+    run = model.integrate(0, 3, initial=1, t_eval=[0, 1, 2, 3])
+    np.testing.assert_allclose(run.y[0], [1, 1, 0, -1 / 2], atol=1e-12)
+    # a dose at 1/2 adds the same solution, later
+    dosed = model.integrate(0, 3, initial=1, doses=[(0.5, {"y": 2})], t_eval=[3])
+    np.testing.assert_allclose(dosed.y[0], [-1 / 2 + 2 * (1 - 1.5 + 0.5**2 / 2)], atol=1e-12)
+
+
+def test_events(sine):
+    run = sine.integrate(math.sin, 12, events=["y' = 0 falling", dk.Event("y", 0.5, 1)])
+    np.testing.assert_allclose(run.t_events[0], [math.pi / 2, 5 * math.pi / 2], atol=1e-6)
+    np.testing.assert_allclose(run.y_events[0][:, 0], [1, 1], atol=1e-7)
+    np.testing.assert_allclose(run.t_events[1] % (2 * math.pi), math.pi / 6, atol=1e-6)
+    ended = sine.integrate(math.sin, 12, events="y = 0.5 rising stop")
+    assert ended.status == 1
+    np.testing.assert_allclose(ended.t[-1], math.pi / 6, atol=1e-7)
+
+
+def test_an_exponential_of_a_state():
+    """w' = -1: v = exp(w) decays, and falls through 1/2 at ln 2."""
+    model = dk.Model({"w": "-1 + 0*w(t - 1)"}, auxiliary={"v": "exp(w)"})
+    run = model.run({"v": 1}, 3, events="v = 0.5 stop")
+    np.testing.assert_allclose(run.t[-1], math.log(2), atol=1e-9)
+    np.testing.assert_allclose(run.v[-1], 0.5, atol=1e-9)
+
+
+def test_a_ring_of_blocks():
+    """A ring has no ends: a pattern moved by one block stays moved by one."""
+    ring = dk.Model({"x": "k*second_difference(x) - x(t - 1)"}, {"k": 2}, blocks=5, ends="ring")
+    start = np.array([0.0, 1.0, 3.0, 2.0, -1.0])
+    run = ring.integrate({"x": start}, 4, t_eval=[0, 4])
+    moved = ring.integrate({"x": np.roll(start, 1)}, 4, t_eval=[0, 4])
+    np.testing.assert_allclose(run.y[:, 0], start)
+    np.testing.assert_allclose(np.roll(run.y, 1, axis=0), moved.y, atol=1e-8)
+
+
+def test_a_dataset(mackey_glass, tmp_path):
+    run = mackey_glass.run({"y": 1.2}, 50)
+    assert run.t[0] == 0
+    assert run.t[-1] == 50
+    assert run.attrs["tau"] == 17
+    assert run.attrs["steps_accepted"] > 0
+    np.testing.assert_allclose(run.y[-1], 1.06095436, rtol=1e-8)
+
+
+REFUSED = {
+    "nan": (lambda m: m.run(math.nan, 1), "finite"),
+    "inf": (lambda m: m.run({"y": math.inf}, 1), "finite"),
+    "complex": (lambda m: m.run(1j, 1), "expected a number"),
+    "empty": (lambda m: m.run({}, 1), "no value"),
+    "shape": (lambda m: m.run({"y": [1, 2]}, 1), "expected a number"),
+    "none": (lambda m: m.run(None, 1), "expected a value for each of y"),
+    "not finite in time": (lambda m: m.run(lambda t: math.nan, 1), "not finite"),
+    "rough": (lambda m: m.run(lambda t: math.floor(9 * t), 1), "cannot be fitted"),
+    "state": (lambda m: m.run({"z": 1}, 1), "history of 'z'; expected one of y"),
+    "parameter": (lambda m: m.with_parameters(tua=1), "did you mean 'tau'"),
+    "text": (lambda m: m.with_parameters(tau="long"), "expected a finite number"),
+    "method": (lambda m: m.run(1, 1, method="radua5"), "did you mean 'radau5'"),
+    "event": (lambda m: m.run(1, 1, events="y > 1"), "STATE = NUMBER"),
+    "times": (lambda m: m.run(1, 1, t_eval=[1, 0]), "ascending"),
+    "early": (lambda m: m.run(1, 1, t_eval=[-1]), "ascending times from t_start"),
+    "dose": (lambda m: m.run(1, 1, doses=[(2, {"y": 1})]), "time of a dose"),
+    "tolerance": (lambda m: m.run(1, 1, rtol={"y": 1, "z": 1}), "rtol of the state 'z'"),
+    "equation": (lambda m: dk.Model({"y": "y(t -"}).run(1, 1), "equation of y"),
+    "function": (lambda m: dk.Model({"y": "eval(y)"}).run(1, 1), "one of exp"),
+    "option": (lambda m: dk.Model({"y": "y"}, steady={}), "did you mean 'steady_state'"),
+    "no value": (lambda m: dk.Model({"y": "a*y"}, {"a": None}).run(1, 1), "parameter a: no value"),
+    "range": (lambda m: dk.Model({"y": "a*y"}, {"a": {"above": 0}}).with_parameters(a=0), "> 0"),
+}
+
+
+@pytest.mark.parametrize(("make", "words"), REFUSED.values(), ids=REFUSED)
+def test_refused(mackey_glass, make, words):
+    with pytest.raises(dk.ModelError, match=words):
+        make(mackey_glass)
+
+
+def test_a_negative_delay(mackey_glass):
+    with pytest.raises(dk.RunError, match="delay 1 of the model is -1"):
+        mackey_glass.run(1, 1, parameters={"tau": -1})
+
+
+def test_a_history_that_raises(mackey_glass):
+    with pytest.raises(ZeroDivisionError):
+        mackey_glass.run(lambda t: 1 / 0, 1)
+
+
+def test_what_was_reached_before_an_error():
+    explosion = dk.Model({"y": "y**2"})
+    with pytest.raises(dk.RunError, match="stopped at t = ") as failure:
+        explosion.run(1, 2)
+    assert failure.value.partial.t[-1] == pytest.approx(1, abs=1e-9)
+
+
+def test_other_processes_and_threads(mackey_glass):
+    expected = mackey_glass.integrate(1.2, 50, t_eval=[50]).y
+    found = []
+    threads = [
+        threading.Thread(target=lambda: found.append(mackey_glass.integrate(1.2, 50, t_eval=[50]).y))
+        for _ in range(4)
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for way in ("fork", "spawn"):
+        with multiprocessing.get_context(way).Pool(1) as pool:
+            found.append(pool.apply(pickle.loads(pickle.dumps(at_fifty)), (mackey_glass,)))
+    assert all((one == expected).all() for one in found)
+    assert len(found) == 6
+
+
+def at_fifty(model):
+    """A value that another process computes."""
+    return model.integrate(1.2, 50, t_eval=[50]).y
+
+
+def test_two_processes_compile_one_model(tmp_path):
+    program = f"""
+        import delaykit as dk
+        model = dk.Model({{"y": "{MACKEY_GLASS}"}}, {NUMBERS}, name="twice")
+        print(model.integrate(1.2, 50, t_eval=[50]).y)
+    """
+    command = [sys.executable, "-c", textwrap.dedent(program)]
+    running = [
+        subprocess.Popen(command, stdout=subprocess.PIPE, env={"DELAYKIT_CACHE": str(tmp_path), "PATH": "/usr/bin:/bin"})
+        for _ in range(2)
+    ]
+    outputs = {one.communicate()[0] for one in running}
+    assert len(outputs) == 1
+    assert b"1.0609" in outputs.pop()
+    assert len([*tmp_path.glob("*.so")]) == 1
+
+
+def test_no_compiler(monkeypatch):
+    from delaykit import errors, objects
+
+    monkeypatch.setattr(objects, "COMPILER", "no-such-compiler")
+    with pytest.raises(errors.CompilerError, match="apt install gfortran"):
+        dk.Model({"y": "-y(t - 2)"}).run(1, 1)
+
+
+@pytest.mark.parametrize("scanning", [False, True])
+def test_an_interruption_ends_within_a_second(mackey_glass, scanning):
+    timer = threading.Timer(0.5, os.kill, [os.getpid(), signal.SIGINT])
+    begun = time.monotonic()
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        if scanning:
+            mackey_glass.scan(tau=[17.0] * 4, t_end=1e9, history=1.2, progress=False)
+        else:
+            mackey_glass.run(1.2, 1e9, t_eval=[1e9])
+    assert time.monotonic() - begun < 1.5
+    assert mackey_glass.integrate(1.2, 1, t_eval=[1]).status == 0
