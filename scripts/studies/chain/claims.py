@@ -2,7 +2,7 @@
 
 from scripts.claims.claims_results import Finding, Results, decided
 from scripts.claims.declare import Scenes, claim, reads, says, tested_with
-from scripts.tables.chain_motions import moves_alike, rests, strongest_mode
+from scripts.studies.chain.table import moves_alike, rests, strongest_mode
 
 
 @claim(64, "more_blocks", "section 5", look_at="chain")

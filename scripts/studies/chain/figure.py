@@ -11,7 +11,7 @@ from matplotlib.ticker import MaxNLocator, NullFormatter
 from scripts.drawing import parameters
 from scripts.drawing.roots import roots_in_words
 from scripts.drawing.wording import as_formulas, place_in_words, short
-from scripts.tables.chain_motions import (
+from scripts.studies.chain.table import (
     ALIKE,
     first_mode,
     moves_alike,
