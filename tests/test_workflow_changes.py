@@ -59,7 +59,7 @@ def test_changed_files_of_the_project_make_their_results_anew(scratch):
     """Templates, tables and what the page is made of; a changed style would redraw all figures."""
     change(
         scratch,
-        "scripts/studies/power_spectra/figure_6.rst",
+        "scripts/studies/paper_scenes/figure_6.rst",
         "benchmarks/measured.tsv",
         "page/style.css",
     )

@@ -1,4 +1,4 @@
-"""The drawing of plans/exponents.py, and the numbers of its caption."""
+"""The drawing of exponents, and the numbers of its caption."""
 
 from collections import Counter
 

@@ -1,4 +1,4 @@
-"""The drawing of plans/synchrony.py, and the numbers of its caption."""
+"""The drawing of growth of disturbances of modes, and the numbers of its caption."""
 
 import math
 
