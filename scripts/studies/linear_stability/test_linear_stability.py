@@ -1,11 +1,16 @@
-"""The linear_stability program: roots and changes of stability of the scenes, and the tables."""
+"""The linear_stability program: roots and changes of stability of the scenes, tables, verdicts."""
+
+import math
 
 import numpy as np
 import pytest
 from characteristic_equation import count_by_crossings, residual
+from made_up_results import NO, YES, Results, stability_row
 
+from scripts.claims.claims_results import changes
 from scripts.files.tsv import read_table
 from scripts.namelists.parameters import PARAMETERS
+from scripts.studies.linear_stability import claims
 from scripts.studies.linear_stability.table import amplitude_death, row_of
 
 SCENES = {"fixed_point": 0, "oscillation": 1, "torus": 1, "chaos": 1}
@@ -82,3 +87,33 @@ def test_bound_too_far_is_refused(programs, good_inputs):
     assert run.returncode == 1
     assert "a bound nearer to 0 expected" in run.stderr
     assert programs.left_behind() == []
+
+
+def with_changes(*cells: str | float) -> Results:
+    """Results of scenes a, b, ... whose stability changes at these delays."""
+    rows = [
+        stability_row(name, tau_of_changes=cell) for name, cell in zip("abc", cells, strict=False)
+    ]
+    return Results(linear_stability=rows)
+
+
+def test_changes_of_a_cell():
+    assert changes("2.5 (0 -> 1); 1e-3 (12 -> 11)") == [(2.5, 0, 1), (1e-3, 12, 11)]
+    assert changes(math.nan) == []
+
+
+@pytest.mark.parametrize(
+    ("test", "cells", "verdict", "words"),
+    [
+        # every scene must have such a delay
+        ("delay_destabilises", ["2 (0 -> 1); 5 (1 -> 0)", "3 (0 -> 1)"], YES, "; b at $tau = 3$."),
+        ("delay_destabilises", ["2 (0 -> 1)", "2 (1 -> 2); 5 (2 -> 1)"], NO, "; b at no $tau$."),
+        # fewer unstable pairs are not enough: none must be left
+        ("amplitude_death", ["2 (0 -> 1); 5 (1 -> 0)"], YES, "stability: a at $tau = 5$."),
+        ("amplitude_death", ["2 (2 -> 1); 5 (1 -> 2)"], NO, "stability: none."),
+    ],
+)
+def test_changes_with_the_delay(test, cells, verdict, words):
+    found = getattr(claims, test)(with_changes(*cells), scenes=list("abc"[: len(cells)]))
+    assert found.verdict == verdict
+    assert words.removesuffix(".") in found.evidence
