@@ -63,7 +63,7 @@ SECTIONS, NOTHING = (
     for sections in (SECTIONS, NOTHING)
 )
 """Those that a study has."""
-SETTINGS = {"attractors": QUICK, "exponents": {"t_turning": 50.0, "blocks": 3}}
+SETTINGS = {"attractors": QUICK, "exponents": {"t_turning": 50.0, "batches": 3}}
 
 
 @pytest.mark.parametrize("number", [1, pytest.param(2, marks=pytest.mark.long)])

@@ -45,7 +45,7 @@ contains
          call measure_growth(model, &
                              growth_settings_type(settings%count, scene%t_transient, &
                                                   settings%t_end, settings%t_turning, &
-                                                  settings%interval, settings%blocks, &
+                                                  settings%interval, settings%batches, &
                                                   across_flow=.not. at_rest), &
                              options(i), measured(i), error, progress=report)
          if (allocated(error)) exit

@@ -42,7 +42,7 @@ contains
       report = progress_type("synchrony of "//trim(scene%name))
       how = growth_settings_type(t_begin=scene%t_transient, t_end=settings%t_end, &
                                  t_turning=settings%t_turning, interval=settings%interval, &
-                                 blocks=settings%blocks)
+                                 blocks=settings%batches)
       call measure_transverse_growth(model, settings%values(1), how, scene%options(), growth, &
                                      error, report)
       call stop_on(error)

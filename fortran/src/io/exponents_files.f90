@@ -27,8 +27,8 @@ module exponents_files
       real(wp) :: t_turning = missing
       !> Longest time between two orthonormalisations
       real(wp) :: interval = missing
-      !> Number of blocks
-      integer :: blocks = missing_count
+      !> Number of batches of the time
+      integer :: batches = missing_count
       !> Greatest absolute value of a zero exponent, longest error bar of one
       real(wp) :: zero_level = missing, longest_bar = missing
       !> Tolerances at which all is measured once more
@@ -82,7 +82,7 @@ contains
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
       call open_scene(path, scene, model, history, error)
-      call check_count(error, path, "exponents%blocks", exponents%blocks, at_least=2)
+      call check_count(error, path, "exponents%batches", exponents%batches, at_least=2)
       call check_number(error, path, "exponents%interval", exponents%interval, &
                         at_least=exponents%t_end/most_samples*exponents%count)
    end subroutine read_exponents
@@ -109,21 +109,21 @@ contains
       type(output_file_type) :: file
       real(wp), dimension(settings%count, size(options)) :: bars, values
       real(wp), dimension(size(options)) :: dimension, dimension_error
-      real(wp), allocatable :: averages(:, :), blocks(:, :), time(:)
+      real(wp), allocatable :: averages(:, :), batches(:, :), time(:)
       integer :: i, ids(4), signs(settings%count, size(options))
       logical :: flow
 
-      allocate (blocks(settings%count, settings%blocks))
+      allocate (batches(settings%count, settings%batches))
       flow = size(measured(1)%growth, 1) < settings%count
       do i = size(options), 1, -1
-         exponents = average_growth(measured(i)%growth, measured(i)%length, settings%blocks, flow)
+         exponents = average_growth(measured(i)%growth, measured(i)%length, settings%batches, flow)
          values(:, i) = exponents%value
          bars(:, i) = exponents%error
          signs(:, i) = sign_of(exponents, settings%zero_level, settings%longest_bar)
          call dimension_of(exponents, settings%zero_level, dimension(i), dimension_error(i))
       end do
       do i = 1, settings%count
-         blocks(i, :) = exponents(i)%blocks
+         batches(i, :) = exponents(i)%blocks
       end do
       associate (first => measured(1))
          call running_averages(with_flow(first%growth, flow), first%length, most_times, time, &
@@ -131,7 +131,7 @@ contains
          call file%create(path, "Lyapunov exponents of a motion")
          ids = [file%dimension("exponent", settings%count), &
                 file%dimension("run", size(options), coordinates="tolerance longest_step"), &
-                file%dimension("t", size(time)), file%dimension("time_block", settings%blocks)]
+                file%dimension("t", size(time)), file%dimension("time_block", settings%batches)]
          call file%column(ids(2), "tolerance", options%relative, &
                           "tolerance, the scene's own first")
          call file%column(ids(2), "longest_step", &
@@ -146,7 +146,7 @@ contains
          call file%table(ids([1, 2]), "value", values, "exponent")
          call file%table(ids([1, 2]), "error", bars, "standard error from blocks")
          call file%table(ids([1, 2]), "sign", real(signs, wp), "sign of the exponent, 2: unclear")
-         call file%table(ids([1, 4]), "block_value", blocks, "exponent in each block")
+         call file%table(ids([1, 4]), "block_value", batches, "exponent in each block")
          call file%table(ids([1, 3]), "running_average", averages, "plain average up to a time")
          call put_scene(file, scene, model, history)
          call file%attribute("method", trim(scene%method))

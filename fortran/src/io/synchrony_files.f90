@@ -27,8 +27,8 @@ module synchrony_files
       real(wp) :: t_turning = missing
       !> Longest time between two orthonormalisations
       real(wp) :: interval = missing
-      !> Number of parts for the standard error
-      integer :: blocks = missing_count
+      !> Number of batches of the time
+      integer :: batches = missing_count
    contains
       !> The values of s, and those between
       procedure :: values
@@ -77,7 +77,7 @@ contains
          call check_number(error, path, "synchrony%s_window(2)", window(2), above=window(1))
       end associate
       call check_count(error, path, "synchrony%count", synchrony%count, at_least=2)
-      call check_count(error, path, "synchrony%blocks", synchrony%blocks, at_least=2)
+      call check_count(error, path, "synchrony%batches", synchrony%batches, at_least=2)
       if (allocated(error)) return
       if (model%shape%blocks > 1 .or. .not. model%is_chain()) then
          call raise(error, path//": blocks = "//text(model%shape%blocks) &

@@ -29,7 +29,7 @@ def config(filled_config) -> dict:
 def measured(programs, config: dict, scene: str, window: list, count: int) -> xr.Dataset:
     """A short measurement of the growth of disturbances."""
     t_end = config["scenes"][scene]["t_transient"] + 4000.0
-    config["synchrony"] |= {"s_window": window, "count": count, "t_end": t_end, "blocks": 10}
+    config["synchrony"] |= {"s_window": window, "count": count, "t_end": t_end, "batches": 10}
     return programs.made_of("synchrony", groups(config, scene))
 
 
