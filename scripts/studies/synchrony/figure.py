@@ -108,15 +108,15 @@ def with_its_digits(value: float, error: float) -> str:
 def unsure_in_words(one: xr.Dataset) -> str:
     """Chains of which it is not known whether they move as one."""
     found = [(undecided_blocks(one, kappa, MOST_BLOCKS), kappa) for kappa in KAPPAS]
-    parts = [
+    chains = [
         f"N = {', '.join(map(str, blocks))} at :math:`\\kappa = {kappa:g}`"
         for blocks, kappa in found
         if blocks
     ]
-    if not parts:
+    if not chains:
         return ""
     low, high = undecided_range(one)
-    return f"at s = {low:.3g} to {high:.3g} the sign is not known, so for {joined(parts)}"
+    return f"at s = {low:.3g} to {high:.3g} the sign is not known, so for {joined(chains)}"
 
 
 def alike_in_words(one: xr.Dataset) -> str:
