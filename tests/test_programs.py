@@ -21,6 +21,7 @@ from scripts.files.read_config import read
 from scripts.namelists.laws import BLOCK, PAPER
 
 NUMBER = "expected a finite number >"
+WHOLE = "expected a whole number >="
 NO_WORD = f"parameter of the model {PAPER} = 'w'; expected one of 'tau' "
 REFUSED = [
     # a number out of range, of each command
@@ -35,8 +36,8 @@ REFUSED = [
     ("cycles", "cycles", {"degree": 2}, "degree = 2; expected a whole number >= 3"),
     ("linear_stability", "linear_stability", {"xi": -1.0}, f"xi = -1.0; {NUMBER} 0"),
     ("slip_events", "scene", {"xi": -1.0}, f"scene 'torus': xi = -1.0; {NUMBER} 0"),
-    ("exponents", "exponents", {"batches": 1}, "exponents%batches = 1; expected a whole number >="),
-    ("synchrony", "synchrony", {"count": 1}, "synchrony%count = 1; expected a whole number >= 2"),
+    ("exponents", "exponents", {"batches": 1}, f"exponents%batches = 1; {WHOLE} 2"),
+    ("synchrony", "synchrony", {"count": 1}, f"synchrony%count = 1; {WHOLE} 2"),
     ("attractors", "observation", {"interval": 0.0}, "observation: interval = 0.0; expected a "),
     ("measure", "measure", {"repeats": -1}, "repeats = -1; expected a whole number >= 0"),
     ("reference", "reference", {"most_steps": 0}, f"most_steps = 0.0; {NUMBER}= "),
