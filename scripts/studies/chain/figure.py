@@ -48,12 +48,9 @@ def draw(chains: list[xr.Dataset], roots: list[xr.Dataset]) -> Figure:
         draw_map(figure, panels[0], chain)
         draw_spread(panels[1], chain)
         draw_modes(panels[2], chain)
-    for axes, words in zip(
-        grid[-1],
-        ("time (units of $L/v_0$)", "time (units of $L/v_0$)", "number of the mode"),
-        strict=True,
-    ):
-        axes.set_xlabel(words)
+    for axes in grid[-1, :2]:
+        axes.set_xlabel("time (units of $L/v_0$)")
+    grid[-1, 2].set_xlabel("number of the mode")
     return figure
 
 
