@@ -40,9 +40,6 @@ module dde_outcome
       integer(int64) :: switches = 0
       !> Breaking points landed on
       integer :: breaking_points = 0
-      !> Accepted steps that were shorter than the spacing of times: f was evaluated at one time
-      !> only
-      integer(int64) :: unresolved = 0
    end type integration_result
 
 contains

@@ -129,8 +129,6 @@ contains
          end if
          unseen = landing
          if (run%step%constants%implicit) outcome%implicit_steps = outcome%implicit_steps + 1
-         call run%step%complete(run%context)
-         if (.not. run%now%hi + h > run%now%hi) outcome%unresolved = outcome%unresolved + 1
          call deliver(run, step_end, ended, sampler, watcher)
          if (ended) then
             call run%arrive(goal, .false., step_end)

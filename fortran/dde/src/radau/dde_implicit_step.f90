@@ -226,8 +226,8 @@ contains
          call self%jacobian_at_end%evaluate(context%problem, context%tolerance, context%work, &
                                             t_end, y_end, stages%delayed(:, last), .false., finite)
          if (.not. finite) return
-         call self%system_at_end%prepare(self%jacobian_at_end, self%method%real_eigenvalue/self%h, &
-                                         singular)
+         call self%system_at_end%fill(self%jacobian_at_end, self%method%real_eigenvalue/self%h)
+         call self%system_at_end%factorise(singular)
          context%work%operations = context%work%operations &
                                    + self%system_at_end%factor_operations
          if (singular) return
