@@ -54,7 +54,7 @@ contains
       type(run_type) :: run
       type(switch_type) :: switch
       type(instant) :: step_end
-      real(wp) :: error_estimate, h, lacking, left, longest, longest_of_all
+      real(wp) :: error_estimate, h, left, longest, longest_of_all
       character(len=:), allocatable :: culprit
       integer :: goal
       logical :: automatic, ended, landing, last, other, unseen
@@ -69,12 +69,12 @@ contains
       end if
       call check(problem, t_start, t_end, options, error, sampler, watcher, continuation)
       if (allocated(error)) return
-      call run%begin(problem, t_start, t_end, options, lacking, error, continuation)
+      call run%begin(problem, t_start, t_end, options, error, continuation)
       if (allocated(error)) return
-      if (lacking > 0.0_wp) then
+      if (run%lacking > 0.0_wp) then
          outcome%reason = out_of_memory
          outcome%t = t_start
-         call explain(outcome, t_end, 0.0_wp, options, "", lacking, error)
+         call explain(outcome, t_end, 0.0_wp, options, "", run%lacking, error)
          return
       end if
       if (present(sampler)) then
@@ -97,8 +97,8 @@ contains
       unseen = .true.
       last = .not. run%points%time_to_end(run%now) > 0.0_wp
       do while (.not. last)
-         call run%context%past%make_room(size(run%step%nodes), lacking)
-         if (lacking > 0.0_wp) then
+         call run%context%past%make_room(size(run%step%nodes), run%lacking)
+         if (run%lacking > 0.0_wp) then
             outcome%reason = out_of_memory
             exit
          end if
@@ -151,8 +151,8 @@ contains
          run%h = merge(max(run%h, h), h, landing)
          if (landing .and. .not. last) outcome%breaking_points = outcome%breaking_points + 1
          if (other) then
-            call run%change_to_other(switch%returned, lacking)
-            if (lacking > 0.0_wp) then
+            call run%change_to_other(switch%returned)
+            if (run%lacking > 0.0_wp) then
                outcome%reason = out_of_memory
                exit
             end if
@@ -171,7 +171,7 @@ contains
       outcome%factorisations = run%context%work%factorisations
       if (all(outcome%reason /= [reached_end, event_met, refused])) then
          call find_culprit(run, h, outcome%reason, culprit)
-         call explain(outcome, t_end, h, options, culprit, lacking, error)
+         call explain(outcome, t_end, h, options, culprit, run%lacking, error)
       end if
    end subroutine integrate
 

@@ -8,11 +8,10 @@ module dde_run
    use dde_errors, only: check_finite, error_type
    use dde_event_search, only: event_search
    use dde_first_step, only: choose_first_step
-   use dde_history, only: history_type, memory_of_past
+   use dde_history, only: history_type
    use dde_kinks, only: kink_type
-   use dde_memory, only: lacks
-   use dde_methods, only: choose_method, longest_step, matching_method, &
-                          memory_of_state
+   use dde_memory, only: find_lacking
+   use dde_methods, only: choose_method, longest_step, matching_method
    use dde_problem, only: dde_problem_type
    use dde_request, only: causes, implicit_methods, integration_options
    use dde_step, only: step_type
@@ -63,6 +62,8 @@ module dde_run
       type(breaking_points) :: points
       !> Time that the past reaches back
       real(wp) :: reach = 0.0_wp
+      !> Bytes that could not be allocated, or 0
+      real(wp) :: lacking = 0.0_wp
       !> Whether the right-hand side may jump somewhere, and now
       logical, private :: may_jump = .false., at_cause = .false.
       !> Time derivative of the state at the start of the run, as event functions see it, shape (n)
@@ -74,35 +75,28 @@ module dde_run
 
 contains
 
-   !> Begin, or continue an earlier run.
-   subroutine begin(self, problem, t_start, t_end, options, lacking, error, continuation)
+   !> Begin, or continue an earlier run, unless memory is lacking.
+   subroutine begin(self, problem, t_start, t_end, options, error, continuation)
       class(run_type), intent(inout) :: self
       !> The problem, which lives as long as the run
       class(dde_problem_type), intent(in), target :: problem
       real(wp), intent(in) :: t_start, t_end
       type(integration_options), intent(in) :: options
-      !> Bytes that could not be allocated, or 0
-      real(wp), intent(out) :: lacking
       !> What is wrong with values of the problem at the start
       type(error_type), allocatable, intent(out) :: error
       !> Where an earlier run ended, if one did
       type(continuation_type), intent(in), optional :: continuation
       logical :: continued
-      integer :: degree, kept, steps
+      real(wp) :: reals
 
       continued = .false.
       if (present(continuation)) continued = allocated(continuation%y)
-      degree = 0
-      kept = 0
-      steps = 0
-      if (continued) then
-         degree = size(continuation%nodes, 1)
-         kept = size(continuation%kept)
-         steps = size(continuation%step_length)
-      end if
-      ! the state and its tolerances, and a ring of up to twice as many slots as steps
-      lacking = memory_of_state(problem) + memory_of_past(2*steps, steps, kept, degree)
-      if (lacks(lacking)) return
+      ! the state with its tolerances, and at most so many for each number and step that is restored
+      reals = 16.0_wp*problem%n
+      if (continued) reals = reals + 2.0_wp*size(continuation%coefficients) &
+                             + 80.0_wp*size(continuation%step_length)
+      self%lacking = find_lacking(reals)
+      if (self%lacking > 0.0_wp) return
       self%context%problem => problem
       self%context%tolerance = tolerance_type(problem%n, options%relative, options%absolute, &
                                               options%each_relative, options%each_absolute)
@@ -110,11 +104,11 @@ contains
       self%context%work = work_type(problem%n)
       self%reach = maxval([problem%lag, options%past_kept])
       if (continued) then
-         call self%continue_run(instant(t_end), options, lacking, continuation)
+         call self%continue_run(instant(t_end), options, continuation)
       else
-         call self%start_anew(instant(t_start), instant(t_end), options, lacking, error)
+         call self%start_anew(instant(t_start), instant(t_end), options, error)
       end if
-      if (lacking > 0.0_wp .or. allocated(error)) return
+      if (self%lacking > 0.0_wp .or. allocated(error)) return
       if (options%first_step > 0.0_wp) then
          self%h = options%first_step
       else if (.not. self%h > 0.0_wp .and. t_end > t_start) then
@@ -125,19 +119,18 @@ contains
 
    !> The first run. Its initial time is a kink, or a jump if a delayed component differs from its
    !> history there.
-   subroutine start_anew(self, start, finish, options, lacking, error)
+   subroutine start_anew(self, start, finish, options, error)
       class(run_type), intent(inout) :: self
       type(instant), intent(in) :: start, finish
       type(integration_options), intent(in) :: options
-      real(wp), intent(out) :: lacking
       type(error_type), allocatable, intent(out) :: error
       type(kink_type) :: first
       integer :: k
 
       self%now = start
       associate (context => self%context, problem => self%context%problem)
-         call choose_method(problem, options%method, context%tolerance, self%step, lacking)
-         if (lacking > 0.0_wp) return
+         call choose_method(problem, options%method, context%tolerance, self%step, self%lacking)
+         if (self%lacking > 0.0_wp) return
          call check_finite("integrate: the initial state has y", self%step%y, error)
          if (allocated(error)) return
          call context%work%set_cost(self%step%constants%evaluation_cost)
@@ -160,11 +153,10 @@ contains
 
    !> Another run, with the past of the one before. If the right-hand side differs from that at the
    !> end of the earlier run, there is a kink here.
-   subroutine continue_run(self, finish, options, lacking, continuation)
+   subroutine continue_run(self, finish, options, continuation)
       class(run_type), intent(inout) :: self
       type(instant), intent(in) :: finish
       type(integration_options), intent(in) :: options
-      real(wp), intent(out) :: lacking
       type(continuation_type), intent(in) :: continuation
       character(len=8) :: method
       type(kink_type), allocatable :: kinks(:)
@@ -178,8 +170,8 @@ contains
             method = matching_method(problem, context%tolerance, &
                                      implicit=any(continuation%method == implicit_methods))
          end if
-         call choose_method(problem, method, context%tolerance, self%step, lacking)
-         if (lacking > 0.0_wp) return
+         call choose_method(problem, method, context%tolerance, self%step, self%lacking)
+         if (self%lacking > 0.0_wp) return
          call context%work%set_cost(self%step%constants%evaluation_cost)
          self%step%y = continuation%y
          self%first_slope = continuation%slope
@@ -266,25 +258,22 @@ contains
       if (landing) call bound_times(self, goal)
    end subroutine plan
 
-   !> Continue by the other method of `auto`.
-   subroutine change_to_other(self, returned, lacking)
+   !> Continue by the other method of `auto`; if memory is lacking, the step is the same as before.
+   subroutine change_to_other(self, returned)
       class(run_type), intent(inout) :: self
       !> Whether it was left a few steps ago: if in these the solution hardly moved on, its steps
       !> are as long as they were
       logical, intent(in) :: returned
-      !> Bytes that could not be allocated, or 0: the step is then the same as before
-      real(wp), intent(out) :: lacking
       class(step_type), allocatable :: last
       real(wp) :: h
 
-      lacking = 0.0_wp
       if (.not. allocated(self%other)) then
          associate (problem => self%context%problem, tolerance => self%context%tolerance, &
                     implicit => .not. self%step%constants%implicit)
             call choose_method(problem, matching_method(problem, tolerance, implicit), tolerance, &
-                               self%other, lacking)
+                               self%other, self%lacking)
          end associate
-         if (lacking > 0.0_wp) return
+         if (self%lacking > 0.0_wp) return
       end if
       self%other%y = self%step%y
       self%other%slope = self%step%slope_here()

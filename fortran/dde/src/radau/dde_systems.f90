@@ -2,8 +2,8 @@
 !> elimination, real and complex, full and banded. Each pivot is the largest of its column relative
 !> to its row. Otherwise a row of huge numbers in a stiff system would be the pivot for the others.
 !> Zeros at both ends of a column are left out, and each zero above the diagonal: the Jacobian of a
-!> trajectory with tangent vectors has blocks on its diagonal. Real and complex systems have one body
-!> in a file that is included.
+!> trajectory with tangent vectors has blocks on its diagonal. Real and complex systems share bodies
+!> in files that are included.
 module dde_systems
    use dde_jacobian, only: jacobian_type
    use dde_kinds, only: int64, wp
