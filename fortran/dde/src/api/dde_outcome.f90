@@ -2,11 +2,10 @@
 module dde_outcome
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_request, only: integration_options
-   use dde_errors, only: error_type, raise, text
    use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: explain, integration_result, limit_met
+   public :: integration_result, limit_met
    public :: event_met, out_of_memory, reached_end, refused, step_underflow, too_many_steps
    public :: value_not_finite
 
@@ -65,40 +64,4 @@ contains
          reason = too_many_steps
       end if
    end function limit_met
-
-   !> The error of an integration that ended early: where and why.
-   pure subroutine explain(outcome, t_end, h, options, culprit, lacking, error)
-      !> The result
-      type(integration_result), intent(in) :: outcome
-      !> Final time wanted
-      real(wp), intent(in) :: t_end
-      !> Length of the last step attempted
-      real(wp), intent(in) :: h
-      !> Limits
-      type(integration_options), intent(in) :: options
-      !> Which value is not finite, or whose tolerance is too small; may be empty
-      character(len=*), intent(in) :: culprit
-      !> Bytes that could not be allocated
-      real(wp), intent(in) :: lacking
-      !> The error to set
-      type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: why
-
-      select case (outcome%reason)
-      case (step_underflow)
-         why = "the step had to shrink to "//text(h) &
-               //", too small to change the time; "
-         if (len(culprit) == 0) why = why//"a singularity?"
-      case (too_many_steps)
-         why = text(options%most_steps)//" steps (most_steps) were used up"
-         if (len(culprit) > 0) why = why//"; "
-      case (out_of_memory)
-         why = "no memory for another "//text(lacking)//" bytes"
-      case default
-         why = "a value is not finite at every step length down to "//text(h)//": "
-      end select
-      call raise(error, "integrate: stopped at t = "//text(outcome%t)//" of "//text(t_end) &
-                 //" after "//text(outcome%accepted)//" steps ("//text(outcome%rejected) &
-                 //" rejected): "//why//culprit)
-   end subroutine explain
 end module dde_outcome

@@ -3,11 +3,11 @@
 module dde_integrator
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_continuation, only: continuation_type
-   use dde_diagnosis, only: find_culprit
+   use dde_diagnosis, only: explain
    use dde_event_search, only: endless, most_places
    use dde_events, only: event_watcher_type
    use dde_methods, only: longest_step, price_of_trial
-   use dde_outcome, only: event_met, explain, integration_result, limit_met, out_of_memory, &
+   use dde_outcome, only: event_met, integration_result, limit_met, out_of_memory, &
                           reached_end, refused
    use dde_output, only: deliver, is_read
    use dde_problem, only: dde_problem_type
@@ -55,7 +55,6 @@ contains
       type(switch_type) :: switch
       type(instant) :: step_end
       real(wp) :: error_estimate, h, left, longest, longest_of_all
-      character(len=:), allocatable :: culprit
       integer :: goal
       logical :: automatic, ended, landing, last, other, unseen
 
@@ -74,7 +73,7 @@ contains
       if (run%lacking > 0.0_wp) then
          outcome%reason = out_of_memory
          outcome%t = t_start
-         call explain(outcome, t_end, 0.0_wp, options, "", run%lacking, error)
+         call explain(run, outcome, t_end, 0.0_wp, options, error)
          return
       end if
       if (present(sampler)) then
@@ -170,8 +169,7 @@ contains
       outcome%work = run%context%work%total()
       outcome%factorisations = run%context%work%factorisations
       if (all(outcome%reason /= [reached_end, event_met, refused])) then
-         call find_culprit(run, h, outcome%reason, culprit)
-         call explain(outcome, t_end, h, options, culprit, run%lacking, error)
+         call explain(run, outcome, t_end, h, options, error)
       end if
    end subroutine integrate
 

@@ -1,15 +1,14 @@
 !> The state of a run between two steps: how it begins, how the next step is planned, and what is
 !> kept when it ends.
 module dde_run
-   use dde_breaking_points, only: breaking_points, stretch
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use dde_breaking_points, only: breaking_points, kink_type, stretch
    use dde_continuation, only: continuation_type
    use dde_controller, only: controller_type
    use dde_cursor, only: cursor_type
    use dde_errors, only: check_finite, error_type
    use dde_event_search, only: event_search
-   use dde_first_step, only: choose_first_step
    use dde_history, only: history_type
-   use dde_kinks, only: kink_type
    use dde_memory, only: find_lacking
    use dde_methods, only: choose_method, longest_step, matching_method
    use dde_problem, only: dde_problem_type
@@ -17,7 +16,7 @@ module dde_run
    use dde_step, only: step_type
    use dde_step_context, only: step_context
    use dde_time, only: elapsed, instant
-   use dde_tolerance, only: tolerance_type
+   use dde_tolerance, only: hopeless, scaled_norm, tolerance_type
    use dde_work, only: work_type
    use dde_kinds, only: wp
    implicit none (type, external)
@@ -116,6 +115,49 @@ contains
                                 min(t_end - t_start, options%longest_step), self%h)
       end if
    end subroutine begin
+
+   !> First step length: about a hundredth of |y|/|y'|, refined by the second derivative (Hairer,
+   !> Norsett and Wanner 1993, sec. II.4).
+   pure subroutine choose_first_step(context, step, longest, h)
+      type(step_context), intent(inout) :: context
+      !> The step, its first slope known
+      class(step_type), intent(inout) :: step
+      !> Time to the end of the run, or the longest step allowed, the shorter
+      real(wp), intent(in) :: longest
+      real(wp), intent(out) :: h
+      real(wp), allocatable :: scale(:), slope_ahead(:)
+      real(wp) :: bend, slope
+
+      allocate (scale(size(step%y)), slope_ahead(size(step%y)))
+      call context%tolerance%scale(step%y, scale)
+      h = 1.0e-6_wp*longest
+      slope = length_of(step%slope, scale)
+      if (slope > hopeless) return
+      h = 1.0e-6_wp
+      if (slope > 1.0e-5_wp .and. length_of(step%y, scale) > 1.0e-5_wp) then
+         h = 0.01_wp*length_of(step%y, scale)/slope
+      end if
+      h = minval([h, longest, context%problem%lag])
+      call context%delayed_values([h], step%z)
+      call context%evaluate(context%cursor%t + h, step%y + h*step%slope, step%z, slope_ahead)
+      bend = length_of(slope_ahead - step%slope, scale)
+      if (bend > hopeless) return
+      bend = bend/h
+      if (max(slope, bend) > 1.0e-15_wp) then
+         h = min(100.0_wp*h, (0.01_wp/max(slope, bend))**(1.0_wp/step%constants%error_order))
+      else
+         h = min(100.0_wp*h, max(1.0e-6_wp, 1.0e-3_wp*h))
+      end if
+   end subroutine choose_first_step
+
+   !> The norm of x; huge if x is not finite.
+   pure function length_of(x, scale) result(length)
+      real(wp), intent(in) :: x(:), scale(:)
+      real(wp) :: length
+
+      length = scaled_norm(size(x), x, scale)
+      if (.not. ieee_is_finite(length)) length = huge(1.0_wp)
+   end function length_of
 
    !> The first run. Its initial time is a kink, or a jump if a delayed component differs from its
    !> history there.

@@ -2,9 +2,8 @@
 !> error, and gives the polynomial of an accepted step. The run chooses the step size, counts the
 !> steps and stores the polynomials. METHODS.md tells how to write a method.
 module dde_step
-   use dde_controller, only: controller_type
+   use dde_controller, only: controller_type, method_constants
    use dde_errors, only: error_type
-   use dde_method_constants, only: method_constants
    use dde_problem, only: dde_problem_type
    use dde_step_context, only: step_context
    use dde_kinds, only: wp
