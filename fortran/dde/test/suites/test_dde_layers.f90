@@ -4,7 +4,7 @@ module test_dde_layers
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close, expect_success
-   use layer_problems, only: layer, measure_errors, relaxation, stages
+   use layer_problems, only: layer, measure_errors, relaxation
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use published_problems, only: enzyme
    use solving, only: at_tolerance, run
@@ -26,7 +26,6 @@ contains
 
       testsuite = [new_unittest("a pulse, and one that returns", test_pulses), &
                    new_unittest("a decay without delay", test_decay), &
-                   new_unittest("a population", test_population), &
                    new_unittest("the unit of the state", test_unit), &
                    new_unittest("one loose component", test_loose)]
    end subroutine collect_dde_layers
@@ -99,32 +98,6 @@ contains
          end do
       end do
    end subroutine test_decay
-
-   !> Of 648 runs without series none is wrong by more than 1e-4: a rate of 40 at 1e-6 by `auto`
-   !> gave 0.033 for 0.124, one of 1122 at 1e-9 by `dop853` 620 for 0.123.
-   subroutine test_population(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(integration_result) :: outcome
-      type(layer) :: problem
-      real(wp), parameter :: t_end = 2.9_wp
-      real(wp) :: rate
-      integer :: digits, i, j
-
-      do i = 1, 3
-         do digits = 6, 9, 3
-            do j = 0, 107
-               rate = 10.0_wp**(1.0_wp + 3.0_wp*j/108)
-               problem = stages(rate)
-               problem%analytic = .false.
-               call run(error, problem, 0.0_wp, t_end, &
-                        at_tolerance(10.0_wp**(-digits), methods(i)), outcome)
-               if (allocated(error)) return
-               call expect_close(error, outcome%y, problem%exact(t_end), 1.0e-4_wp, &
-                                 trim(methods(i))//" at 1e-"//text(digits)//", rate "//text(rate))
-            end do
-         end do
-      end do
-   end subroutine test_population
 
    !> With state and absolute tolerance in another unit the results are the same: bit by bit if it
    !> is a power of two.

@@ -33,22 +33,16 @@ contains
    subroutine test_step_underflow(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      type(integration_options) :: options
       type(integration_result) :: outcome
       integer :: i
 
       do i = 1, size(methods)
-         options = at_tolerance(1.0e-9_wp, methods(i))
-         call integrate(blow_up(), 0.0_wp, 2.0_wp, options, outcome, failure)
+         call integrate(blow_up(), 0.0_wp, 2.0_wp, at_tolerance(1.0e-9_wp, methods(i)), outcome, &
+                        failure)
          call expect(error, outcome%reason == step_underflow, "the reason is `step_underflow`")
          call expect_failure(error, failure, "too small to change the time; a singularity?")
          call expect_close(error, outcome%t, 1.0_wp, 1.0e-8_wp, "t by "//methods(i))
-         options%most_steps = 3
-         call integrate(blow_up(), 0.0_wp, 0.9_wp, options, outcome, failure)
-         call expect(error, outcome%reason == too_many_steps, methods(i)//" has three steps")
          if (methods(i) /= "explicit") cycle
-         call integrate(blow_up(), 0.0_wp, 2.0_wp, at_tolerance(1.0e-9_wp, methods(i)), outcome, &
-                        failure)
          call expect_failure(error, failure, "stopped at t = 1.0000")
          call expect_between(error, outcome%y(1), 1.0e15_wp, huge(1.0_wp), "y")
       end do
