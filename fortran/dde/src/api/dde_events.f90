@@ -304,15 +304,15 @@ contains
    end function one_less_level
 
    !> A component or slope, less its level.
-   pure real(wp) function distance(self, which, y, slope)
+   pure real(wp) function distance(self, which, y, slope) result(value)
       class(event_table), intent(in) :: self
       integer, intent(in) :: which
       real(wp), intent(in) :: y(:), slope(:)
 
       if (self%of_slope(which)) then
-         distance = slope(self%component(which)) - self%level(which)
+         value = slope(self%component(which)) - self%level(which)
       else
-         distance = y(self%component(which)) - self%level(which)
+         value = y(self%component(which)) - self%level(which)
       end if
    end function distance
 

@@ -94,7 +94,8 @@ contains
       type(delayed_series) :: series
       type(step_context) :: context
       type(wille_baker), target :: problem
-      real(wp), parameter :: tolerances(2) = [1.0e-2_wp, 1.0e-4_wp], lengths(2) = [1.0_wp, 0.75_wp]
+      real(wp), parameter :: tolerances(2) = [1.0e-2_wp, 1.0e-4_wp]
+      real(wp), parameter :: lengths(2) = [1.0_wp, 0.75_wp]
       integer :: i
 
       problem = delayed()

@@ -98,7 +98,7 @@ contains
 
       do k = 0, degree - 1
          y(k + 1, 1) = unit/(k + 1)*(-self%rate*y(k, 1) + self%back*z(k, 2))
-         y(k + 1, 2) = unit/(k + 1)*self%rate*z(k, 1)
+         y(k + 1, 2) = unit/(k + 1)*(self%rate*z(k, 1))
       end do
    end subroutine layer_series
 
