@@ -87,8 +87,8 @@ contains
    end subroutine test_second_node
 
    !> If the next step begins nearer, its series is read, unless there is a kink between them. Its
-   !> departure from the past before it begins must not exceed the tolerance. A series is used beyond
-   !> its step as far as it agrees with what followed.
+   !> departure from the past before it begins must not exceed the tolerance. A series is used
+   !> beyond its step as far as it agrees with what followed.
    subroutine test_next(error)
       type(error_type), allocatable, intent(out) :: error
       type(delayed_series) :: series
