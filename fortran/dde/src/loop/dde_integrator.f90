@@ -7,8 +7,8 @@ module dde_integrator
    use dde_event_search, only: endless, most_places
    use dde_events, only: event_watcher_type
    use dde_methods, only: longest_step, price_of_trial
-   use dde_outcome, only: event_met, integration_result, limit_met, out_of_memory, &
-                          reached_end, refused
+   use dde_outcome, only: event_met, integration_result, out_of_memory, reached_end, refused, &
+                          step_underflow, too_many_steps, value_not_finite
    use dde_output, only: deliver, is_read
    use dde_problem, only: dde_problem_type
    use dde_request, only: check, integration_options
@@ -172,6 +172,20 @@ contains
          call explain(run, outcome, t_end, h, options, error)
       end if
    end subroutine integrate
+
+   !> The limit that forbids an attempt of length h, or `reached_end` if none does.
+   pure integer function limit_met(outcome, last_error, options, h, shortest) result(reason)
+      type(integration_result), intent(in) :: outcome
+      real(wp), intent(in) :: last_error, h, shortest
+      type(integration_options), intent(in) :: options
+
+      reason = reached_end
+      if (h <= shortest) then
+         reason = merge(step_underflow, value_not_finite, ieee_is_finite(last_error))
+      else if (outcome%accepted + outcome%rejected >= options%most_steps) then
+         reason = too_many_steps
+      end if
+   end function limit_met
 
    !> Whether the error of a step is finite and within the tolerance.
    pure logical function accepted(error_estimate) result(value)
