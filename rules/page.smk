@@ -50,7 +50,6 @@ rule page:
         library=[path for path in page_assets.ASSETS.values() if path.startswith("/")],
     output:
         page="<results>/index.html",
-        times="<results>/times.html",
         assets=expand("<results>/page/{asset}", asset=page_assets.ASSETS),
     log:
         "<results>/logs/page.log",

@@ -14,8 +14,7 @@ from scripts.workflow import manifest
 LISTS = ("results/manifest.sha256", "results/measured.sha256")
 KEPT = [f"results/{name}" for name in ("tables/a.tsv", "figures/a.svg", "index.html")]
 MEASURED = [
-    f"results/{name}"
-    for name in ("measurements/stability/a.nc", "figures/work_precision.svg", "times.html")
+    f"results/{name}" for name in ("measurements/stability/a.nc", "figures/work_precision.svg")
 ]
 OTHERS = [
     f"results/{name}" for name in ("logs/a.log", "benchmarks/a.tsv", "README.md", "mine/index.html")

@@ -18,7 +18,7 @@ from conftest import ROOT
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, NOT_TESTABLE, VERDICTS
 from scripts.claims.ledger import paper_claims
 from scripts.files.marked_words import to_html
-from scripts.page import captions, findings, page_content, page_provenance, page_views, write_page
+from scripts.page import captions, findings, page_content, page_views, write_page
 from scripts.page.write_single_page import in_one_file
 from scripts.plans.studies import paper_figures
 
@@ -145,17 +145,6 @@ def test_samples_that_follow_the_motion_keep_their_times():
     shown = page_views.describe_run(whole.interp(t=times), [])
     assert (shown["start"], shown["every"]) == (times[-12_000], 1)
     np.testing.assert_allclose(sent(shown["times"]), times[-12_000:] - times[-12_000], atol=1e-4)
-
-
-def test_seconds_are_summed_over_the_jobs_of_a_kind(tmp_path):
-    """Memory is the largest that was measured: Snakemake misses that of short jobs."""
-    for name, line in (("hopf/a", "1.5\t-"), ("hopf/b/c", "2.5\t30.0"), ("spectra/d", "4.0\t20.0")):
-        path = tmp_path / f"{name}.tsv"
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(f"s\tmax_rss\n{line}\n")
-    hopf, spectra = page_provenance.seconds(tmp_path)
-    assert hopf == {"kind": "hopf", "jobs": 2, "seconds": 4.0, "longest": 2.5, "memory": 30.0}
-    assert (spectra["kind"], spectra["jobs"]) == ("spectra", 1)
 
 
 def test_missing_value_is_an_error():

@@ -1,4 +1,4 @@
-"""The page of a run: index.html, times.html and the files beside them, in its folder of results."""
+"""The page of a run: index.html and the files beside it, in its folder of results."""
 
 import platform
 import shutil
@@ -72,12 +72,11 @@ def content(given, params, folder: Path) -> dict:
         "commit": params.commit,
         "programs": page_provenance.programs(sorted(data)),
         "packages": {"Python": platform.python_version(), **page_provenance.packages()},
-        "measured": [figure for figure in figures if figure["measured"]],
     }
 
 
 def content_of_paper(given, claims: list[dict]) -> dict:
-    """What only the page of the paper has: opening, equations, findings and how to cite."""
+    """What only the page of the paper has: opening, equations and findings."""
     names = ("attractors", *findings.tables_read())
     # a run that failed lacks some
     complete = claims and all(given[name] for name in names)
@@ -88,7 +87,6 @@ def content_of_paper(given, claims: list[dict]) -> dict:
         "opening": page_content.opening((PROJECT / "README.md").read_text()),
         "findings": findings.list_findings(claims, tables) if tables else [],
         "main_claims": [by_id[name] for name in findings.MAIN_CLAIMS if name in by_id],
-        "cited": page_provenance.citation(PROJECT / "CITATION.cff"),
     }
 
 
@@ -101,15 +99,6 @@ def trajectories(given) -> list[dict]:
     ]
 
 
-def write_files(texts: dict[str, str], assets: list[str]) -> None:
-    """Write pages, by their paths, and what lies beside them."""
-    for source, target in zip(ASSETS.values(), assets, strict=True):
-        with written(target) as path:
-            shutil.copyfile(PROJECT / source, path)
-    for target, text in texts.items():
-        write_text(target, text)
-
-
 def write_text(target: str, text: str) -> None:
     """Write a page; it appears only when complete."""
     with written(target) as path:
@@ -118,13 +107,9 @@ def write_text(target: str, text: str) -> None:
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        params, output = snakemake.params, snakemake.output
-        folder = Path(output.page).parent
-        shown = content(snakemake.input, params, folder)
-        # what is measured on this machine has a page of its own: two runs give the same index.html
-        seconds = page_provenance.seconds(folder / "benchmarks")
-        pages = {
-            output.page: render("index.html.jinja", **shown),
-            output.times: render("times.html.jinja", figures=shown["measured"], seconds=seconds),
-        }
-        write_files(pages, output.assets)
+        output = snakemake.output
+        shown = content(snakemake.input, snakemake.params, Path(output.page).parent)
+        for source, target in zip(ASSETS.values(), output.assets, strict=True):
+            with written(target) as path:
+                shutil.copyfile(PROJECT / source, path)
+        write_text(output.page, render("index.html.jinja", **shown))
