@@ -9,10 +9,10 @@ import sympy
 from generator import pointwise, rest
 from generator.address import couplings
 from generator.definition import TIME, Model
-from generator.flow import Flow, Procedure, flow_of, rate_of_auxiliary
+from generator.flow import Flow, Procedure, flow_of, rate_of_auxiliary, with_parameters
 from generator.fortran import in_words, indented, text_of, wrapped
 from generator.graph import Graph, in_order
-from generator.recurrences import Constants, Recurrences, fetch_parameters, names_of_parameters
+from generator.recurrences import Constants, Recurrences
 from generator.series import series_procedure
 from generator.slow import Balance, balance_of
 from generator.tangents import tangent_series_procedure
@@ -153,21 +153,18 @@ def delayed_procedure(model: Model) -> Procedure:
     """Delays and components of the delayed states."""
     states = list(model.states)
     components = [states.index(one.state) + 1 for one in model.delayed]
-    lines = [
-        *fetch_parameters(model),
-        *(f"lag({i}) = {text_of(one.lag)}" for i, one in enumerate(model.delayed, 1)),
-        *(f"component({i}) = {number}" for i, number in enumerate(components, 1)),
-    ]
-    return Procedure({"real(wp)": names_of_parameters(model)}, lines)
+    lines = [f"lag({i}) = {text_of(one.lag)}" for i, one in enumerate(model.delayed, 1)]
+    lines += [f"component({i}) = {number}" for i, number in enumerate(components, 1)]
+    return with_parameters(model, lines)
 
 
 def history_procedure(model: Model) -> Procedure:
     """Values up to the initial time."""
-    lines = [*fetch_parameters(model), "select case (component)"]
+    lines = ["select case (component)"]
     for place, value in enumerate(model.history.values(), 1):
         lines += [f"case ({place})", f"   value = {text_of(value)}"]
     lines += ["case default", "   value = ieee_value(1.0_wp, ieee_quiet_nan)", "end select"]
-    return Procedure({"real(wp)": names_of_parameters(model)}, lines)
+    return with_parameters(model, lines)
 
 
 def history_series_procedure(model: Model, state: str) -> Procedure:

@@ -31,8 +31,7 @@ contains
                    new_unittest("Mackey-Glass", test_mackey_glass), &
                    new_unittest("a steady state that is computed", test_rest), &
                    new_unittest("two neurons, three delays", test_neurons), &
-                   new_unittest("infection", test_infection), &
-                   new_unittest("enzyme kinetics", test_enzyme), &
+                   new_unittest("infection and enzyme kinetics", test_runs), &
                    new_unittest("laws of friction", test_laws), &
                    new_unittest("chains", test_chains), &
                    new_unittest("a chain with time", test_row), &
@@ -216,8 +215,8 @@ contains
       end function history_of
    end subroutine test_neurons
 
-   !> Whole runs of the model written by hand.
-   subroutine test_infection(error)
+   !> Whole runs of models written by hand; that of the enzyme has no series.
+   subroutine test_runs(error)
       type(error_type), allocatable, intent(out) :: error
       type(model_type) :: made
 
@@ -226,19 +225,12 @@ contains
       call made%set([real(wp) ::], [0.0_wp, 0.0_wp, 0.0_wp])
       call compare_runs(error, made, infection(), 15.0_wp, "taylor")
       call check_model(error, made, [2.0_wp, 0.3_wp, 1.0_wp], [0.4_wp, 0.2_wp], "infection")
-   end subroutine test_infection
-
-   !> Whole runs of the model written by hand, which has no series.
-   subroutine test_enzyme(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(model_type) :: made
-
       call open_there(error, "made_enzyme", made)
       if (allocated(error)) return
       call made%set([real(wp) ::], [0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp])
       call compare_runs(error, made, enzyme(), 6.0_wp, "dop853")
       call check_model(error, made, [50.0_wp, 12.0_wp, 9.0_wp, 15.0_wp], [14.0_wp], "enzyme")
-   end subroutine test_enzyme
+   end subroutine test_runs
 
    !> Solutions of a made model by Taylor steps and of the model by hand by another method.
    subroutine compare_runs(error, made, hand, t_end, method)
