@@ -96,22 +96,6 @@ def test_keyboard_skips_to_the_content(seen):
     assert first["leads_to"] == "content"
 
 
-def test_trajectories_are_zoomed_and_read(seen):
-    """Each scene says its parameters and class; a drag shows a part, the button all again."""
-    view = seen["trajectories"]
-    assert len(set(view["said"])) == len(view["said"]) > 0
-    for words in view["said"]:
-        assert all(sign in words for sign in ("ε = ", "τ = ", "ξ = ", "γ = ", "; exponents "))
-    before, within, after = ([float(label) for label in ticks] for ticks in view["ticks"])
-    assert before == after
-    assert before[0] <= within[0] < within[-1] <= before[-1]
-    assert within[-1] - within[0] < 0.5 * (before[-1] - before[0])
-    assert len(view["values"]) == len(view["said"])
-    assert all(word in view["values"][0] for word in ("t = ", "v = ", "u = "))
-    # each with an axis of its own
-    assert view["titles"][0] == ["velocity v (units of v₀)", "displacement u (units of L)"]
-
-
 def test_claims_are_chosen_by_verdict_and_words(seen):
     """By keyboard; a button says that it is pressed, and the page how many claims it shows."""
     claims = seen["claims"]

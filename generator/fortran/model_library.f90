@@ -9,7 +9,7 @@ module model_library
    use model_border, only: describe_line, expand, expand_past, expand_tangents, find_delayed, &
                            find_forms, find_jacobian, find_past, find_rate, find_rhs, find_state, &
                            list_terms, letters => line_length
-   use model_description, only: description_type, sizes_of, word_length
+   use model_description, only: description_type, word_length
    use model_interface, only: interface_digest
    use model_problem, only: code_type, model_type
    implicit none (type, external)
@@ -88,8 +88,8 @@ contains
          return
       end if
       call find_procedures(library, model%code)
-      model%sizes = sizes_of(model%code%description)
       about = model%describe()
+      model%sizes = about%sizes
       model%names = about%parameters%name
    end subroutine open_model
 

@@ -94,7 +94,7 @@ contains
       class(model_type), intent(in) :: self
       type(description_type) :: description
 
-      description = description_of(self%code%description, self%sizes)
+      description = description_of(self%code%description)
    end function describe
 
    !> Delays of a block with these parameters, some of them 0.

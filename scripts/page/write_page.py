@@ -8,10 +8,9 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from scripts.claims.declare import OURS
 from scripts.files import marked_words
-from scripts.files.inputs import read
 from scripts.files.outputs import logged, written
 from scripts.files.tsv import read_table
-from scripts.page import findings, mathematics, page_content, page_provenance, page_views
+from scripts.page import findings, mathematics, page_content, page_provenance
 from scripts.page.page_assets import ASSETS, PROJECT
 from scripts.plans.declare import MAIN
 from scripts.tables.motion_rows import COLOURS
@@ -65,7 +64,6 @@ def content(given, params, folder: Path) -> dict:
         "verdicts": page_content.tally(claims),
         "unplaced": [one for one in others if not page_content.figure_of(one, figures)],
         "tables": [str(Path(path).relative_to(folder)) for path in given.tables],
-        "trajectories": trajectories(given),
         "atlas": groups["Atlas"][0]["name"] if given.play and "Atlas" in groups else "",
         "history": params.history,
         "colours": COLOURS,
@@ -77,7 +75,7 @@ def content(given, params, folder: Path) -> dict:
 
 def content_of_paper(given, claims: list[dict]) -> dict:
     """What only the page of the paper has: opening, equations and findings."""
-    names = ("attractors", *findings.tables_read())
+    names = findings.tables_read()
     # a run that failed lacks some
     complete = claims and all(given[name] for name in names)
     tables = {name: read_table(given[name]) for name in names if complete}
@@ -88,15 +86,6 @@ def content_of_paper(given, claims: list[dict]) -> dict:
         "findings": findings.list_findings(claims, tables) if tables else [],
         "main_claims": [by_id[name] for name in findings.MAIN_CLAIMS if name in by_id],
     }
-
-
-def trajectories(given) -> list[dict]:
-    """Trajectories to zoom into."""
-    attractors = read_table(given.attractors) if given.attractors else []
-    runs = [read(path) for path in given.trajectories]
-    return [
-        page_views.describe_run(run, attractors) for run in runs if page_views.can_be_drawn(run)
-    ]
 
 
 def write_text(target: str, text: str) -> None:

@@ -68,41 +68,6 @@ def by_keyboard(chrome: Chrome) -> dict:
     return {**met, "leads_to": chrome.switch_to.active_element.get_attribute("id")}
 
 
-def values_read(chrome: Chrome, view) -> str:
-    """What stands below the plot when the pointer is at its middle."""
-    plot = view.find_element(By.CSS_SELECTOR, ".plot")
-    ActionChains(chrome).move_to_element(plot).perform()
-    return view.find_element(By.CSS_SELECTOR, ".values").text
-
-
-def visit_trajectories(chrome: Chrome) -> dict | None:
-    """What each scene says of itself and of a place, and the times before, in and after a zoom."""
-    views = chrome.find_elements(By.ID, "trajectory-view")
-    if not views:
-        return None
-    (view,) = views
-    said, values, titles = [], [], []
-    for option in view.find_elements(By.TAG_NAME, "option"):
-        option.click()
-        said.append(view.find_element(By.CSS_SELECTOR, ".read").text)
-        values.append(values_read(chrome, view))
-        labels = view.find_elements(By.CSS_SELECTOR, ".dygraph-ylabel, .dygraph-y2label")
-        titles.append([label.text for label in labels])
-    plot = view.find_element(By.CSS_SELECTOR, ".plot")
-    ticks = [axis_labels(plot)]
-    drag = ActionChains(chrome).move_to_element(plot).click_and_hold().move_by_offset(60, 0)
-    drag.release().perform()
-    ticks.append(axis_labels(plot))
-    view.find_element(By.TAG_NAME, "button").click()
-    ticks.append(axis_labels(plot))
-    return {"said": said, "ticks": ticks, "values": values, "titles": titles}
-
-
-def axis_labels(plot) -> list[str]:
-    labels = plot.find_elements(By.CSS_SELECTOR, ".dygraph-axis-label-x")
-    return [label.get_attribute("textContent") for label in labels]
-
-
 def visit_play(chrome: Chrome) -> dict[str, dict]:
     """What is read and drawn at first, by keys along a slider, by the map and after a button."""
     view = chrome.find_element(By.ID, "play-view")
@@ -195,7 +160,7 @@ def visit(chrome: Chrome, page: Path) -> dict:
     chrome.get(page.resolve().as_uri())
     for details in chrome.find_elements(By.CSS_SELECTOR, "details.appendix:not([open]) > summary"):
         details.click()
-    seen |= {"trajectories": visit_trajectories(chrome), "play": visit_play(chrome)}
+    seen |= {"play": visit_play(chrome)}
     for details in chrome.find_elements(By.CSS_SELECTOR, "details:not([open]) > summary"):
         chrome.execute_script("arguments[0].parentElement.open = true", details)
     for width in WIDTHS:
