@@ -1,4 +1,5 @@
 # Programs, each built when a result needs it, and their runs: the plans in scripts/studies/ declare them.
+import json
 
 
 rule definition:
@@ -10,12 +11,15 @@ rule definition:
     priority: BUILD
     localrule: True
     params:
-        definition=lambda wildcards: laws.definition(
-            wildcards.defined, models.of_user(config)[wildcards.defined]
+        # JSON is YAML, too
+        definition=lambda wildcards: json.dumps(
+            laws.definition(
+                wildcards.defined, models.of_user(config)[wildcards.defined]
+            ),
+            indent=2,
         ),
-        code=code_of("namelists/write_definition.py"),
-    script:
-        "../scripts/namelists/write_definition.py"
+    shell:
+        "printf '%s\\n' {params.definition:q} >{output:q} 2>{log:q}"
 
 
 rule program:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
+from scripts.claims.claims_results import VERDICTS
 from scripts.claims.declare import OURS
 from scripts.files import marked_words
 from scripts.files.outputs import logged, written
@@ -44,7 +45,10 @@ def content(given, params, folder: Path) -> dict:
         claim["figure"] = page_content.figure_of(claim, params.figures)
     claims = [claim for claim in claims if claim["whose"] != OURS]
     others = [claim for claim in claims if claim["id"] not in placed]
-    figures = page_content.describe_figures(params.figures, others, folder)
+    figures = [page_content.describe_figure(figure, folder) for figure in params.figures]
+    beside = {claim["id"]: page_content.figure_of(claim, figures) for claim in others}
+    for figure in figures:
+        figure["claims"] = [claim for claim in others if beside[claim["id"]] == figure["name"]]
     top = {figure["name"]: figure for figure in figures if paper and not figure["claims"]}
     if paper:
         paper |= {"block": top.get(BLOCK), "hero": top.get(HERO)}
@@ -61,8 +65,8 @@ def content(given, params, folder: Path) -> dict:
         "appendices": groups if paper else {},
         "claims": claims,
         "questions": questions,
-        "verdicts": page_content.tally(claims),
-        "unplaced": [one for one in others if not page_content.figure_of(one, figures)],
+        "verdicts": {v: sum(claim["verdict"] == v for claim in claims) for v in VERDICTS},
+        "unplaced": [claim for claim in others if not beside[claim["id"]]],
         "tables": [str(Path(path).relative_to(folder)) for path in given.tables],
         "atlas": groups["Atlas"][0]["name"] if given.play and "Atlas" in groups else "",
         "history": params.history,
