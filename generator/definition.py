@@ -25,7 +25,7 @@ RESERVED = {"t", "derivative", "second_difference", *FUNCTIONS}
 """Names with a meaning of their own in expressions."""
 KEYS = {
     *("name", "about", "source", "parameters", "states", "auxiliary", "definitions"),
-    *("equations", "steady_state", "history", "fast", "domain"),
+    *("equations", "steady_state", "fast", "domain"),
     *("event", "section", "integral", "coordinates"),
 }
 EVENT, SECTION = re.compile(r"(\w+) ?> ?(\S+)"), re.compile(r"(\w+) ?= ?(\S+)")
@@ -110,8 +110,6 @@ class Model:
     """Of each state an expression of parameters, or its own symbol where it is computed."""
     near: dict[str, sympy.Expr] | None = None
     """Where the computation of the steady state starts."""
-    history: dict[str, sympy.Expr] | None = None
-    """Each state up to the initial time as an expression of t; None: numbers, given later."""
     fast: str | None = None
     observed: Observed | None = None
     domain: dict[str, tuple[float, float]] = field(default_factory=dict)
@@ -313,12 +311,6 @@ class _Reader:
         """What a definition may leave out."""
         model = self.model
         self.read_steady_state(values)
-        expected = "an expression of t for each state"
-        model.history = self.of_each_state(values, "history", expected)
-        for state, value in model.history.items() if model.history else ():
-            if value.free_symbols & (model.variables - {TIME}):
-                text = values["history"][state]
-                self.refuse(f"history of {state}", text, "an expression of t alone")
         fast = values.get("fast")
         if fast is not None and fast not in model.states:
             self.refuse("fast", fast, f"one of the states {', '.join(model.states)}")
@@ -361,29 +353,31 @@ class _Reader:
 
     def read_steady_state(self, values: dict) -> None:
         """As expressions, which are tested, or where to look for it."""
-        model, expected = self.model, "a value for each state"
-        near = near_of(values)
+        model, near, texts = self.model, near_of(values), values.get("steady_state")
+        if texts is None:
+            return
+        if near and len(texts) > 1:
+            self.refuse("steady_state", ", ".join(texts), "near alone")
+        texts = near or texts
+        if set(texts) != set(model.states):
+            self.refuse("steady_state", ", ".join(texts), "a value for each state")
+        found = {}
+        for state in model.states:
+            found[state] = self.expression(f"steady state of {state}", texts[state])
+            if found[state].free_symbols & model.variables:
+                expected = "an expression of parameters"
+                self.refuse(f"steady state of {state}", texts[state], expected)
+        model.steady_state = found
         if near:
-            if len(values["steady_state"]) > 1:
-                self.refuse("steady_state", ", ".join(values["steady_state"]), "near alone")
-            values = {"steady_state": near}
-        found = self.of_each_state(values, "steady_state", expected)
-        for state, value in found.items() if found else ():
-            if value.free_symbols & model.variables:
-                text = values["steady_state"][state]
-                self.refuse(f"steady state of {state}", text, "an expression of parameters")
-        if near:
-            for state, equation in model.equations.items():
-                if equation.has(TIME):
-                    text = model.texts[state]
-                    self.refuse(f"equation of {state} with a steady state", text, "no t")
             model.near = found
             model.steady_state = {state: model.symbol(state) for state in model.states}
-            return
-        model.steady_state = found
-        for state, equation in model.equations.items() if found else ():
+        for state, equation in model.equations.items():
+            if equation.has(TIME):
+                text = model.texts[state]
+                self.refuse(f"equation of {state} with a steady state", text, "no t")
             left = model.at_steady_state(equation)
-            if left.has(sympy.zoo, sympy.nan, sympy.oo) or not self.vanishes(left):
+            undefined = left.has(sympy.zoo, sympy.nan, sympy.oo)
+            if not near and (undefined or not self.vanishes(left)):
                 text = f"{model.texts[state]} = {sympy.simplify(left)}"
                 self.refuse(f"equation of {state} at the steady state", text, "0")
 
@@ -392,7 +386,7 @@ class _Reader:
         draw = random.Random(1)
         terms = sympy.Add.make_args(self.model.plain(value))
         for _ in range(TRIALS):
-            at = {TIME: sympy.Rational(draw.gauss(0, 1))}
+            at = {}
             for one in self.model.parameters:
                 least = one.at_least if one.above is None else one.above
                 number = draw.gauss(0, 1) if least is None else least + draw.expovariate(1)
@@ -402,19 +396,6 @@ class _Reader:
             if total.is_comparable and total > size * sympy.Rational(10) ** (-DIGITS // 2):
                 return False
         return True
-
-    def of_each_state(self, values: dict, key: str, expected: str) -> dict[str, sympy.Expr] | None:
-        """An expression for each state, in their order; None where there are none."""
-        texts = values.get(key)
-        if texts is None:
-            return None
-        if set(texts) != set(self.model.states):
-            self.refuse(key, ", ".join(texts), expected)
-        place = key.replace("_", " ")
-        return {
-            state: self.expression(f"{place} of {state}", texts[state])
-            for state in self.model.states
-        }
 
     def expression(self, place: str, text) -> sympy.Expr:
         """An expression from its text."""

@@ -70,7 +70,7 @@ for run in RUNS:
         input:
             **{name: f"<results>/{path}" for name, path in run.needs.items()},
             program=f"build/release/bin/{run.program}",
-            models=objects_of(run),
+            models=functools.partial(objects_of, run),
         output:
             f"<results>/{run.output}",
             namelist=f"<results>/namelists/{run.stem}.nml",
@@ -84,10 +84,10 @@ for run in RUNS:
             mem_mb=1000,
             runtime=run.minutes,
         params:
-            namelist=namelist_of(run),
-            before=namelists_before(run),
+            namelist=functools.partial(namelist_of, run),
+            before=functools.partial(namelists_before, run),
             sources=digest_of_program(),
-            models=digests_of_models(run),
+            models=functools.partial(digests_of_models, run),
             command=run.command,
             folders=":".join(models.folders_of(config, BUILT, run.quad)),
         script:

@@ -6,9 +6,9 @@ module model_library
                                           c_null_char, c_ptr, c_size_t
    use dde_errors, only: error_type, raise
    use dde_kinds, only: wp
-   use model_border, only: describe_line, expand, expand_past, expand_tangents, find_delayed, &
-                           find_forms, find_jacobian, find_past, find_rate, find_rhs, find_state, &
-                           list_terms, letters => line_length
+   use model_border, only: describe_line, expand, expand_tangents, find_delayed, find_forms, &
+                           find_jacobian, find_rate, find_rhs, find_state, list_terms, &
+                           letters => line_length
    use model_description, only: description_type, word_length
    use model_interface, only: interface_digest
    use model_problem, only: code_type, model_type
@@ -196,10 +196,6 @@ contains
          end if
          call c_f_procpointer(procedure_of(library, "characteristic_terms"), &
                               code%characteristic_terms)
-      end if
-      if (has(library, "past")) then
-         call c_f_procpointer(procedure_of(library, "past"), code%past)
-         call c_f_procpointer(procedure_of(library, "past_series"), code%past_series)
       end if
    end subroutine find_procedures
 
