@@ -5,6 +5,7 @@ Expressions are read by Python's own parser and never evaluated: a definition ca
 
 import ast
 import math
+import operator as operators
 import random
 import re
 from collections.abc import Iterable
@@ -41,6 +42,10 @@ LARGEST_POWER = 64
 """Largest exponent that is a number: 9**9**9 has more digits than there is memory for."""
 LARGEST_LOGARITHM = 700
 """Largest logarithm of a power of numbers: ((9**64)**64)**64 has a million digits."""
+OPERATORS = {
+    **{ast.Add: operators.add, ast.Sub: operators.sub, ast.Mult: operators.mul},
+    **{ast.Div: operators.truediv, ast.Pow: operators.pow},
+}
 TRIALS, DIGITS = 5, 40
 """Values of the parameters at which a steady state is tested, and digits of these tests."""
 LONGEST_TEXT, LONGEST_UNIT = 500, 60
@@ -382,7 +387,7 @@ class _Reader:
                 self.refuse(f"equation of {state} at the steady state", text, "0")
 
     def vanishes(self, value: sympy.Expr) -> bool:
-        """Whether an expression is 0 at values of the parameters, where it has a value."""
+        """Whether an expression is 0 at values of the parameters, where it has a real value."""
         draw = random.Random(1)
         terms = sympy.Add.make_args(self.model.plain(value))
         for _ in range(TRIALS):
@@ -391,9 +396,10 @@ class _Reader:
                 least = one.at_least if one.above is None else one.above
                 number = draw.gauss(0, 1) if least is None else least + draw.expovariate(1)
                 at[self.model.symbol(one.name)] = sympy.Rational(number)
-            total = sympy.Abs(sympy.Add(*terms).evalf(DIGITS, subs=at))
-            size = 1 + sum(sympy.Abs(term.evalf(DIGITS, subs=at)) for term in terms)
-            if total.is_comparable and total > size * sympy.Rational(10) ** (-DIGITS // 2):
+            found = [term.evalf(DIGITS, subs=at) for term in terms]
+            size = 1 + sum(map(sympy.Abs, found))
+            is_real = all(one.is_comparable for one in found)
+            if is_real and abs(sum(found)) > size * sympy.Rational(10) ** (-DIGITS // 2):
                 return False
         return True
 
@@ -470,31 +476,23 @@ class _Expression:
             return TIME
         if name in model.definitions:
             return self.reader.definition(name)
-        if name in {*model.states, *model.auxiliary, *(one.name for one in model.parameters)}:
-            return model.symbol(name)
         known = [*(one.name for one in model.parameters), *model.states, *model.auxiliary]
+        if name in known:
+            return model.symbol(name)
         self.refuse(node, f"one of {', '.join([*known, *model.definitions])}")
 
     def combined(self, node, operator, left: sympy.Expr, right: sympy.Expr) -> sympy.Expr:
-        match operator:
-            case ast.Add():
-                return left + right
-            case ast.Sub():
-                return left - right
-            case ast.Mult():
-                return left * right
-            case ast.Div():
-                return left / right
-            case ast.Pow():
-                if right.free_symbols & self.reader.model.variables:
-                    self.refuse(node, "a power with a constant exponent; write exp(b*log(a))")
-                if right.is_number and abs(right) > LARGEST_POWER:
-                    self.refuse(node, f"an exponent of size <= {LARGEST_POWER}")
-                size = abs(right) * sympy.log(abs(left)) if left.is_number and left != 0 else 0
-                if right.is_number and abs(sympy.N(size)) > LARGEST_LOGARITHM:
-                    self.refuse(node, f"a power below exp({LARGEST_LOGARITHM})")
-                return left**right
-        self.refuse(node, "+ - * / **")
+        if type(operator) not in OPERATORS:
+            self.refuse(node, "+ - * / **")
+        if isinstance(operator, ast.Pow):
+            if right.free_symbols & self.reader.model.variables:
+                self.refuse(node, "a power with a constant exponent; write exp(b*log(a))")
+            if right.is_number and abs(right) > LARGEST_POWER:
+                self.refuse(node, f"an exponent of size <= {LARGEST_POWER}")
+            size = abs(right) * sympy.log(abs(left)) if left.is_number and left != 0 else 0
+            if right.is_number and abs(sympy.N(size)) > LARGEST_LOGARITHM:
+                self.refuse(node, f"a power below exp({LARGEST_LOGARITHM})")
+        return OPERATORS[type(operator)](left, right)
 
     def called(self, node: ast.Call, name: str, args: list[ast.AST]) -> sympy.Expr:
         model = self.reader.model
