@@ -8,7 +8,7 @@ from scripts.files.tsv import read_table
 from scripts.namelists import laws, models
 from scripts.namelists.write_namelist import end_at_horizons, text_of
 from scripts.plans import studies
-from scripts.plans.declare import BUILD, MAIN, PAPER
+from scripts.plans.declare import BUILD, MAIN, PAPER, stem_of
 from scripts.workflow.script_imports import modules_of
 
 

@@ -73,11 +73,11 @@ for run in RUNS:
             models=functools.partial(objects_of, run),
         output:
             f"<results>/{run.output}",
-            namelist=f"<results>/namelists/{run.stem}.nml",
+            namelist=f"<results>/namelists/{stem_of(run.output)}.nml",
         log:
-            f"<results>/logs/{run.stem}.log",
+            f"<results>/logs/{stem_of(run.output)}.log",
         benchmark:
-            f"<results>/benchmarks/{run.stem}.tsv"
+            f"<results>/benchmarks/{stem_of(run.output)}.tsv"
         priority: run.priority
         localrule: not run.minutes
         resources:

@@ -12,7 +12,7 @@ for path, table in studies.tables():
         output:
             **{name: f"<results>/{file}" for name, file in outputs.items()},
         log:
-            f"<results>/logs/{table.stem}.log",
+            f"<results>/logs/{stem_of(table.output)}.log",
         priority: table.priority
         localrule: True
         params:
