@@ -128,7 +128,7 @@ def test_everything_that_the_file_adds_is_made(made):
     files = {link for link in links if not link.startswith(("data:", "http"))}
     assert {f"figures/{name}.svg" for name in FIGURES} <= files
     assert [link for link in files if not (page.parent / link).is_file()] == []
-    for part in ('id="trajectory-view"', 'id="claim-my_claim"', 'id="play-view"'):
+    for part in ('id="claim-my_claim"', 'id="play-view"'):
         assert part in page.read_text()
     # figures of one scene have entries of their own; of four verdicts one was reached
     entries = re.findall(r'<li><a href="#[^"]*">([^<]*)</a>', page.read_text())
