@@ -7,7 +7,6 @@ module measure_command
    use dde_kinds, only: wp
    use measured_case, only: case_type
    use measured_run, only: measure_run, time_runs
-   use program_arguments, only: stop_on
    use progress, only: progress_type
    implicit none (type, external)
    private
@@ -15,22 +14,18 @@ module measure_command
 
 contains
 
-   !> Measured runs: cases solved by several methods at several tolerances, with what each run
-   !> gave and what it cost. A run that fails is a row with its reason.
-   subroutine run_measure(namelist_path, output_path)
-      !> Path of the namelist
-      character(len=*), intent(in) :: namelist_path
-      !> Path of the file to write
-      character(len=*), intent(in) :: output_path
+   !> Run the command.
+   subroutine run_measure(namelist_path, output_path, error)
+      character(len=*), intent(in) :: namelist_path, output_path
+      type(error_type), allocatable, intent(out) :: error
       type(case_type), allocatable :: cases(:)
-      type(error_type), allocatable :: error
       type(measure_settings_type) :: settings
       type(measured_runs_type), allocatable :: measured(:)
       type(progress_type) :: report
       integer :: i, j
 
       call read_measure(namelist_path, cases, settings, error)
-      call stop_on(error)
+      if (allocated(error)) return
       allocate (measured(size(cases)))
       report = progress_type("measured runs", parts=2*size(cases))
       do i = 1, size(cases)
@@ -46,6 +41,5 @@ contains
                         measured(i)%runs, report)
       end do
       call write_measured_runs(output_path, measured, error)
-      call stop_on(error)
    end subroutine run_measure
 end module measure_command

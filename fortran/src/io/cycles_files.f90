@@ -50,6 +50,8 @@ module cycles_files
    integer, parameter :: multipliers = 4
    !> Letters of the origin and of the ending of a branch
    integer, parameter :: letters = 16
+   !> What errors of multipliers are
+   character(len=*), parameter :: trivial_error = "distance of the trivial multiplier from 1"
 
 contains
 
@@ -68,8 +70,7 @@ contains
       integer :: i
       namelist /settings/ cycles
 
-      call file%open(path, error)
-      if (allocated(error)) return
+      call file%open(path)
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       ! the value of the parameter along the line is not used
       call cycles%model%put(trim(cycles%along), cycles%window(1))
@@ -118,7 +119,6 @@ contains
       type(description_type) :: about
       character(len=:), allocatable :: along
       integer :: i, rows
-      real(wp), allocatable :: numbers(:, :)
 
       about = settings%line%model%describe()
       along = trim(settings%line%model%names(settings%line%along))
@@ -128,18 +128,14 @@ contains
       call file%attribute("degree", int(settings%degree, int64))
       call put_orbits(file, settings%line%model, settings%line%along, along, &
                       trim(about%parameters(settings%line%along)%meaning), found)
-      rows = file%dimension("left_out", size(left_out))
-      call file%words(rows, "left_out_origin", left_out%origin, "where it starts")
-      call file%column(rows, "left_out_"//along, left_out%at, "parameter along the line")
-      call file%words(rows, "left_out_reason", left_out%reason, "why no branch was followed")
+      rows = file%dimension("left_out", size(left_out), prefix="left_out_")
+      call file%words(rows, "origin", left_out%origin, "where it starts")
+      call file%column(rows, along, left_out%at, "parameter along the line")
+      call file%words(rows, "reason", left_out%reason, "why no branch was followed")
       call put_points(file, settings%line%model, found)
-      allocate (numbers(size(settings%line%model%names), size(hopf)))
-      do i = 1, size(hopf)
-         numbers(:, i) = hopf(i)%numbers
-      end do
-      rows = file%dimension("hopf", size(hopf))
-      call put_places(file, rows, settings%line%model, numbers, "hopf_")
-      call file%column(rows, "hopf_omega", hopf%omega, "angular frequency of its pair")
+      rows = file%dimension("hopf", size(hopf), prefix="hopf_")
+      call put_places(file, rows, settings%line%model, [(hopf(i)%numbers, i=1, size(hopf))])
+      call file%column(rows, "omega", hopf%omega, "angular frequency of its pair")
       call put_curves(file, settings, curves)
       call put_cusps(file, settings%line%model, curves)
       call file%finish(error)
@@ -190,8 +186,7 @@ contains
       signal = signal_name(model)
       call file%column(rows, signal//"_least", columns(:, 3), "least "//signal)
       call file%column(rows, signal//"_most", columns(:, 4), "greatest "//signal)
-      call file%column(rows, "multiplier_error", columns(:, 5), &
-                       "distance of the trivial multiplier from 1")
+      call file%column(rows, "multiplier_error", columns(:, 5), trivial_error)
       call file%column(rows, "branch", branch, "number of the branch, from 1")
       call file%column(rows, "intervals", intervals, "intervals of the mesh")
       call file%column(rows, "unstable", unstable, "multipliers outside of the unit circle")
@@ -199,9 +194,9 @@ contains
       call file%table([several, rows], "multiplier_real", real_part, &
                       "real part of the multipliers of greatest modulus")
       call file%table([several, rows], "multiplier_imaginary", imaginary, "their imaginary part")
-      rows = file%dimension("branches", size(found))
-      call file%words(rows, "branch_origin", words(:, 1), "where the branch starts")
-      call file%words(rows, "branch_ending", words(:, 2), "why it ends")
+      rows = file%dimension("branches", size(found), prefix="branch_")
+      call file%words(rows, "origin", words(:, 1), "where the branch starts")
+      call file%words(rows, "ending", words(:, 2), "why it ends")
    end subroutine put_orbits
 
    !> Least and greatest signal on an orbit.
@@ -220,12 +215,12 @@ contains
       type(model_type), intent(in) :: model
       type(cycles_type), intent(in) :: found(:)
       character(len=kind_length), allocatable :: words(:, :)
-      real(wp), allocatable :: columns(:, :), places(:, :)
+      real(wp), allocatable :: columns(:, :)
       integer, allocatable :: numbers(:, :)
       integer :: all, i, j, row, rows
 
       all = sum([(size(found(i)%points), i=1, size(found))])
-      allocate (words(all, 2), columns(all, 10), numbers(all, 5), places(size(model%names), all))
+      allocate (words(all, 2), columns(all, 10), numbers(all, 5))
       columns = ieee_value(1.0_wp, ieee_quiet_nan)
       row = 0
       do i = 1, size(found)
@@ -233,7 +228,6 @@ contains
             row = row + 1
             associate (point => found(i)%points(j))
                words(row, :) = [point%kind, point%criticality()]
-               places(:, row) = point%orbit%parameters
                columns(row, 1) = point%orbit%period
                columns(row, 2) = maxval(signal_range(model, point%orbit))
                columns(row, 3:7) = [real(point%multiplier), aimag(point%multiplier), &
@@ -247,35 +241,31 @@ contains
             end associate
          end do
       end do
-      rows = file%dimension("special", all)
-      call file%words(rows, "special_kind", words(:, 1), "kind of the special point")
-      call file%words(rows, "special_criticality", words(:, 2), "criticality of a torus point")
-      call put_places(file, rows, model, places, "special_")
-      call file%column(rows, "special_period", columns(:, 1), "its period")
-      call file%column(rows, "special_"//signal_name(model)//"_most", columns(:, 2), &
+      rows = file%dimension("special", all, prefix="special_")
+      call file%words(rows, "kind", words(:, 1), "kind of the special point")
+      call file%words(rows, "criticality", words(:, 2), "criticality of a torus point")
+      call put_places(file, rows, model, [((found(i)%points(j)%orbit%parameters, &
+                                            j=1, size(found(i)%points)), i=1, size(found))])
+      call file%column(rows, "period", columns(:, 1), "its period")
+      call file%column(rows, signal_name(model)//"_most", columns(:, 2), &
                        "its greatest "//signal_name(model))
-      call file%column(rows, "special_multiplier_real", columns(:, 3), &
+      call file%column(rows, "multiplier_real", columns(:, 3), &
                        "real part of the critical multiplier")
-      call file%column(rows, "special_multiplier_imaginary", columns(:, 4), "imaginary part of it")
-      call file%column(rows, "special_angle", columns(:, 5), "angle of it over a full turn")
-      call file%column(rows, "special_multiplier_error", columns(:, 6), &
-                       "distance of the trivial multiplier from 1")
-      call file%column(rows, "special_mesh_error", columns(:, 7), &
+      call file%column(rows, "multiplier_imaginary", columns(:, 4), "imaginary part of it")
+      call file%column(rows, "angle", columns(:, 5), "angle of it over a full turn")
+      call file%column(rows, "multiplier_error", columns(:, 6), trivial_error)
+      call file%column(rows, "mesh_error", columns(:, 7), &
                        "difference of the parameter on two meshes")
-      call file%column(rows, "special_coefficient", columns(:, 8), &
-                       "cubic coefficient of a torus point")
-      call file%column(rows, "special_coefficient_error", columns(:, 9), &
-                       "difference of it on two meshes")
-      call file%column(rows, "special_amplitude", columns(:, 10), &
+      call file%column(rows, "coefficient", columns(:, 8), "cubic coefficient of a torus point")
+      call file%column(rows, "coefficient_error", columns(:, 9), "difference of it on two meshes")
+      call file%column(rows, "amplitude", columns(:, 10), &
                        "half range of maxima of the signal of tori, over root of distance")
-      call file%column(rows, "special_branch", numbers(:, 1), "its branch, from 1")
-      call file%column(rows, "special_unstable_before", numbers(:, 2), &
-                       "unstable multipliers before it")
-      call file%column(rows, "special_unstable_behind", numbers(:, 3), &
-                       "unstable multipliers behind it")
-      call file%column(rows, "special_resonance_turns", numbers(:, 4), &
+      call file%column(rows, "branch", numbers(:, 1), "its branch, from 1")
+      call file%column(rows, "unstable_before", numbers(:, 2), "unstable multipliers before it")
+      call file%column(rows, "unstable_behind", numbers(:, 3), "unstable multipliers behind it")
+      call file%column(rows, "resonance_turns", numbers(:, 4), &
                        "p of the fraction p/q nearest to the angle")
-      call file%column(rows, "special_resonance_periods", numbers(:, 5), "q of it, at most 10")
+      call file%column(rows, "resonance_periods", numbers(:, 5), "q of it, at most 10")
    end subroutine put_points
 
    !> Curves, each from one end to the other.
@@ -321,13 +311,12 @@ contains
       call file%column(rows, "curve_period", columns(:, 3), "its period")
       call file%column(rows, "curve_angle", columns(:, 4), &
                        "angle of the critical multiplier over a full turn")
-      call file%column(rows, "curve_multiplier_error", columns(:, 5), &
-                       "distance of the trivial multiplier from 1")
+      call file%column(rows, "curve_multiplier_error", columns(:, 5), trivial_error)
       call file%column(rows, "curve", number, "number of the curve, from 1")
-      rows = file%dimension("curves", size(curves))
-      call file%words(rows, "curve_kind", words(:, 1), "kind of its points")
-      call file%words(rows, "curve_first_end", words(:, 2), "why it ends at its first point")
-      call file%words(rows, "curve_last_end", words(:, 3), "why it ends at its last point")
+      rows = file%dimension("curves", size(curves), prefix="curve_")
+      call file%words(rows, "kind", words(:, 1), "kind of its points")
+      call file%words(rows, "first_end", words(:, 2), "why it ends at its first point")
+      call file%words(rows, "last_end", words(:, 3), "why it ends at its last point")
    end subroutine put_curves
 
    !> Cusps of curves of folds.
@@ -335,43 +324,28 @@ contains
       type(output_file_type), intent(inout) :: file
       type(model_type), intent(in) :: model
       type(cycle_curve_type), intent(in) :: curves(:)
-      integer :: i, k, rows
+      type(special_point_type), allocatable :: cusps(:)
       integer, allocatable :: number(:)
-      real(wp), allocatable :: columns(:, :), places(:, :)
+      integer :: i, j, k, rows
 
-      i = sum([((size(curves(i)%parts(k)%cusps), k=1, 2), i=1, size(curves))])
-      allocate (columns(4, i), places(size(model%names), i), number(0))
+      allocate (cusps(0), number(0))
       do i = 1, size(curves)
          do k = 1, 2
-            call add_cusps(curves(i)%parts(k)%cusps)
-         end do
-      end do
-      rows = file%dimension("cusp", size(number))
-      call put_places(file, rows, model, places, "cusp_")
-      call file%column(rows, "cusp_period", columns(1, :), "its period")
-      call file%column(rows, "cusp_"//signal_name(model)//"_most", columns(2, :), &
-                       "its greatest "//signal_name(model))
-      call file%column(rows, "cusp_multiplier_error", columns(3, :), &
-                       "distance of the trivial multiplier from 1")
-      call file%column(rows, "cusp_mesh_error", columns(4, :), &
-                       "difference of the parameters on two meshes")
-      call file%column(rows, "cusp_curve", number, "its curve, from 1")
-
-   contains
-
-      !> Columns of more cusps.
-      subroutine add_cusps(cusps)
-         type(special_point_type), intent(in) :: cusps(:)
-         integer :: j
-
-         do j = 1, size(cusps)
-            number = [number, i]
-            associate (orbit => cusps(j)%orbit)
-               places(:, size(number)) = orbit%parameters
-               columns(:, size(number)) = [orbit%period, maxval(signal_range(model, orbit)), &
-                                           cusps(j)%trivial_error, cusps(j)%mesh_error]
+            associate (more => curves(i)%parts(k)%cusps)
+               cusps = [cusps, more]
+               number = [number, spread(i, 1, size(more))]
             end associate
          end do
-      end subroutine add_cusps
+      end do
+      rows = file%dimension("cusp", size(cusps), prefix="cusp_")
+      call put_places(file, rows, model, [(cusps(j)%orbit%parameters, j=1, size(cusps))])
+      call file%column(rows, "period", cusps%orbit%period, "its period")
+      call file%column(rows, signal_name(model)//"_most", &
+                       [(maxval(signal_range(model, cusps(j)%orbit)), j=1, size(cusps))], &
+                       "its greatest "//signal_name(model))
+      call file%column(rows, "multiplier_error", cusps%trivial_error, trivial_error)
+      call file%column(rows, "mesh_error", cusps%mesh_error, &
+                       "difference of the parameters on two meshes")
+      call file%column(rows, "curve", number, "its curve, from 1")
    end subroutine put_cusps
 end module cycles_files

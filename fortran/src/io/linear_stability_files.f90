@@ -43,8 +43,7 @@ contains
       integer :: i
       namelist /settings/ linear_stability
 
-      call file%open(path, error)
-      if (allocated(error)) return
+      call file%open(path)
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
@@ -81,9 +80,9 @@ contains
       call file%attribute("root_bound", settings%root_bound)
       call file%attribute("unstable_pairs", int(pairs(1), int64))
       call file%attribute("unstable_pairs_without_delay", int(pairs(2), int64))
-      rows = file%dimension("root", size(roots))
-      call file%column(rows, "root_real", real(roots), "real part of a characteristic root")
-      call file%column(rows, "root_imag", aimag(roots), "its imaginary part")
+      rows = file%dimension("root", size(roots), prefix="root_")
+      call file%column(rows, "real", real(roots), "real part of a characteristic root")
+      call file%column(rows, "imag", aimag(roots), "its imaginary part")
       do i = 1, size(changes)
          call put_changes(file, trim(model%names(changes(i)%along)), settings%windows(2, i), &
                           changes(i))
@@ -102,15 +101,13 @@ contains
 
       call file%attribute(name//"_most", most)
       associate (points => changes%points)
-         rows = file%dimension("change_with_"//name, size(points))
-         call file%column(rows, name//"_of_change", &
+         rows = file%dimension("change_with_"//name, size(points), prefix=name//"_")
+         call file%column(rows, "of_change", &
                           [(points(i)%numbers(changes%along), i=1, size(points))], &
                           name//" at which a pair crosses the axis")
-         call file%column(rows, name//"_change_omega", points%omega, "its frequency")
-         call file%column(rows, name//"_change_pairs_before", points%pairs_before, &
-                          "unstable pairs below")
-         call file%column(rows, name//"_change_pairs_after", points%pairs_behind, &
-                          "unstable pairs above")
+         call file%column(rows, "change_omega", points%omega, "its frequency")
+         call file%column(rows, "change_pairs_before", points%pairs_before, "unstable pairs below")
+         call file%column(rows, "change_pairs_after", points%pairs_behind, "unstable pairs above")
       end associate
    end subroutine put_changes
 end module linear_stability_files

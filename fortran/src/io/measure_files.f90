@@ -7,11 +7,11 @@ module measure_files
    use dde_kinds, only: int64, wp
    use measured_case, only: case_type
    use measured_run, only: baseline_methods, run_type
-   use model_attributes, only: joined, put_places
+   use model_attributes, only: put_places
    use model_description, only: description_type, model_length => word_length
    use model_history, only: shown_name
    use namelist_input, only: element_length, elements, namelist_file_type
-   use netcdf_output, only: output_file_type
+   use netcdf_output, only: joined, output_file_type
    use value_checks, only: absent, check_count, missing, missing_count
    implicit none (type, external)
    private
@@ -66,8 +66,7 @@ contains
       namelist /settings/ cases, measure
 
       allocate (cases(most_cases))
-      call file%open(path, error)
-      if (allocated(error)) return
+      call file%open(path)
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       ! gfortran cannot write a namelist with an array of no elements that have derived types
       cases = cases(:max(1, count(cases%name /= "")))
@@ -106,9 +105,8 @@ contains
       type(run_type), allocatable :: runs(:)
       real(wp), allocatable :: table(:, :)
       character(len=reason_length), allocatable :: reasons(:)
-      integer :: i, j, most_samples, run, sample, samples
+      integer :: i, j, most_samples, run, sample
       character(len=:), allocatable :: name
-      real(wp), allocatable :: numbers(:, :), past(:, :)
 
       allocate (cases(0), runs(0))
       do i = 1, size(measured)
@@ -132,16 +130,12 @@ contains
                        "tolerance, or length of the steps of rk4 methods")
       call file%words(run, "model", [(model_name(cases(i)), i=1, size(cases))], "name of the model")
       associate (model => cases(1)%model, history => cases(1)%history)
-         allocate (numbers(size(model%names), size(cases)), past(size(history%names), size(cases)))
-         do i = 1, size(cases)
-            numbers(:, i) = cases(i)%model%numbers
-            past(:, i) = cases(i)%history%values(:, 1, 1)
-         end do
          call file%attribute("parameters", joined(model%names))
-         call put_places(file, run, model, numbers, "")
-         do i = 1, size(history%names)
-            call file%column(run, "history_"//trim(history%names(i)), past(i, :), &
-                             trim(history%names(i))//" for t <= 0")
+         call put_places(file, run, model, [(cases(i)%model%numbers, i=1, size(cases))])
+         do j = 1, size(history%names)
+            call file%column(run, "history_"//trim(history%names(j)), &
+                             [(cases(i)%history%values(j, 1, 1), i=1, size(cases))], &
+                             trim(history%names(j))//" for t <= 0")
          end do
       end associate
       call file%column(run, "t_end", cases%t_end, "last time asked for")
@@ -167,12 +161,15 @@ contains
       allocate (table(most_samples, size(runs)))
       table = ieee_value(1.0_wp, ieee_quiet_nan)
       do i = 1, size(runs)
-         samples = size(runs(i)%samples, 2)
-         table(:samples, i) = cases(i)%sample_times()
+         table(:size(runs(i)%samples, 2), i) = cases(i)%sample_times()
       end do
       call file%table([sample, run], "time", table, "time of the sample")
       do j = 1, size(runs(1)%samples, 1)
-         call put_samples(shown_name(cases(1)%model, j), j)
+         do i = 1, size(runs)
+            table(:size(runs(i)%samples, 2), i) = runs(i)%samples(j, :)
+         end do
+         name = shown_name(cases(1)%model, j)
+         call file%table([sample, run], name, table, name//" of the sample")
       end do
       call file%finish(error)
 
@@ -187,17 +184,5 @@ contains
          about = case%model%describe()
          word = about%name
       end function model_name
-
-      !> Samples of one component of each run.
-      subroutine put_samples(name, component)
-         character(len=*), intent(in) :: name
-         integer, intent(in) :: component
-
-         table = ieee_value(1.0_wp, ieee_quiet_nan)
-         do i = 1, size(runs)
-            table(:size(runs(i)%samples, 2), i) = runs(i)%samples(component, :)
-         end do
-         call file%table([sample, run], name, table, name//" of the sample")
-      end subroutine put_samples
    end subroutine write_measured_runs
 end module measure_files

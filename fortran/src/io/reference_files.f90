@@ -61,8 +61,7 @@ contains
       namelist /settings/ cases, reference
 
       allocate (cases(most_cases))
-      call file%open(path, error)
-      if (allocated(error)) return
+      call file%open(path)
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       ! gfortran cannot write a namelist with an array of no elements that have derived types
       cases = cases(:max(1, count(cases%name /= "")))

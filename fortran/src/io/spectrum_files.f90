@@ -83,8 +83,7 @@ contains
       namelist /without_path/ spectrum
 
       trajectory = ""
-      call file%open(path, error)
-      if (allocated(error)) return
+      call file%open(path)
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       write (file%copy, nml=without_path, delim="quote")
       call file%close(error)
@@ -201,16 +200,15 @@ contains
 
       call file%create(path, "Power spectrum of "//signal)
       bins = file%dimension("frequency", size(frequency))
-      rows = file%dimension("peak", size(peaks), coordinates="peak_frequency")
+      rows = file%dimension("peak", size(peaks), "peak_frequency", "peak_")
       call file%column(bins, "frequency", frequency, "frequency, cycles per unit of time")
       call file%column(bins, "power", power, "one-sided power spectral density of "//signal)
-      call file%column(rows, "peak_frequency", peaks%frequency, &
-                       "interpolated frequency of the peak")
-      call file%column(rows, "peak_power", peaks%power, "interpolated height of the peak")
-      call file%flags(rows, "peak_kind", peaks%kind, kind_names, "what the peak is", kinds)
-      call file%column(rows, "peak_multiple", peaks%multiple(1), &
+      call file%column(rows, "frequency", peaks%frequency, "interpolated frequency of the peak")
+      call file%column(rows, "power", peaks%power, "interpolated height of the peak")
+      call file%flags(rows, "kind", peaks%kind, kind_names, "what the peak is", kinds)
+      call file%column(rows, "multiple", peaks%multiple(1), &
                        "multiple of the first fundamental frequency")
-      call file%column(rows, "peak_second_multiple", peaks%multiple(2), &
+      call file%column(rows, "second_multiple", peaks%multiple(2), &
                        "multiple of the second fundamental frequency, added to the first's")
       base = file%dimension("base", count(bases%frequency > 0.0_wp))
       call file%column(base, "base_frequency", pack(bases%frequency, bases%frequency > 0.0_wp), &
