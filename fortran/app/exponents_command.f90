@@ -29,7 +29,8 @@ contains
       if (allocated(error)) return
       options = settings%options_of_runs(scene%options())
       allocate (measured(size(options)))
-      call comes_to_rest(scene%problem, scene%t_transient, settings%t_end, options(1), at_rest, error)
+      call comes_to_rest(scene%problem, scene%t_transient, settings%t_end, options(1), at_rest, &
+                         error)
       if (allocated(error)) return
       report = progress_type("exponents of "//trim(scene%name), parts=size(options))
       do i = 1, size(options)

@@ -296,7 +296,7 @@ contains
       class(output_file_type), intent(inout) :: self
       integer, intent(in) :: variable
       real(wp), intent(in) :: values(:)
-      !> Indices of the first value, 1 if they are left out, and numbers of values, of all dimensions
+      !> Indices of the first value, 1 if they are left out, and numbers of values along dimensions
       integer, intent(in), optional :: start(:), count(:)
 
       call self%note(nf90_put_var(self%id, variable, values, start=start, count=count))
