@@ -7,7 +7,7 @@ module hopf_curves
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use hopf_lines, only: find_hopf_on_line, hopf_on_line_type
-   use hopf_planes, only: axis_point_type, curve_plane_type, turn
+   use hopf_planes, only: axis_point_type, chord_of, curve_plane_type, side, turn
    implicit none (type, external)
    private
    public :: curve_point_type, trace_curves
@@ -136,13 +136,6 @@ contains
       end associate
    end function crossings
 
-   !> On which side of a line a place is.
-   pure real(wp) function side(from, to, place) result(value)
-      real(wp), intent(in) :: from(2), to(2), place(2)
-
-      value = (to(1) - from(1))*(place(2) - from(2)) - (to(2) - from(2))*(place(1) - from(1))
-   end function side
-
    !> Whether a point is on a known piece.
    pure logical function is_known(pieces, point) result(value)
       type(piece_type), intent(in) :: pieces(:)
@@ -215,9 +208,8 @@ contains
       length = first_step
       do number = 1, most_points
          do
-            next = moved(here, tangent, length)
-            call plane%correct(next, tangent, dot_product(tangent, [here%place, log(here%omega)]) &
-                               + length, found, turned)
+            next = here%moved(tangent, length)
+            call plane%correct(next, tangent, here%along(tangent) + length, found, turned)
             if (found) found = is_smooth(here, next, tangent, turned)
             if (found) exit
             length = 0.5_wp*length
@@ -252,15 +244,6 @@ contains
       value = c%curvature_bound(s)*point%omega**2 < least_share*c%largest_term(s)
    end function is_at_double_zero
 
-   !> A point further along a direction.
-   pure type(axis_point_type) function moved(point, direction, length) result(there)
-      type(axis_point_type), intent(in) :: point
-      real(wp), intent(in) :: direction(3), length
-
-      there%place = point%place + length*direction(:2)
-      there%omega = point%omega*exp(length*direction(3))
-   end function moved
-
    !> Whether the chord between two points is short and looks like the curve in the plane.
    pure logical function is_smooth(here, next, tangent, turned) result(value)
       type(axis_point_type), intent(in) :: here, next
@@ -290,8 +273,8 @@ contains
       type(axis_point_type), intent(in) :: here, next, start
       real(wp) :: chord(3), share, way(3)
 
-      chord = [next%place - here%place, log(next%omega/here%omega)]
-      way = [start%place - here%place, log(start%omega/here%omega)]
+      chord = chord_of(here, next)
+      way = chord_of(here, start)
       share = dot_product(way, chord)/dot_product(chord, chord)
       value = share > 0.0_wp .and. share <= 1.0_wp .and. norm2(way - share*chord) <= near
    end function passes

@@ -48,15 +48,11 @@ contains
       logical :: found
 
       beside = at
-      call plane%correct(beside, direction, dot_product(direction, [at%place, log(at%omega)]), &
-                         found, along)
+      call plane%correct(beside, direction, at%along(direction), found, along)
       do i = -2, 2
          if (.not. found) exit
-         associate (way => i*slope_step*along)
-            beside = axis_point_type(at%place + way(:2), at%omega*exp(way(3)))
-            call plane%correct(beside, along, dot_product(along, [at%place, log(at%omega)] + way), &
-                               found)
-         end associate
+         beside = at%moved(along, i*slope_step)
+         call plane%correct(beside, along, at%along(along) + i*slope_step, found)
          if (.not. found) exit
          call normal_form_coefficient(plane%model_at(plane%numbers_at(beside%place)), &
                                       [beside%omega], [2, 1], c1(i), error)
