@@ -38,7 +38,6 @@ contains
 
    !> Read and check all sections.
    subroutine read_attractors(path, observation, options, points, model, history, error)
-      !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> How attractors are judged
       type(attractor_settings_type), intent(out) :: observation
@@ -46,7 +45,6 @@ contains
       type(integration_options), intent(out) :: options
       !> Where they are looked for
       type(points_settings_type), intent(out) :: points
-      !> The model
       type(model_type), intent(out) :: model
       !> Histories from which they are reached
       type(history_type), intent(out) :: history
@@ -71,21 +69,15 @@ contains
    !> Write what was found at each point.
    subroutine write_attractors(path, points, model, history, list, settings, options, findings, &
                                error)
-      !> Path of the file
       character(len=*), intent(in) :: path
       !> Where attractors were looked for, and what is kept of each
       type(points_settings_type), intent(in) :: points
-      !> The model
       type(model_type), intent(in) :: model
-      !> The histories
       type(history_type), intent(in) :: history
-      !> All points
       type(point_type), intent(in) :: list(:)
-      !> How attractors were judged
       type(attractor_settings_type), intent(in) :: settings
       !> Method and tolerances
       type(integration_options), intent(in) :: options
-      !> What was found
       type(finding_type), intent(in) :: findings(:)
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error

@@ -57,9 +57,7 @@ contains
 
    !> Read and check what is computed.
    subroutine read_cycles(path, line_settings, error)
-      !> Path of the namelist file
       character(len=*), intent(in) :: path
-      !> What is computed
       type(cycle_settings_type), intent(out) :: line_settings
       !> Error if the file cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
@@ -101,13 +99,10 @@ contains
    !> Write the orbits of all branches one after another, the branches, the starts left out, the
    !> special points, the Hopf points, the points of all curves one after another, and their cusps.
    subroutine write_cycles(path, settings, hopf, found, left_out, curves, error)
-      !> Path of the file
       character(len=*), intent(in) :: path
       !> What was asked
       type(cycle_settings_type), intent(in) :: settings
-      !> Hopf points
       type(hopf_on_line_type), intent(in) :: hopf(:)
-      !> Branches
       type(cycles_type), intent(in) :: found(:)
       !> Starts without a branch of their own
       type(left_out_type), intent(in) :: left_out(:)

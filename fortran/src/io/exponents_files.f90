@@ -59,11 +59,8 @@ contains
 
    !> Read and check a scene and the settings of its exponents.
    subroutine read_exponents(path, opened, exponents, error)
-      !> Path of the namelist file
       character(len=*), intent(in) :: path
-      !> The scene
       type(scene_type), intent(out) :: opened
-      !> The settings
       type(exponents_settings_type), intent(out) :: exponents
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
@@ -83,10 +80,8 @@ contains
 
    !> Write the exponents of a scene: the first run has its own settings, the others are checks.
    subroutine write_exponents(path, scene, settings, options, measured, error)
-      !> Path of the file
       character(len=*), intent(in) :: path
       type(scene_type), intent(in) :: scene
-      !> How they were measured
       type(exponents_settings_type), intent(in) :: settings
       !> Tolerances and longest steps
       type(integration_options), intent(in) :: options(:)

@@ -35,9 +35,7 @@ contains
 
    !> Read and check a plane.
    subroutine read_plane(path, hopf_curves, plane, error)
-      !> Path of the namelist file
       character(len=*), intent(in) :: path
-      !> The settings
       type(hopf_settings_type), intent(out) :: hopf_curves
       !> The plane they describe
       type(curve_plane_type), intent(out) :: plane
@@ -80,15 +78,11 @@ contains
 
    !> Write all points of all curves, piece by piece, the special points and the map.
    subroutine write_curves(path, settings, plane, points, special, pairs, error)
-      !> Path of the file
       character(len=*), intent(in) :: path
       !> The plane as the namelist gives it
       type(hopf_settings_type), intent(in) :: settings
-      !> The plane
       type(curve_plane_type), intent(in) :: plane
-      !> Points
       type(curve_point_type), intent(in) :: points(:)
-      !> Special points
       type(hopf_point_type), intent(in) :: special(:)
       !> Number of unstable pairs in cells of the window, the abscissa first
       integer, intent(in) :: pairs(:, :)

@@ -31,11 +31,8 @@ contains
 
    !> Read and check model and bounds.
    subroutine read_linear_stability(path, linear_stability, model, error)
-      !> Path of the namelist file
       character(len=*), intent(in) :: path
-      !> The settings
       type(linear_stability_settings_type), intent(out) :: linear_stability
-      !> The model
       type(model_type), intent(out) :: model
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
@@ -58,11 +55,9 @@ contains
 
    !> Write roots and changes of stability.
    subroutine write_linear_stability(path, settings, model, roots, pairs, changes, error)
-      !> Path of the file
       character(len=*), intent(in) :: path
       !> What was asked for
       type(linear_stability_settings_type), intent(in) :: settings
-      !> The model
       type(model_type), intent(in) :: model
       !> Roots, the rightmost first
       complex(wp), intent(in) :: roots(:)

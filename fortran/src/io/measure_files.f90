@@ -53,11 +53,8 @@ contains
 
    !> Read and check cases and settings.
    subroutine read_measure(path, measured, measure, error)
-      !> Path of the namelist file
       character(len=*), intent(in) :: path
-      !> The cases
       type(case_type), allocatable, intent(out) :: measured(:)
-      !> The settings
       type(measure_settings_type), intent(out) :: measure
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
@@ -94,7 +91,6 @@ contains
    !> Write all runs of all cases, which have one model; a case with fewer samples than another is
    !> filled up with NaN.
    subroutine write_measured_runs(path, measured, error)
-      !> Path of the file
       character(len=*), intent(in) :: path
       !> Cases and their runs
       type(measured_runs_type), intent(in) :: measured(:)

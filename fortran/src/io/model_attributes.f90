@@ -14,9 +14,7 @@ contains
 
    !> Write name, source, equations and parameters of a model as attributes.
    subroutine put_model(file, model, but)
-      !> The file
       type(output_file_type), intent(inout) :: file
-      !> The model
       class(model_type), intent(in) :: model
       !> Names of parameters that are left out, if any
       character(len=*), intent(in), optional :: but(:)
@@ -47,9 +45,7 @@ contains
 
    !> Write a history as attributes, that of a chain as variables over its blocks.
    subroutine put_history(file, model, history)
-      !> The file
       type(output_file_type), intent(inout) :: file
-      !> The model
       class(model_type), intent(in) :: model
       !> The history, the first of these
       type(history_type), intent(in) :: history
@@ -72,11 +68,9 @@ contains
 
    !> Write a column for each parameter.
    subroutine put_places(file, rows, model, numbers)
-      !> The file
       type(output_file_type), intent(inout) :: file
       !> Dimension of the rows
       integer, intent(in) :: rows
-      !> The model
       class(model_type), intent(in) :: model
       !> Parameters of all rows, one row after another
       real(wp), intent(in) :: numbers(:)

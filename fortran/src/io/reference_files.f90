@@ -48,11 +48,8 @@ contains
 
    !> Read and check cases and settings.
    subroutine read_reference(path, measured, reference, error)
-      !> Path of the namelist file
       character(len=*), intent(in) :: path
-      !> The cases
       type(case_type), allocatable, intent(out) :: measured(:)
-      !> The settings
       type(reference_settings_type), intent(out) :: reference
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error

@@ -53,9 +53,7 @@ contains
 
    !> Read and check a scene.
    subroutine read_scene(path, opened, error)
-      !> Path of the namelist
       character(len=*), intent(in) :: path
-      !> The scene
       type(scene_type), intent(out) :: opened
       !> The file cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
@@ -76,7 +74,6 @@ contains
    !> Open the model of a scene and read its history; keep an earlier error.
    subroutine open_scene(self, path, settings, error)
       class(scene_type), intent(inout) :: self
-      !> Path of the namelist file
       character(len=*), intent(in) :: path
       type(scene_settings_type), intent(in) :: settings
       !> First error met
@@ -91,7 +88,6 @@ contains
    !> Write name, model and history of a scene.
    subroutine put_scene(self, file)
       class(scene_type), intent(in) :: self
-      !> The file
       type(output_file_type), intent(inout) :: file
 
       call file%attribute("scene", trim(self%name))

@@ -14,10 +14,8 @@ contains
 
    !> Write the events of a scene.
    subroutine write_slip_events(path, scene, events, error)
-      !> Path of the file
       character(len=*), intent(in) :: path
       type(scene_type), intent(in) :: scene
-      !> Events of the scene
       type(slip_event_type), intent(in) :: events(:)
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error

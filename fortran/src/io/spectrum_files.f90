@@ -69,7 +69,6 @@ contains
 
    !> Read and check source and method of a spectrum.
    subroutine read_spectrum_settings(path, trajectory_path, spectrum, error)
-      !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> Trajectory file to read
       character(len=:), allocatable, intent(out) :: trajectory_path
@@ -95,7 +94,6 @@ contains
 
    !> Read times and signal, and its integral where the times are uneven.
    subroutine read_trajectory(path, block, trajectory, error)
-      !> Path of the file
       character(len=*), intent(in) :: path
       !> Number of the block of a chain
       integer, intent(in) :: block
@@ -175,21 +173,17 @@ contains
    !> Write a spectrum with its labelled peaks and what it is.
    subroutine write_spectrum(path, scene, signal, settings, frequency, power, variance, peaks, &
                              bases, error)
-      !> Path of the file
       character(len=*), intent(in) :: path
       !> Name of the scene
       character(len=*), intent(in) :: scene
       !> Name of the signal
       character(len=*), intent(in) :: signal
-      !> How it was made
       type(spectrum_settings_type), intent(in) :: settings
-      !> Frequencies
       real(wp), intent(in) :: frequency(:)
       !> Power spectral density
       real(wp), intent(in) :: power(:)
       !> Variance of the signal
       real(wp), intent(in) :: variance
-      !> Labelled peaks
       type(peak_type), intent(in) :: peaks(:)
       !> Fundamental frequencies of the spectrum
       type(bases_type), intent(in) :: bases

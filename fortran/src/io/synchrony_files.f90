@@ -49,11 +49,9 @@ contains
 
    !> Read and check a scene and what is measured.
    subroutine read_synchrony(path, opened, synchrony, error)
-      !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> The scene, a chain of one block with kappa = 1
       type(scene_type), intent(out) :: opened
-      !> The settings
       type(synchrony_settings_type), intent(out) :: synchrony
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
@@ -81,10 +79,8 @@ contains
 
    !> Write the exponents.
    subroutine write_synchrony(path, scene, settings, growth, zeros, on_cycle, error)
-      !> Path of the file
       character(len=*), intent(in) :: path
       type(scene_type), intent(in) :: scene
-      !> How they were measured
       type(synchrony_settings_type), intent(in) :: settings
       !> Exponents by s
       type(transverse_growth_type), intent(in) :: growth(:)

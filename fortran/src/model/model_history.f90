@@ -40,7 +40,6 @@ contains
 
    !> Name of the signal.
    function signal_name(model) result(name)
-      !> The model
       class(model_type), intent(in) :: model
       character(len=:), allocatable :: name
       character(len=word_length), allocatable :: names(:)
@@ -54,7 +53,6 @@ contains
 
    !> Name of a component of the state: of one whose exponential has a name the logarithm of this.
    function shown_name(model, component) result(name)
-      !> The model
       class(model_type), intent(in) :: model
       !> Number of the component
       integer, intent(in) :: component
@@ -100,7 +98,6 @@ contains
       character(len=*), intent(in) :: names(:)
       !> Values of one name after another, block after block, history after history
       real(wp), intent(in) :: values(:)
-      !> The histories
       type(history_type), intent(out) :: history
       !> First error met
       type(error_type), allocatable, intent(inout) :: error

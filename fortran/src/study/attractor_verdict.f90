@@ -92,7 +92,6 @@ contains
       type(growth_type), intent(in) :: measured
       !> Whether this is the last judgement
       logical, intent(in) :: last
-      !> The attractor
       type(attractor_type), intent(inout) :: attractor
       !> Too few samples
       type(error_type), allocatable, intent(out) :: error
@@ -214,7 +213,6 @@ contains
 
    !> Whether the last points of the section are those of a cycle.
    pure logical function on_cycle(motion) result(value)
-      !> The motion
       type(observed_motion_type), intent(in) :: motion
 
       value = period_of_tail(motion%section, motion%scale(), .false.) > 0

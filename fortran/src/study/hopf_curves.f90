@@ -60,7 +60,6 @@ contains
       real(wp), intent(in) :: x(:), y(:)
       !> Number of unstable pairs there
       integer, intent(in) :: pairs(:, :)
-      !> Points
       type(curve_point_type), allocatable, intent(out) :: points(:)
       !> A point was not found
       type(error_type), allocatable, intent(out) :: error

@@ -154,7 +154,6 @@ contains
    pure function middles(window, cells) result(x)
       !> The interval
       real(wp), intent(in) :: window(2)
-      !> Cells
       integer, intent(in) :: cells
       real(wp) :: x(cells)
       integer :: i

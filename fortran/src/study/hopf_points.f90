@@ -58,9 +58,7 @@ contains
 
    !> First Lyapunov coefficients and numbers of unstable pairs of points on curves.
    subroutine judge_points(plane, points, error)
-      !> The plane
       type(curve_plane_type), intent(in) :: plane
-      !> The points
       type(curve_point_type), intent(inout) :: points(:)
       !> No coefficient: another root at 2 i omega
       type(error_type), allocatable, intent(out) :: error
@@ -79,9 +77,7 @@ contains
 
    !> All special points on curves that have been judged.
    subroutine find_hopf_points(plane, points, found, error)
-      !> The plane
       type(curve_plane_type), intent(in) :: plane
-      !> Points of its curves
       type(curve_point_type), intent(in) :: points(:)
       !> Special points
       type(hopf_point_type), allocatable, intent(out) :: found(:)

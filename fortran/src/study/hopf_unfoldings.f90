@@ -31,9 +31,7 @@ contains
    !> derivative, folds have Re(c1) = -2 Re(c2) r and mu = Re(c2) r^2: their curve touches the Hopf
    !> curve and leaves towards the part where l1 and l2 differ in sign.
    subroutine unfold_generalised_hopf(plane, at, direction, unfolding, error)
-      !> The plane
       type(curve_plane_type), intent(in) :: plane
-      !> The point
       type(axis_point_type), intent(in) :: at
       !> About the direction of the curve in (place, ln omega), of any sign
       real(wp), intent(in) :: direction(3)
@@ -73,7 +71,6 @@ contains
 
    !> The coefficients, and the directions by mu_j = sum over parameters of Re(d root_j).
    subroutine unfold_double_hopf(plane, numbers, omega, unfolding, error)
-      !> The plane
       type(curve_plane_type), intent(in) :: plane
       !> All parameters of the point, frequencies of the pairs
       real(wp), intent(in) :: numbers(:), omega(2)
@@ -94,7 +91,6 @@ contains
 
    !> The step (abscissa, ordinate) from a double Hopf point to given growth rates.
    function way_to_growth(plane, numbers, omega, mu) result(way)
-      !> The plane
       type(curve_plane_type), intent(in) :: plane
       !> All parameters of the point, frequencies and growth rates of the pairs
       real(wp), intent(in) :: numbers(:), omega(2), mu(2)

@@ -76,7 +76,6 @@ contains
       real(wp), intent(in) :: t_end
       !> Method and tolerances
       type(integration_options), intent(in) :: options
-      !> The events
       type(slip_event_type), allocatable, intent(out) :: events(:)
       !> The run ended before its time
       type(error_type), allocatable, intent(out) :: error
