@@ -107,27 +107,25 @@ contains
       call check(nf90_open(path, nf90_nowrite, file), &
                  "cannot be opened (remove it; the next run makes it again)")
       if (allocated(error)) return
-      call check(nf90_get_att(file, nf90_global, "scene", trajectory%scene), &
-                 "attribute 'scene'"//unread)
+      call check(nf90_get_att(file, nf90_global, "scene", trajectory%scene), "attribute 'scene'")
       call check(nf90_get_att(file, nf90_global, "sample_interval", trajectory%sample_interval), &
-                 "attribute 'sample_interval'"//unread)
+                 "attribute 'sample_interval'")
       call check(nf90_get_att(file, nf90_global, "t_transient", trajectory%t_transient), &
-                 "attribute 't_transient'"//unread)
-      call check(nf90_inq_dimid(file, "t", dimension), "dimension 't'"//unread)
+                 "attribute 't_transient'")
+      call check(nf90_inq_dimid(file, "t", dimension), "dimension 't'")
       if (.not. allocated(error)) then
-         call check(nf90_inquire_dimension(file, dimension, len=length), "dimension 't'"//unread)
+         call check(nf90_inquire_dimension(file, dimension, len=length), "dimension 't'")
       end if
-      call check(nf90_get_att(file, nf90_global, "signal", trajectory%signal), &
-                 "attribute 'signal'"//unread)
+      call check(nf90_get_att(file, nf90_global, "signal", trajectory%signal), "attribute 'signal'")
       call read_variable(trim(trajectory%signal), trajectory%v)
       call read_variable("t", trajectory%t)
       if (.not. allocated(error)) then
          if ((length - 1.5_wp)*trajectory%sample_interval > trajectory%t(length)) then
             integral = ""
             call check(nf90_get_att(file, nf90_global, "integral", integral), &
-                       "attribute 'integral'"//unread)
+                       "attribute 'integral'")
             call check(nf90_get_att(file, nf90_global, "integral_slope", &
-                                    trajectory%slope_at_rest), "attribute 'integral_slope'"//unread)
+                                    trajectory%slope_at_rest), "attribute 'integral_slope'")
             if (.not. allocated(error)) call read_variable(trim(integral), trajectory%u)
          end if
       end if
@@ -145,14 +143,13 @@ contains
                     //"' (add it to the variables of its scene)")
          if (allocated(error)) return
          allocate (values(length))
-         call check(nf90_inquire_variable(file, id, ndims=dimensions), &
-                    "variable '"//name//"'"//unread)
+         call check(nf90_inquire_variable(file, id, ndims=dimensions), "variable '"//name//"'")
          if (allocated(error)) return
          if (dimensions == 1) then
-            call check(nf90_get_var(file, id, values), "variable '"//name//"'"//unread)
+            call check(nf90_get_var(file, id, values), "variable '"//name//"'")
          else
             call check(nf90_get_var(file, id, values, start=[block, 1], count=[1, length]), &
-                       "block "//text(block)//" of variable '"//name//"'"//unread)
+                       "block "//text(block)//" of variable '"//name//"'")
          end if
          if (allocated(error)) return
          if (.not. all(ieee_is_finite(values))) then
@@ -160,13 +157,16 @@ contains
          end if
       end subroutine read_variable
 
-      !> Keep the first error.
+      !> Keep the first error: what failed, and what to do where that does not say it.
       subroutine check(outcome, what)
          integer, intent(in) :: outcome
          character(len=*), intent(in) :: what
+         character(len=:), allocatable :: words
 
          if (outcome == nf90_noerr .or. allocated(error)) return
-         call raise(error, path//": "//what//": "//trim(nf90_strerror(outcome)))
+         words = what
+         if (index(what, "(") == 0) words = what//unread
+         call raise(error, path//": "//words//": "//trim(nf90_strerror(outcome)))
       end subroutine check
    end subroutine read_trajectory
 
