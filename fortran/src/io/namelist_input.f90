@@ -98,8 +98,7 @@ contains
       character(len=:), allocatable :: key
       integer :: at, i
 
-      do i = 2, size(lines)
-         if (lines(i) == " /") return
+      do i = 2, findloc(lines, " /", dim=1) - 1
          at = index(lines(i), "=")
          if (at > 0) key = in_small_letters(trim(adjustl(lines(i) (:at - 1))))
          associate (values => lines(i) (at + 1:))
@@ -125,8 +124,7 @@ contains
       character(len=:), allocatable :: value
       integer :: at, i
 
-      do i = 2, size(lines)
-         if (lines(i) == " /") exit
+      do i = 2, findloc(lines, " /", dim=1) - 1
          at = index(lines(i), "=")
          value = lines(i) (at + 1:)
          if (index(value, "NaN") > 0 .or. index(value, text(missing_count)) > 0) then

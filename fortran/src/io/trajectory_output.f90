@@ -129,9 +129,8 @@ contains
          if (allocated(error)) return
          components(i) = findloc(about%states, variables(i), dim=1)
          exponential(i) = components(i) == 0
-         if (.not. exponential(i)) cycle
          number = findloc(about%auxiliaries%name, variables(i), dim=1)
-         components(i) = about%auxiliaries(number)%state
+         if (exponential(i)) components(i) = about%auxiliaries(number)%state
       end do
    end subroutine find_components
 

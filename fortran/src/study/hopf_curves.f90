@@ -64,21 +64,19 @@ contains
       !> A point was not found
       type(error_type), allocatable, intent(out) :: error
       type(piece_type), allocatable :: pieces(:)
-      integer :: i, j
+      integer :: axis, beside(2), i, j
 
       allocate (pieces(0))
       do j = 1, size(y)
          do i = 1, size(x)
-            if (i < size(x)) then
-               call explain(plane, [x(i), y(j)], [x(i + 1), y(j)], pairs(i, j), pairs(i + 1, j), &
-                            pieces, error)
-            end if
-            if (allocated(error)) return
-            if (j < size(y)) then
-               call explain(plane, [x(i), y(j)], [x(i), y(j + 1)], pairs(i, j), pairs(i, j + 1), &
-                            pieces, error)
-            end if
-            if (allocated(error)) return
+            do axis = 1, 2
+               beside = [i, j]
+               beside(axis) = beside(axis) + 1
+               if (any(beside > shape(pairs))) cycle
+               call explain(plane, [x(i), y(j)], [x(beside(1)), y(beside(2))], pairs(i, j), &
+                            pairs(beside(1), beside(2)), pieces, error)
+               if (allocated(error)) return
+            end do
          end do
       end do
       points = points_of(plane, pieces)
@@ -284,27 +282,24 @@ contains
       type(axis_point_type), intent(in) :: here, next
       type(axis_point_type), allocatable, intent(inout) :: points(:)
       type(axis_point_type) :: last
-      real(wp) :: direction(3), edge, share, shares(2)
+      real(wp) :: direction(3), edges(2), share, shares(2)
       integer :: axis
       logical :: found
 
+      edges = merge(0.0_wp, 1.0_wp, next%place < 0.0_wp)
       shares = huge(share)
-      do axis = 1, 2
-         edge = merge(0.0_wp, 1.0_wp, next%place(axis) < 0.0_wp)
-         if (next%place(axis) < 0.0_wp .or. next%place(axis) > 1.0_wp) then
-            shares(axis) = (edge - here%place(axis))/(next%place(axis) - here%place(axis))
-         end if
-      end do
+      where (next%place < 0.0_wp .or. next%place > 1.0_wp)
+         shares = (edges - here%place)/(next%place - here%place)
+      end where
       axis = minloc(shares, dim=1)
       share = shares(axis)
-      edge = merge(0.0_wp, 1.0_wp, next%place(axis) < 0.0_wp)
       last = axis_point_type(here%place + share*(next%place - here%place), &
                              here%omega*(next%omega/here%omega)**share)
       direction = 0.0_wp
       direction(axis) = 1.0_wp
-      call plane%correct(last, direction, edge, found)
+      call plane%correct(last, direction, edges(axis), found)
       if (.not. found) return
-      last%place(axis) = edge
+      last%place(axis) = edges(axis)
       ! a curve that starts at the edge leaves the window at once
       if (norm2(last%place - here%place) > least_step) points = [points, last]
    end subroutine add_end
