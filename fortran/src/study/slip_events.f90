@@ -56,7 +56,8 @@ module slip_events
       integer, allocatable :: last(:, :)
       real(wp), allocatable :: integral(:, :)
    contains
-      procedure :: reads, reads_for, never_zero, values, value
+      procedure :: reads, reads_for, never_zero, values
+      procedure :: value => one_value
       procedure :: takes => places_of_event
       procedure :: take => take_passage
    end type slip_watcher_type
@@ -164,13 +165,13 @@ contains
    end subroutine values
 
    !> One of these functions.
-   pure real(wp) function value(self, which, t, y, slope)
+   pure real(wp) function one_value(self, which, t, y, slope) result(value)
       class(slip_watcher_type), intent(in) :: self
       integer, intent(in) :: which
       real(wp), intent(in) :: t, y(:), slope(:)
 
       value = self%passages%value(which, t, y, slope)
-   end function value
+   end function one_value
 
    !> Begin or end an event of a block, or note an extreme of its signal.
    subroutine take_passage(self, which, t, y, slope)

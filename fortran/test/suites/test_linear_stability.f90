@@ -176,9 +176,9 @@ contains
       allocate (system%lag, source=lag)
    end function scalar_system
 
-   !> For gamma from 1e-2 to 1e12 all roots are found: as many as the principle of the argument says.
-   !> Newton's method in quadruple precision moves
-   !> them in the last digits only; it takes (5) over gamma^2 as a product less its delayed term.
+   !> For gamma from 1e-2 to 1e12 there are as many roots as the principle of the argument says.
+   !> Newton's method in quadruple precision moves them in the last digits only; it takes (5) over
+   !> gamma^2 as a product less its delayed term.
    subroutine test_quadruple(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
