@@ -32,11 +32,9 @@ contains
 
    !> Open the models of cases. Refuse cases without a meaning; keep an earlier error.
    subroutine open_cases(path, given, cases, error)
-      !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> The cases as they are given
       type(case_settings_type), intent(in) :: given(:)
-      !> The cases
       type(case_type), allocatable, intent(out) :: cases(:)
       !> First error met
       type(error_type), allocatable, intent(inout) :: error

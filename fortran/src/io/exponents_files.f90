@@ -7,11 +7,9 @@ module exponents_files
    use exponent_averages, only: average_growth, dimension_of, exponent_type, running_averages, &
                                 sign_of, zero
    use lyapunov_spectrum, only: growth_type
-   use model_history, only: history_type
-   use model_problem, only: model_type
    use namelist_input, only: elements, namelist_file_type
    use netcdf_output, only: output_file_type
-   use scene_input, only: open_scene, put_scene, scene_type
+   use scene_input, only: scene_settings_type, scene_type
    use value_checks, only: absent, check_count, check_number, missing, missing_count, most_samples
    implicit none (type, external)
    private
@@ -60,44 +58,30 @@ contains
    end function options_of_runs
 
    !> Read and check a scene and the settings of its exponents.
-   subroutine read_exponents(path, scene, model, history, exponents, error)
-      !> Path of the namelist file
+   subroutine read_exponents(path, opened, exponents, error)
       character(len=*), intent(in) :: path
-      !> The scene
-      type(scene_type), intent(out) :: scene
-      !> Its model with its past
-      type(model_type), intent(out) :: model
-      !> Its history
-      type(history_type), intent(out) :: history
-      !> The settings
+      type(scene_type), intent(out) :: opened
       type(exponents_settings_type), intent(out) :: exponents
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
       type(namelist_file_type) :: file
+      type(scene_settings_type) :: scene
       namelist /settings/ scene, exponents
 
-      call file%open(path, error)
-      if (allocated(error)) return
+      call file%open(path)
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
-      call open_scene(path, scene, model, history, error)
+      call opened%open(path, scene, error)
       call check_count(error, path, "exponents%batches", exponents%batches, at_least=2)
       call check_number(error, path, "exponents%interval", exponents%interval, &
                         at_least=exponents%t_end/most_samples*exponents%count)
    end subroutine read_exponents
 
    !> Write the exponents of a scene: the first run has its own settings, the others are checks.
-   subroutine write_exponents(path, scene, model, history, settings, options, measured, error)
-      !> Path of the file
+   subroutine write_exponents(path, scene, settings, options, measured, error)
       character(len=*), intent(in) :: path
-      !> The scene
       type(scene_type), intent(in) :: scene
-      !> Its model
-      type(model_type), intent(in) :: model
-      !> Its history
-      type(history_type), intent(in) :: history
-      !> How they were measured
       type(exponents_settings_type), intent(in) :: settings
       !> Tolerances and longest steps
       type(integration_options), intent(in) :: options(:)
@@ -148,7 +132,7 @@ contains
          call file%table(ids([1, 2]), "sign", real(signs, wp), "sign of the exponent, 2: unclear")
          call file%table(ids([1, 4]), "block_value", batches, "exponent in each block")
          call file%table(ids([1, 3]), "running_average", averages, "plain average up to a time")
-         call put_scene(file, scene, model, history)
+         call scene%put(file)
          call file%attribute("method", trim(scene%method))
          call file%attribute("t_begin", first%t_begin)
          call file%attribute("t_end", settings%t_end)

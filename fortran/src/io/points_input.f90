@@ -54,7 +54,6 @@ contains
       class(points_settings_type), intent(in) :: self
       !> File and section, for messages
       character(len=*), intent(in) :: place
-      !> The model
       type(model_type), intent(out) :: model
       type(error_type), allocatable, intent(inout) :: error
       type(model_settings_type) :: corner
@@ -81,9 +80,7 @@ contains
    !> sweep in its order.
    function list_points(self, model, history) result(points)
       class(points_settings_type), intent(in) :: self
-      !> The model
       type(model_type), intent(in) :: model
-      !> Histories
       type(history_type), intent(in) :: history
       type(point_type), allocatable :: points(:)
       real(wp), allocatable :: x(:), y(:)

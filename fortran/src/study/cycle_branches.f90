@@ -87,11 +87,8 @@ contains
 
    !> All branches along a line that the settings lead to.
    subroutine find_cycles(settings, hopf, found, left_out, error, progress)
-      !> What is computed
       type(cycle_settings_type), intent(in) :: settings
-      !> Hopf points on the line
       type(hopf_on_line_type), allocatable, intent(out) :: hopf(:)
-      !> The branches
       type(cycles_type), allocatable, intent(out) :: found(:)
       !> Starts without a branch of their own
       type(left_out_type), allocatable, intent(out) :: left_out(:)
@@ -229,7 +226,6 @@ contains
       type(collocation_basis_type), intent(in) :: basis
       !> Intervals of the orbit
       integer, intent(in) :: intervals
-      !> The orbit
       type(periodic_orbit_type), intent(out) :: orbit
       !> Error if the trajectory leads to no cycle
       type(error_type), allocatable, intent(out) :: error

@@ -68,7 +68,6 @@ contains
       type(integration_options), intent(in) :: options
       !> Stiffness of the modes over that of one block, >= 1, ascending
       real(wp), intent(in) :: s(:)
-      !> What was found
       type(transverse_cycle_type), intent(out) :: on_cycle
       type(error_type), allocatable :: error
       type(periodic_orbit_type) :: orbits(2)
