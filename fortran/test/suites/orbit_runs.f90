@@ -15,7 +15,9 @@ module orbit_runs
    use orbit_branch, only: branch_type, follow_branch
    use orbit_change, only: orbit_change_type
    use orbit_equations, only: correct_orbit, newton_type
+   use orbit_linearisation, only: linearise_orbit
    use orbit_mesh, only: adapted_mesh, uniform_mesh
+   use orbit_passes, only: orbit_passes_type
    use orbit_points, only: find_special_points
    use orbit_start, only: orbit_at_hopf_point, orbit_of_trajectory
    use periodic_orbit, only: periodic_orbit_type
@@ -23,8 +25,8 @@ module orbit_runs
    use special_points, only: special_point_type
    implicit none (type, external)
    private
-   public :: advance, branch_from, branch_from_hopf, correct, cycle_of_block, new_orbit, &
-             orbit_of_block
+   public :: advance, branch_from, branch_from_hopf, correct, cycle_of_block, multipliers_of, &
+             new_orbit, orbit_of_block
 
 contains
 
@@ -121,10 +123,26 @@ contains
          call expect_success(error, failure)
          if (i == 1) orbit = orbit%on_mesh(adapted_mesh(orbit, intervals))
       end do
-      if (allocated(error)) return
-      call find_multipliers(fixed_model(mode_of(block, 1)), orbit, 6, multipliers, failure)
-      call expect_success(error, failure)
+      call multipliers_of(mode_of(block, 1), orbit, 6, multipliers, error)
    end subroutine cycle_of_block
+
+   !> Multipliers of an orbit of a model.
+   subroutine multipliers_of(model, orbit, wanted, multipliers, error)
+      class(model_type), intent(in) :: model
+      type(periodic_orbit_type), intent(in) :: orbit
+      integer, intent(in) :: wanted
+      type(multipliers_type), intent(out) :: multipliers
+      type(error_type), allocatable, intent(inout) :: error
+      type(failure_type), allocatable :: failure
+      type(orbit_passes_type) :: linear
+
+      if (allocated(error)) return
+      call linearise_orbit(fixed_model(model), orbit, linear, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call find_multipliers(linear, wanted, multipliers, failure)
+      call expect_success(error, failure)
+   end subroutine multipliers_of
 
    !> A branch from an orbit, and its special points.
    subroutine branch_from(orbit, settings, direction, branch, special, error, tangent)

@@ -6,14 +6,14 @@ module test_floquet_multipliers
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close, expect_success
-   use floquet_multipliers, only: find_multipliers, multipliers_type
+   use floquet_multipliers, only: multipliers_type
    use known_models, only: delayed_sine, driven_growth, known_model
    use lyapunov_spectrum, only: growth_settings_type, growth_type, measure_growth
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use model_family, only: fixed_model
    use model_problem, only: model_type
    use orbit_equations, only: newton_type
-   use orbit_runs, only: correct, cycle_of_block, new_orbit
+   use orbit_runs, only: correct, cycle_of_block, multipliers_of, new_orbit
    use periodic_orbit, only: periodic_orbit_type
    use solving, only: at_tolerance
    use special_points, only: fold, special_point_type, torus_bifurcation
@@ -41,15 +41,13 @@ contains
 
    !> Where the delay is k periods, x(t - k) = x(t)/mu^k: the multipliers solve mu = exp(a/mu^k),
    !> and exp(-2) is that of the circle. Both signs of a: a growing and an oscillating disturbance.
-   !> The equations that corrected the orbit give the same; no model is made again for them.
    subroutine test_exact(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
       type(known_model) :: model
-      type(multipliers_type) :: again, found
+      type(multipliers_type) :: found
       type(newton_type) :: newton
       type(periodic_orbit_type) :: orbit
-      integer, target :: made
       real(wp), parameter :: rates(2) = [0.5_wp, -1.8_wp]
       real(wp) :: times(20*6 + 1)
       complex(wp) :: mu
@@ -66,18 +64,8 @@ contains
             orbit%nodes(3, :) = 0.0_wp
             call correct(model, orbit, newton, failure)
             call expect_success(error, failure)
-            call find_multipliers(fixed_model(model), orbit, 6, found, failure)
-            call expect_success(error, failure)
+            call multipliers_of(model, orbit, 6, found, error)
             if (allocated(error)) return
-            model%made => made
-            made = 0
-            call find_multipliers(fixed_model(model), orbit, 6, again, failure, &
-                                  linear=newton%linear)
-            call expect_success(error, failure)
-            call expect(error, made == 0, text(made)//" models are made again")
-            if (allocated(error)) return
-            call expect_close(error, abs(again%values - found%values), &
-                              spread(0.0_wp, 1, size(found%values)), 1.0e-8_wp, "known equations")
             call expect_close(error, orbit%period, 1.0_wp, 1.0e-12_wp, "period")
             call expect_close(error, found%trivial_error, 0.0_wp, 1.0e-9_wp, "trivial multiplier")
             others = 0
@@ -123,8 +111,7 @@ contains
       orbit%nodes = reshape(sqrt(rho)*sin(2.0_wp*pi*orbit%node_times()), [1, 121])
       call correct(model, orbit, newton, failure)
       call expect_success(error, failure)
-      call find_multipliers(fixed_model(model), orbit, 5, found, failure)
-      call expect_success(error, failure)
+      call multipliers_of(model, orbit, 5, found, error)
       if (allocated(error)) return
       call expect_close(error, abs(found%values(1)), 1.0_wp, 1.0e-6_wp, "the pair on the axis")
       ! the next root by Newton's method

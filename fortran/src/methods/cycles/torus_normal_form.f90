@@ -40,8 +40,8 @@ module torus_normal_form
       procedure :: apply => defect_of_term
    end type term_map_type
 
-   !> Numbers of the forcing by the period, and of the one before the first further one.
-   integer, parameter :: of_period = 2, further = 2
+   !> Number of the forcing by the period; those by free parameters and further ones follow.
+   integer, parameter :: of_period = 2
    !> Residual of the linear equations
    real(wp), parameter :: tolerance = 1.0e-11_wp
 
@@ -68,12 +68,15 @@ contains
       type(multipliers_type) :: found
       type(orbit_change_type) :: phase
       type(term_map_type) :: map
-      integer :: critical, i
+      integer :: critical, further, i
 
       coefficient = 0.0_wp
       disturbed = 0.0_wp
-      call find_multipliers(family, orbit, wanted, found, error, disturbances)
+      call linearise_orbit(family, orbit, map%linear, error)
       if (allocated(error)) return
+      call find_multipliers(map%linear, wanted, found, error, disturbances)
+      if (allocated(error)) return
+      further = of_period + size(family%free)
       critical = minloc(abs(found%values - multiplier), dim=1)
       call family%at(orbit%parameters, x%problem)
       x%orbit = orbit
@@ -88,7 +91,7 @@ contains
          disturbed(i) = abs(terms(i, q))
       end do
 
-      call linearise_orbit(family, orbit, .true., map%linear, error, x%second_order())
+      call linearise_orbit(family, orbit, map%linear, error, x%second_order())
       if (allocated(error)) return
       map%multiplier = x%multiplier(h20)
       map%given = further + [1, 2]
@@ -104,7 +107,7 @@ contains
       if (allocated(error)) return
       x%a = -real(a)
 
-      call linearise_orbit(family, orbit, .true., map%linear, error, x%third_order())
+      call linearise_orbit(family, orbit, map%linear, error, x%third_order())
       if (allocated(error)) return
       map%multiplier = x%multiplier(q)
       map%given = further + [1, 2]
@@ -141,6 +144,7 @@ contains
       real(wp), allocatable :: parts(:, :, :), right(:), solution(:)
 
       associate (linear => map%linear)
+         call linear%reach_back()
          allocate (parts(size(nodes, 1), size(nodes, 2), 2), source=0.0_wp)
          if (allocated(map%condition)) then
             parts(:, :, 1) = real(map%condition)
@@ -178,8 +182,9 @@ contains
       !> Real and imaginary part of the nodes, shape (n, nodes, 2)
       real(wp), intent(out), optional :: nodes(:, :, :)
       complex(wp) :: past(self%linear%past_size()), unknown
-      real(wp) :: factor(0:6, 2), later(size(past), 2), sums(2, 2)
-      integer :: i, last
+      real(wp) :: factor(0:size(self%linear%response, 1) - self%linear%inputs(), 2)
+      real(wp) :: later(size(past), 2), sums(2, 2)
+      integer :: i
 
       associate (n => size(past))
          past = cmplx(vector(:n), vector(n + 1:2*n), kind=wp)
@@ -189,13 +194,12 @@ contains
          factor(self%unknown, 2) = [aimag(unknown), real(unknown)]
          factor(self%given(1), 1) = given
          factor(self%given(2), 2) = given
-         last = size(self%linear%response, 1) - self%linear%inputs()
          do i = 1, 2
             if (present(nodes)) then
-               call self%linear%pass(vector((i - 1)*n + 1:i*n), factor(1:last, i), later(:, i), &
+               call self%linear%pass(vector((i - 1)*n + 1:i*n), factor(1:, i), later(:, i), &
                                      sums(:, i), nodes(:, :, i))
             else
-               call self%linear%pass(vector((i - 1)*n + 1:i*n), factor(1:last, i), later(:, i), &
+               call self%linear%pass(vector((i - 1)*n + 1:i*n), factor(1:, i), later(:, i), &
                                      sums(:, i))
             end if
          end do
