@@ -3,7 +3,7 @@
 !> `transverse_growth`. All is found on two meshes, the second finer.
 module transverse_multipliers
    use branch_ends, only: refinement_type
-   use collocation_basis, only: collocation_basis_type, radau_points
+   use collocation_basis, only: collocation_basis_type
    use cycle_branches, only: find_reached_orbit
    use dde, only: integration_options
    use dde_errors, only: error_type, raise, text
@@ -102,7 +102,7 @@ contains
       real(wp) :: distance
 
       call find_reached_orbit(model, t_end, options, &
-                              collocation_basis_type(degree, radau_points), first_intervals, &
+                              collocation_basis_type(degree), first_intervals, &
                               reached, error)
       if (allocated(error)) return
       if (reached%amplitude() < least_amplitude) then

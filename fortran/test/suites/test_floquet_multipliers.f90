@@ -2,7 +2,6 @@
 !> form of torus points against an exact one.
 module test_floquet_multipliers
    use block_builder, only: build_block
-   use collocation_basis, only: gauss_points, radau_points
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close, expect_success
@@ -55,7 +54,7 @@ contains
 
       do k = 1, 2
          do i = 1, 2
-            orbit = new_orbit(6, gauss_points, 20, 1.0_wp, [rates(i), 0.7_wp, real(k, wp)])
+            orbit = new_orbit(6, 20, 1.0_wp, [rates(i), 0.7_wp, real(k, wp)])
             times = orbit%node_times()
             model = known_model(driven_growth, orbit%parameters)
             allocate (orbit%nodes(3, size(times)))
@@ -107,7 +106,7 @@ contains
       integer :: i
 
       model = known_model(delayed_sine, [rho])
-      orbit = new_orbit(6, gauss_points, 20, 2.0_wp*pi, [rho])
+      orbit = new_orbit(6, 20, 2.0_wp*pi, [rho])
       orbit%nodes = reshape(sqrt(rho)*sin(2.0_wp*pi*orbit%node_times()), [1, 121])
       call correct(model, orbit, newton, failure)
       call expect_success(error, failure)
@@ -136,7 +135,7 @@ contains
       real(wp) :: exponents(4)
 
       block = build_block(tau=10.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp, v=1.1_wp)
-      call cycle_of_block(block, 1500.0_wp, 5, gauss_points, 40, orbit, multipliers, error)
+      call cycle_of_block(block, 1500.0_wp, 5, 40, orbit, multipliers, error)
       if (allocated(error)) return
       call expect_close(error, multipliers%trivial_error, 0.0_wp, 1.0e-9_wp, "trivial multiplier")
       settings = growth_settings_type(exponents=4, t_begin=1000.0_wp, t_end=3000.0_wp, &
@@ -151,8 +150,7 @@ contains
                         0.5_wp*(exponents(3) + exponents(4)), 5.0e-4_wp, "third and fourth")
    end subroutine test_exponents
 
-   !> Tori of rotating waves, stable and unstable ones: with delay at Gauss points, with an uneven
-   !> course of time at the points of Radau.
+   !> Stable and unstable tori of rotating waves, with delay and with an uneven course of time.
    subroutine test_exact_coefficient(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
@@ -161,12 +159,12 @@ contains
       type(twin_waves_type) :: model
       real(wp), parameter :: p22(2) = [-2.5_wp, 1.5_wp], omega2(2) = [0.4_wp, 2.3_wp]
       real(wp) :: coefficient, disturbed(4), expected
-      integer :: i, j, points
+      integer :: i, j, kind
 
-      do points = gauss_points, radau_points
-         model%delayed = points == gauss_points
+      do kind = 1, 2
+         model%delayed = kind == 1
          do i = 1, 2
-            orbit = new_orbit(7, points, 32, turn/omega1, [p22(i), omega2(i)])
+            orbit = new_orbit(7, 32, turn/omega1, [p22(i), omega2(i)])
             associate (s => orbit%node_times())
                orbit%nodes = reshape([(on_cycle(turn*s(j)), j=1, size(s))], [4, size(s)])
             end associate

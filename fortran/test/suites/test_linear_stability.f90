@@ -146,7 +146,7 @@ contains
       end do
    end subroutine test_extremes
 
-   !> A bound under which there are too many roots, a root less than expected, and a singular matrix.
+   !> Too many roots above a bound, a root less than expected, and a singular matrix.
    subroutine test_refusals(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure

@@ -2,7 +2,6 @@
 !> characteristic roots, and against exponents along the motion.
 module test_transverse_multipliers
    use block_builder, only: block_at, build_block, paper_law
-   use collocation_basis, only: radau_points
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
    use expectations, only: expect, expect_close, expect_success
@@ -54,8 +53,8 @@ contains
       integer :: i
 
       associate (p => cycle_place)
-         call cycle_of_block(build_block(p(1), p(2), p(3), p(4), v=1.1_wp), 1500.0_wp, 5, &
-                             radau_points, 40, orbit, own, error)
+         call cycle_of_block(build_block(p(1), p(2), p(3), p(4), v=1.1_wp), 1500.0_wp, 5, 40, &
+                             orbit, own, error)
       end associate
       if (allocated(error)) return
       orbit%parameters = [orbit%parameters, 1.0_wp]
@@ -80,7 +79,7 @@ contains
 
       do i = 1, size(delays)
          chain = chain_at([delays(i), chaos_place(2:)], keep_delays=.true.)
-         orbit = new_orbit(6, radau_points, 30, period, chain%numbers)
+         orbit = new_orbit(6, 30, period, chain%numbers)
          allocate (orbit%nodes(3, 30*6 + 1), source=0.0_wp)
          do j = 1, size(stiffness)
             associate (s => stiffness(j), p => chain%numbers)
@@ -90,7 +89,8 @@ contains
                                      failure)
                call expect_success(error, failure)
                if (allocated(error)) return
-               call expect_close(error, log(found%greatest)/period, real(roots(1)), 1.0e-9_wp, "exponent")
+               call expect_close(error, log(found%greatest)/period, real(roots(1)), 1.0e-9_wp, &
+                                 "exponent")
             end associate
          end do
       end do

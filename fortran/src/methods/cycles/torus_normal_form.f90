@@ -69,6 +69,7 @@ contains
       type(orbit_change_type) :: phase
       type(term_map_type) :: map
       integer :: critical, further, i
+      real(wp) :: highest, time
 
       coefficient = 0.0_wp
       disturbed = 0.0_wp
@@ -87,7 +88,8 @@ contains
          x%nodes(:, :, q) = q_nodes/sqrt(real(sum(weights_with(orbit, q_nodes)*q_nodes)))
       end associate
       do i = 1, size(disturbed)
-         terms = x%terms_at(orbit%time_of_highest(i))
+         call orbit%find_highest(i, 1.0_wp, highest, time)
+         terms = x%terms_at(time)
          disturbed(i) = abs(terms(i, q))
       end do
 

@@ -177,20 +177,10 @@ contains
          after = count(real(roots) >= real(s))
          roots = [roots(:after), s, roots(after + 1:)]
       end do
-      roots = [(with_partner(roots(i)), i=1, size(roots))]
+      ! those above the real axis with their partners
+      roots = pack([(roots(i), conjg(roots(i)), i=1, size(roots))], &
+                   [(.true., aimag(roots(i)) > 0.0_wp, i=1, size(roots))])
    end function refine_roots
-
-   !> A root above the real axis and its conjugate, or a real root alone.
-   pure function with_partner(s) result(both)
-      complex(wp), intent(in) :: s
-      complex(wp), allocatable :: both(:)
-
-      if (aimag(s) > 0.0_wp) then
-         both = [s, conjg(s)]
-      else
-         both = [s]
-      end if
-   end function with_partner
 
    !> Newton's method on det Delta(s), whose logarithm has the derivative trace(Delta^-1 Delta').
    subroutine follow_newton(system, start, s, found)
