@@ -4,10 +4,11 @@ module test_floquet_multipliers
    use block_builder, only: build_block
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
+   use exponent_runs, only: measure
    use expectations, only: expect, expect_between, expect_close, expect_success
    use floquet_multipliers, only: multipliers_type
    use known_models, only: delayed_sine, driven_growth, known_model
-   use lyapunov_spectrum, only: growth_settings_type, growth_type, measure_growth
+   use lyapunov_spectrum, only: growth_settings_type, growth_type
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use model_family, only: fixed_model
    use model_problem, only: model_type
@@ -126,7 +127,6 @@ contains
    !> ln |mu|/T of the paper's "torus", a cycle, is its second Lyapunov exponent.
    subroutine test_exponents(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       type(growth_settings_type) :: settings
       type(growth_type) :: measured
       type(multipliers_type) :: multipliers
@@ -140,8 +140,7 @@ contains
       call expect_close(error, multipliers%trivial_error, 0.0_wp, 1.0e-9_wp, "trivial multiplier")
       settings = growth_settings_type(exponents=4, t_begin=1000.0_wp, t_end=3000.0_wp, &
                                       t_turning=500.0_wp, interval=5.0_wp, blocks=10)
-      call measure_growth(block, settings, at_tolerance(1.0e-8_wp), measured, failure)
-      call expect_success(error, failure)
+      call measure(error, block, settings, at_tolerance(1.0e-8_wp), measured)
       if (allocated(error)) return
       exponents = sum(measured%growth, dim=2)/sum(measured%length)
       call expect_close(error, log(abs(multipliers%values(1)))/orbit%period, exponents(2), &

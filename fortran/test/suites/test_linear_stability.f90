@@ -9,7 +9,7 @@ module test_linear_stability
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
-   use known_models, only: block_by_values, known_model, neurons
+   use known_models, only: known_model, neurons
    use lapack, only: solve
    use linear_system, only: linear_part, linear_system_type
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
@@ -34,9 +34,7 @@ contains
                    new_unittest("number of roots at large parameters", test_extremes), &
                    new_unittest("refusals", test_refusals), &
                    new_unittest("two neurons", test_neurons), &
-                   new_unittest("coordinates do not matter", test_coordinates), &
-                   new_unittest("roots in quadruple precision", test_quadruple), &
-                   new_unittest("l1 at infinite gamma", test_coefficient)]
+                   new_unittest("roots in quadruple precision", test_quadruple)]
    end subroutine collect_linear_stability
 
    !> x' = -x(t - 1): the roots are the branches of W(-1), s = -exp(-s).
@@ -181,30 +179,6 @@ contains
       call expect_close(error, l1, -0.39615712_wp, 1.0e-8_wp, "l1")
    end subroutine test_neurons
 
-   !> l1 is the same in v and in ln v, which differ by a change of coordinates near the identity.
-   subroutine test_coordinates(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      real(wp) :: in_ln_v, in_v, omega, p(4)
-      integer :: i, k, signs(-1:1)
-
-      signs = 0
-      do i = 1, 30
-         omega = 0.05_wp*i
-         do k = 1, 3
-            p = block_with_pair(omega, 0.5_wp, 0.8_wp, k)
-            call first_lyapunov_coefficient(block_at(p), omega, in_ln_v, failure)
-            call expect_success(error, failure)
-            call first_lyapunov_coefficient(block_by_values(p, .true.), omega, in_v, failure)
-            call expect_success(error, failure)
-            call expect_close(error, in_v, in_ln_v, 1.0e-11_wp*(1.0_wp + abs(in_ln_v)), &
-                              "l1 in v at omega = "//text(omega)//", k = "//text(k))
-            signs(nint(sign(1.0_wp, in_v))) = signs(nint(sign(1.0_wp, in_v))) + 1
-         end do
-      end do
-      call expect(error, signs(-1) > 20 .and. signs(1) > 10, "both signs occur")
-   end subroutine test_coordinates
-
    !> x' = -rate x(t - 1).
    pure type(linear_system_type) function delayed_decay(rate) result(system)
       real(wp), intent(in) :: rate
@@ -280,27 +254,6 @@ contains
          value = value*value
       end do
    end function exponential
-
-   !> l1 differs from its value at infinite gamma by terms of size 1/gamma^2.
-   subroutine test_coefficient(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      real(wp) :: l1(4), omega
-      integer :: i, k
-
-      do i = 1, 6
-         omega = 0.3_wp*i
-         do k = 1, size(l1)
-            associate (gamma => 10.0_wp**(3*k))
-               call first_lyapunov_coefficient(block_at(block_with_pair(omega, 0.5_wp, gamma, 1)), &
-                                               omega, l1(k), failure)
-            end associate
-            call expect_success(error, failure)
-         end do
-         call expect_close(error, l1(:3), spread(l1(4), 1, 3), 1.0e-5_wp, "l1 at gamma = 1e3..1e9")
-         call expect_close(error, l1(2:3), spread(l1(4), 1, 2), 1.0e-11_wp, "l1 at 1e6 and 1e9")
-      end do
-   end subroutine test_coefficient
 
    !> Roots to the right of a line, by the principle of the argument.
    integer function roots_right(p, bound) result(number)
