@@ -2,7 +2,7 @@
 !> trajectories, with their special points.
 module cycle_branches
    use branch_ends, only: follow_settings_type
-   use collocation_basis, only: collocation_basis_type, radau_points
+   use collocation_basis, only: collocation_basis_type
    use dde, only: continuation_type, integrate, integration_options, integration_result
    use dde_errors, only: error_type
    use dde_kinds, only: wp
@@ -115,7 +115,7 @@ contains
          how%longest_period = settings%longest_period
          how%most_points = settings%most_orbits
          how%least_amplitude = first_amplitude
-         basis = collocation_basis_type(settings%degree, radau_points)
+         basis = collocation_basis_type(settings%degree)
       end associate
       allocate (found(0), left_out(0))
       do i = 1, size(hopf)
