@@ -1,18 +1,10 @@
 """Parts of the atlas, and their namelists."""
 
-import copy
-
 import pytest
 
 from scripts.namelists.laws import PAPER
 from scripts.studies.atlas.parts import part_of
 from scripts.studies.atlas.plan import groups
-
-
-@pytest.fixture
-def full(filled_config) -> dict:
-    """The whole config with its defaults, to change."""
-    return copy.deepcopy(filled_config)
 
 
 @pytest.mark.parametrize(
@@ -29,12 +21,12 @@ def test_parts_hold_every_row_once(count, parts, distance):
     assert max(sizes) - min(sizes) <= (1 if distance == 1 else 2 * distance - 1)
 
 
-def test_parts_of_the_atlas_divide_its_delays(full):
+def test_parts_of_the_atlas_divide_its_delays(own_config):
     """All of epsilon in each part, both windows as a whole, at xi and gamma of the plane."""
-    settings = full["atlas"]
+    settings = own_config["atlas"]
     delays = []
     for part in range(1, settings["parts"] + 1):
-        points = groups(full, "fault", str(part))["points"]
+        points = groups(own_config, "fault", str(part))["points"]
         columns, lines = points["axes"]
         assert (columns["along"], lines["along"]) == ("epsilon", "tau")
         assert columns["part"] == [1, settings["abscissa_count"]]
@@ -51,9 +43,11 @@ def test_parts_of_the_atlas_divide_its_delays(full):
     ("columns", "lines", "refinements"),
     [(9, 7, 0), (1, 40, 0), (12, 40, 0), (13, 40, 1), (37, 25, 2), (200, 200, 2)],
 )
-def test_first_lines_of_a_small_atlas_are_not_too_far_apart(full, columns, lines, refinements):
+def test_first_lines_of_a_small_atlas_are_not_too_far_apart(
+    own_config, columns, lines, refinements
+):
     """At least six distances in each direction, and never more refinements than asked for."""
     counts = {"abscissa_count": columns, "ordinate_count": lines}
-    full["atlas"] |= {**counts, "parts": 1, "refinements": 2}
-    points = groups(full, "fault", "1")["points"]
+    own_config["atlas"] |= {**counts, "parts": 1, "refinements": 2}
+    points = groups(own_config, "fault", "1")["points"]
     assert points["refinements"] == refinements

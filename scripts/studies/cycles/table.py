@@ -129,5 +129,4 @@ if __name__ == "__main__":
         for path in snakemake.input.cycles:
             cycles = read(path)
             rows += rows_of(Path(path).stem, cycles, sweeps_over(cycles, routes))
-        own = dict.fromkeys(key for row in rows for key in row if key not in COLUMNS)
-        write_table(snakemake.output[0], rows, [*COLUMNS, *own])
+        write_table(snakemake.output[0], rows, COLUMNS)

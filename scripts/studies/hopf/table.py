@@ -92,5 +92,4 @@ if __name__ == "__main__":
             rows += rows_of(Path(path).stem, read(path))
         for path in snakemake.input.scenes:
             rows += death_rows_of(Path(path).stem, read(path))
-        own = dict.fromkeys(key for row in rows for key in row if key not in COLUMNS)
-        write_table(snakemake.output[0], rows, [*COLUMNS, *own])
+        write_table(snakemake.output[0], rows, COLUMNS)
