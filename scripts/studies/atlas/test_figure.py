@@ -1,12 +1,11 @@
 """The figure of the atlas, from small made-up results."""
 
-import copy
 import math
 
 import numpy as np
 import pytest
 from figure_contents import title_of, words_in
-from made_up_results import attractor_row
+from made_up_results import LINES, attractor_row
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.collections import PatchCollection, QuadMesh
@@ -91,18 +90,8 @@ def test_points_not_computed_have_the_exponent_of_the_nearest_of_their_kind():
     assert (values[6], values[7]) == (-0.5, -0.01)
 
 
-def test_curves_and_cycles_in_planes_are_found_by_their_parameters(filled_config):
+def test_curves_and_cycles_in_planes_are_found_by_their_parameters(own_config):
     """Those with the same law and fixed values as a plane."""
-    config = copy.deepcopy(filled_config)
-    law = {"law": "slip_delayed_logarithm"}
-    at = {"along": "tau", "epsilon": 0.7, "xi": 0.5, "gamma": 0.8, **law}
-    config["cycles"]["lines"] = {
-        "mine": at,
-        "beside": {**at, "xi": 0.6},
-        "faster": {**at, "gamma": 0.9},
-        "ageing": {**at, "law": "ageing_delayed_velocity"},
-        "across": {"along": "epsilon", "tau": 7.0, "xi": 0.5, "gamma": 0.8, **law},
-        "in_xi": {"along": "xi", "tau": 7.0, "epsilon": 0.9, "gamma": 0.8, **law},
-    }
+    own_config["cycles"]["lines"] = LINES
     expected = [f"<results>/cycles/{line}.nc" for line in ("mine", "across")]
-    assert inputs(config)["cycles"] == expected
+    assert inputs(own_config)["cycles"] == expected

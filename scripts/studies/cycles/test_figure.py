@@ -1,10 +1,8 @@
 """The figure of cycles, and the sweeps on their lines, from small made-up results."""
 
-import copy
-
 import pytest
 from figure_contents import title_of
-from made_up_results import followed_cycles, of_other_model
+from made_up_results import LINES, followed_cycles, of_other_model
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -13,6 +11,7 @@ from matplotlib.lines import Line2D
 from scripts.drawing.special_points import STYLES
 from scripts.drawing.style import STYLE
 from scripts.studies.cycles import figure as cycles
+from scripts.studies.cycles.branches import branch_of
 from scripts.studies.cycles.plan import sweeps_on_lines
 
 STABLE, ONE, TWO, MANY = (style["color"] for style in cycles.LINES)
@@ -55,7 +54,7 @@ def test_branches_change_their_line_at_special_points(cycles_drawn):
 def test_a_change_without_a_point_is_drawn_between_orbits():
     """A point that the search did not find moves no other point."""
     found = followed_cycles().isel(special=[0])
-    x, y, unstable = cycles.branch_of(found, 1, "tau")
+    x, y, unstable = branch_of(found, 1)
     assert x.tolist() == [0.1, 0.3, 0.4, 0.45, 0.4, 0.35, 0.2]
     assert y.tolist() == [1.1, 1.5, 2.0, 2.2, 2.5, 2.8, 3.5]
     assert unstable.tolist() == [2, 2, 2, 3, 3, 3]
@@ -87,20 +86,11 @@ def test_cycles_of_a_model_that_is_not_the_block():
     assert title_of(axes).endswith(words)
 
 
-def test_sweeps_on_lines_are_found_by_their_parameters(filled_config):
+def test_sweeps_on_lines_are_found_by_their_parameters(own_config):
     """Those of routes with the same law, parameter and fixed values."""
-    config = copy.deepcopy(filled_config)
-    law = {"law": "slip_delayed_logarithm"}
-    at = {"along": "tau", "epsilon": 0.7, "xi": 0.5, "gamma": 0.8, **law}
-    config["cycles"]["lines"] = {
-        "mine": at,
-        "beside": {**at, "xi": 0.6},
-        "faster": {**at, "gamma": 0.9},
-        "ageing": {**at, "law": "ageing_delayed_velocity"},
-        "across": {"along": "epsilon", "tau": 7.0, "xi": 0.5, "gamma": 0.8, **law},
-        "in_xi": {"along": "xi", "tau": 7.0, "epsilon": 0.9, "gamma": 0.8, **law},
-    }
-    config["routes"]["lines"]["part"] = {**at, "window": [5.8, 6.1]}
+    config = own_config
+    config["cycles"]["lines"] = LINES
+    config["routes"]["lines"]["part"] = {**LINES["mine"], "window": [5.8, 6.1]}
     folder = "<results>/attractors/routes"
     mine, *others, across, in_xi = sweeps_on_lines(config)
     assert mine == [f"{folder}/chaos_in_tau/up.nc", f"{folder}/chaos_in_tau/down.nc"]

@@ -7,11 +7,12 @@ suite hopf_unfoldings shows where curves of folds and of tori start.
 import numpy as np
 import pytest
 import xarray as xr
-from characteristic_equation import closed_form, count_by_crossings, residual
+from characteristic_equation import closed_form, residual
 
 from scripts.files.tsv import read_table
 from scripts.namelists.laws import PAPER
 from scripts.studies.hopf.table import rows_of
+from scripts.tables.roots_of_5 import unstable_pairs
 
 PLANES = ["tau_of_epsilon", "xi_of_epsilon"]
 
@@ -62,7 +63,7 @@ def test_map_counts_the_crossings(curves, plane):
     for i, epsilon in enumerate(curves.map_abscissa.values):
         for j, ordinate in enumerate(curves.map_ordinate.values):
             place = {**plane, plane["ordinate"]: ordinate}
-            expected = count_by_crossings(epsilon, place["tau"], place["xi"], plane["gamma"])
+            expected = unstable_pairs(epsilon, place["tau"], place["xi"], plane["gamma"])
             assert curves.map_unstable_pairs.values[j, i] == expected
 
 
@@ -106,7 +107,7 @@ def test_any_parameter_is_an_ordinate(programs, along):
     for i, epsilon in enumerate(curves.map_abscissa.values):
         for j, y in enumerate(curves.map_ordinate.values):
             place = (0.5, y) if along == "gamma" else (0.5 * (1 + y), 0.8)
-            counted = count_by_crossings(epsilon, 7.0, *place)
+            counted = unstable_pairs(epsilon, 7.0, *place)
             assert curves.map_unstable_pairs.values[j, i] == counted
             # a pair becomes unstable at each curve
             pieces = [curves.isel(point=curves.piece.values == k) for k in set(curves.piece.values)]
