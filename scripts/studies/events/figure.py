@@ -36,18 +36,14 @@ def draw(slip_events: list[xr.Dataset], labels: list[str]) -> Figure:
             draw_recurrence(panels[0], events)
             draw_distribution(panels[1], events.recurrence_time.values)
             draw_sizes(panels[2], np.sort(events.slip.values), ends)
-    for axes, words in zip(
-        grid.T,
-        (
-            (f"number of the event, up to {EVENTS_SHOWN}", f"recurrence\n{TIME}"),
-            (f"recurrence {TIME}", "share of events"),
-            ("slip $s$ (units of $L$)", "share of events\nwith slip $\\geq s$"),
-        ),
-        strict=True,
-    ):
-        for panel in axes:
-            panel.set_ylabel(words[1])
-        axes[-1].set_xlabel(words[0])
+    words = (
+        (f"number of the event, up to {EVENTS_SHOWN}", f"recurrence\n{TIME}"),
+        (f"recurrence {TIME}", "share of events"),
+        ("slip $s$ (units of $L$)", "share of events\nwith slip $\\geq s$"),
+    )
+    for column, (abscissa, ordinate) in zip(grid.T, words, strict=True):
+        plt.setp(column, ylabel=ordinate)
+        column[-1].set_xlabel(abscissa)
     return figure
 
 

@@ -2,8 +2,9 @@
 
 from scripts.claims.claims_results import Finding, Results, decided, short
 from scripts.claims.declare import Gamma, question, reads, says, tested_with
+from scripts.files.tsv import rows_by
 from scripts.namelists.laws import spoken
-from scripts.studies.friction_laws.table import rows_of_planes, scenes_of, shares_of
+from scripts.studies.friction_laws.table import scenes_of, shares_of
 from scripts.tables.motion_rows import kind_of
 
 CHAOTIC, PERIODIC = "delayed_logarithm", "delayed_velocity"
@@ -22,7 +23,7 @@ def place_of_delay_decides(results: Results, *, gamma: Gamma) -> Finding:
 
     And in none under the laws with the delayed velocity itself.
     """
-    shares = shares_of(rows_of_planes(results.friction_laws))
+    shares = shares_of(results.friction_laws)
     chaotic = {
         place: [
             share["kinds"]["chaos"] > 0
@@ -32,12 +33,11 @@ def place_of_delay_decides(results: Results, *, gamma: Gamma) -> Finding:
         for place in (CHAOTIC, PERIODIC)
     }
     words = []
-    for place in dict.fromkeys((share["gamma"], share["xi"]) for share in shares):
-        here = [share for share in shares if (share["gamma"], share["xi"]) == place]
+    for (at_gamma, xi), here in rows_by(shares, "gamma", "xi").items():
         counts = [f"{share['kinds']['chaos']} ({spoken(share['law'])})" for share in here]
         words.append(
-            f"At $gamma = {short(place[0])}$, $xi = {short(place[1])}$ of {here[0]['points']}"
-            f" points these are chaotic: {', '.join(counts)}."
+            f"At $gamma = {short(at_gamma)}$, $xi = {short(xi)}$ of {here[0]['points']} points"
+            f" these are chaotic: {', '.join(counts)}."
         )
     return decided(
         bool(chaotic[CHAOTIC]) and all(chaotic[CHAOTIC]) and not any(chaotic[PERIODIC]),
