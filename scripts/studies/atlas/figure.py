@@ -66,9 +66,10 @@ def draw(
         draw_classes(left, shown, along)
         mesh = draw_exponents(right, shown, along)
         for axes in (left, right):
-            for plane in curves:
-                if plane_of(plane.attrs) == at:
-                    draw_curves(axes, plane)
+            for plane in (one for one in curves if plane_of(one.attrs) == at):
+                for piece in np.unique(plane.piece):
+                    line = plane.isel(point=plane.piece.values == piece)
+                    draw_piece(axes, *(line[key] for key in axes_of(plane.attrs)), line.l1, INK)
             mark_scenes(axes, inside, along, named=axes is left)
             axes.set_xlabel(parameters.axis_of(along[0], along[0], shown[0]))
         for line in cycles:
@@ -120,13 +121,6 @@ def draw_exponents(axes: Axes, rows: list[dict], along: tuple[str, str]):
     mesh = axes.pcolormesh(x, y, values, cmap="PuOr_r", norm=norm, **CELLS)
     mark_failures(axes, rows, along)
     return mesh
-
-
-def draw_curves(axes: Axes, curves: xr.Dataset) -> None:
-    """Hopf curves, dashed where subcritical."""
-    for piece in np.unique(curves.piece):
-        line = curves.isel(point=curves.piece.values == piece)
-        draw_piece(axes, *(line[key] for key in axes_of(curves.attrs)), line.l1, INK)
 
 
 def draw_curves_of_cycles(axes: Axes, cycles: xr.Dataset, along: tuple[str, str]) -> set[str]:

@@ -84,11 +84,6 @@ def inputs(config: dict) -> dict:
     }
 
 
-def inputs_of_play(config: dict) -> dict:
-    """Motions at all points, and the tables of their classes."""
-    return {"runs": parts_of_atlas(config), "tables": [table_of_atlas(config)]}
-
-
 FIGURE = {
     "category": "Atlas",
     "inputs": inputs,
@@ -118,7 +113,8 @@ STUDY = Study(
             script="tables/attractor_tables.py",
         ),
         Table(
-            *("play_data", "page/play-data.js", inputs_of_play),
+            *("play_data", "page/play-data.js"),
+            lambda config: {"runs": parts_of_atlas(config), "tables": [table_of_atlas(config)]},
             params={"scenes": marked_scenes},
             script="play_data.py",
         ),

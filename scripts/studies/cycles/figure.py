@@ -28,8 +28,8 @@ LINES = (
 """How cycles are drawn, by the number of their unstable multipliers."""
 HOPF = {"ls": "", "marker": "o", "ms": 3, "mfc": "white", "color": INK, "label": "Hopf point"}
 SWEEPS = {
-    "up": {"color": "#cc79a7", "ms": 4.2, "zorder": 2},
-    "down": {"color": "#56b4e9", "ms": 2.6, "zorder": 2.5},
+    "up": {"color": "#cc79a7", "ms": 4.2, "zorder": 2, "label": "sweep up"},
+    "down": {"color": "#56b4e9", "ms": 2.6, "zorder": 2.5, "label": "sweep down"},
 }
 """Dots of a sweep, lighter than the lines over them. Those of the second are smaller and
 on top: both show where they agree."""
@@ -57,8 +57,11 @@ def draw(
         if is_of_block(line.attrs):
             axes.axhline(1, **SLIDING)
         for direction in on_line:
-            draw_sweep(axes, direction, next(following), along)
-        draw_branches(axes, line)
+            style = {"ls": "", "marker": ".", "mew": 0, "rasterized": True, **SWEEPS[direction]}
+            axes.plot(*maxima_of(next(following), along), **style)
+        # dots of sweeps lie over the stable parts and below the others
+        for unstable, x, y in parts_of(line):
+            axes.plot(x, y, **LINES[min(unstable, 3)], zorder=3 if unstable else 1)
         draw_points(axes, line, along)
         drawn |= {str(artist.get_label()): artist for artist in axes.lines}
         abscissa = parameters.axis_of(along, line[along].attrs.get("long_name", ""), line.attrs)
@@ -72,7 +75,9 @@ def draw(
         mark_scenes(axes, scenes, line.attrs, along)
         words = f"{parameters.in_words(line.attrs, along)}: {count_in_words(line)}"
         axes.set_title(f"$\\bf{{{'abcdefgh'[i % 8]}}}$  {words}")
-    figure.legend(handles=legend_of(drawn), loc="outside lower center", ncols=3)
+    names = [style["label"] for style in (*LINES, *SWEEPS.values(), SLIDING, HOPF)]
+    handles = [drawn[name] for name in (*names, *map(in_words, STYLES)) if name in drawn]
+    figure.legend(handles=handles, loc="outside lower center", ncols=3)
     return figure
 
 
@@ -83,21 +88,6 @@ def count_in_words(cycles: xr.Dataset) -> str:
         f"{branches} {'branch' if branches == 1 else 'branches'},"
         f" {points} special point{'s' * (points != 1)}"
     )
-
-
-def draw_sweep(axes: Axes, direction: str, swept: xr.Dataset, along: str) -> None:
-    """A dot for each maximum kept."""
-    style = {"ls": "", "marker": ".", "mew": 0, "rasterized": True, "label": f"sweep {direction}"}
-    axes.plot(*maxima_of(swept, along), **style, **SWEEPS[direction])
-
-
-def draw_branches(axes: Axes, cycles: xr.Dataset) -> None:
-    """The branches, cut where the number of unstable multipliers changes.
-
-    Dots of sweeps lie over the stable parts and below the others.
-    """
-    for unstable, x, y in parts_of(cycles):
-        axes.plot(x, y, **LINES[min(unstable, 3)], zorder=3 if unstable else 1)
 
 
 def draw_points(axes: Axes, cycles: xr.Dataset, along: str) -> None:
@@ -128,16 +118,6 @@ def draw_points(axes: Axes, cycles: xr.Dataset, along: str) -> None:
     if cycles.sizes["hopf"] and is_of_block(cycles.attrs):
         places = cycles[f"hopf_{along}"]
         axes.plot(places, np.ones(places.size), clip_on=False, zorder=4, **HOPF)
-
-
-def legend_of(drawn: dict[str, Artist]) -> list[Artist]:
-    """What is drawn somewhere, in the order of the lists above."""
-    names = [
-        *(str(style["label"]) for style in LINES),
-        *(f"sweep {run}" for run in SWEEPS),
-        *("steady sliding", "Hopf point", *map(in_words, STYLES)),
-    ]
-    return [drawn[name] for name in names if name in drawn]
 
 
 def numbers(cycles: list[xr.Dataset]) -> dict:

@@ -43,8 +43,13 @@ def draw(
     styles = styles_of(shown)
     for row in shown:
         if row["chain"] == names[longest]:
-            name = definition_of(row)
-            found = sizes_of(row, events[longest], slips[longest])
+            name, chain = definition_of(row), slips[longest]
+            if row["joined"] == "yes":
+                there = (e for e in events[longest] if e["threshold"] == row["threshold"])
+                found = [event["size"] for event in there]
+            else:
+                kept = chain.onset >= chain.attrs["t_end"] - row["time"]
+                found = chain.slip.values[(chain.threshold == row["threshold"]) & kept]
             draw_sizes(others, found, label=name, **styles[name])
     others.legend(fontsize=7)
     draw_cut_offs(cutoffs, shown, styles)
@@ -64,14 +69,6 @@ def draw(
         *sizes.get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=7
     )
     return figure
-
-
-def sizes_of(row: dict, events: list[dict], slips: xr.Dataset) -> np.ndarray:
-    """Sizes of the events of a chain by the definition of a row."""
-    if row["joined"] == "yes":
-        return np.array([e["size"] for e in events if e["threshold"] == row["threshold"]])
-    start = slips.attrs["t_end"] - row["time"]
-    return slips.slip.values[(slips.threshold == row["threshold"]) & (slips.onset >= start)]
 
 
 def draw_sizes(axes: Axes, sizes, **style) -> None:

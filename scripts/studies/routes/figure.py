@@ -52,7 +52,9 @@ def draw(tables: list[list[dict]], runs: list[xr.Dataset], scenes: dict[str, dic
             style = {"color": colour, "ms": DOTS[min(number, len(DOTS) - 1)], "mew": 0}
             data = next(following)
             draw_maxima(above, data, of_run, along, style)
-            draw_exponent(below, of_run, along, style)
+            keys = (along, "exponent_1", "error_1")
+            exponents = ([row[key] for row in of_run] for key in keys)
+            below.errorbar(*exponents, fmt="o", lw=0.5, **style)
         draw_strips(middle, by_run, along)
         meaning = data[along].attrs.get("long_name", "") if along in data else ""
         label(above, middle, below, parameters.axis_of(along, meaning, rows[0]))
@@ -104,12 +106,6 @@ def draw_maxima(axes: Axes, run: xr.Dataset, rows: list[dict], along: str, style
         rasterized=True,
         **style,
     )
-
-
-def draw_exponent(axes: Axes, rows: list[dict], along: str, style: dict) -> None:
-    """The largest exponent with its standard error."""
-    keys = (along, "exponent_1", "error_1")
-    axes.errorbar(*([row[key] for row in rows] for key in keys), fmt="o", lw=0.5, **style)
 
 
 def numbers(tables: list[list[dict]], runs: list[xr.Dataset]) -> dict:
