@@ -25,8 +25,7 @@ from scripts.namelists.laws import PAPER
 from scripts.namelists.write_namelist import write_namelist
 from scripts.studies.atlas import figure as atlas
 from scripts.studies.atlas import play_data
-from scripts.studies.atlas.parts import part_of
-from scripts.studies.atlas.plan import groups, inputs
+from scripts.studies.atlas.plan import groups, inputs, part_of
 from scripts.tables import attractor_tables
 from scripts.tables.motion_rows import COLOURS
 

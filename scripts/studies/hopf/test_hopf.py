@@ -24,7 +24,7 @@ from matplotlib import pyplot as plt
 
 from scripts.drawing.wording import short
 from scripts.drawing.write_captions import render
-from scripts.files.tsv import read_table
+from scripts.files.tsv import read_table, rows_by
 from scripts.namelists.laws import PAPER
 from scripts.plans import studies
 from scripts.studies.hopf import figure as drawing
@@ -141,19 +141,10 @@ def test_any_parameter_is_an_ordinate(programs, along):
 
 def test_table_of_the_workflow(smoke):
     rows = read_table(smoke.folder / "results" / "tables" / "hopf-points.tsv")
-    kinds = {row["kind"] for row in rows}
-    assert kinds == {
-        "amplitude_death_begin",
-        "amplitude_death_end",
-        "double_hopf",
-        "generalised_hopf",
-        "hopf_without_delay",
-    }
-    (begin, end) = [
-        row["tau"]
-        for row in rows
-        if row["kind"].startswith("amplitude_death") and row["of"] == "torus"
-    ]
+    deaths = [f"amplitude_death_{end}" for end in ("begin", "end")]
+    by_kind = rows_by(rows, "kind")
+    assert by_kind.keys() == {*deaths, "double_hopf", "generalised_hopf", "hopf_without_delay"}
+    begin, end = (row["tau"] for kind in deaths for row in by_kind[kind] if row["of"] == "torus")
     assert begin < end
 
 
