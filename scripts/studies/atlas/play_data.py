@@ -98,11 +98,8 @@ def paths_of(run: xr.Dataset) -> list[np.ndarray | None]:
     if "path_u" not in run:
         return [None] * run.sizes["point"]
     columns = np.array([run[key].values for key in ("path_time", "path_u", "path_ln_v")])
-    ends = np.cumsum(run.path_length.values)
-    return [
-        columns[:, end - length : end] if length else None
-        for end, length in zip(ends, run.path_length.values, strict=True)
-    ]
+    paths = np.split(columns, np.cumsum(run.path_length.values)[:-1], axis=1)
+    return [path if path.size else None for path in paths]
 
 
 def pack_path(number: int, path: np.ndarray, time: float) -> bytes:
