@@ -15,6 +15,7 @@ from made_up_results import (
     cycles_to_a_torus,
     followed_cycles,
     of_other_model,
+    route_rows,
     stability_row,
     torus_point,
 )
@@ -36,17 +37,10 @@ from scripts.studies.cycles.table import COLUMNS, rows_of, sweeps_over
 
 def sweep(*motions: tuple[str, float], run: str = "up", **given) -> list[dict]:
     """Rows of a sweep at 0.2, 0.3 and so on: class, with points in the section behind a /."""
+    rows = route_rows(*(met for met, _ in motions), run=run)[::-1]
     return [
-        {
-            "run": run,
-            **PLACE,
-            "tau": round(0.1 * i + 0.2, 1),
-            "class": met.split("/")[0],
-            "period": float(met.split("/")[1]) if "/" in met else float("nan"),
-            "largest_maximum": most,
-            **given,
-        }
-        for i, (met, most) in enumerate(motions)
+        {**row, "tau": round(row["tau"] + 0.1, 1), "largest_maximum": most, **given}
+        for row, (_, most) in zip(rows, motions, strict=True)
     ]
 
 
