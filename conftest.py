@@ -256,6 +256,12 @@ def config(default_config) -> dict:
     return copy.deepcopy(default_config)
 
 
+@pytest.fixture
+def own_config(filled_config) -> dict:
+    """The config with its defaults, to change."""
+    return copy.deepcopy(filled_config)
+
+
 @functools.cache
 def paper_plan() -> Plan:
     """The plan of a run without arguments; not to be changed."""

@@ -13,7 +13,7 @@ from work_precision import measure, ratios
 from workers import OURS, Scene, Solver, SolverError, Worker, chosen_solvers
 
 from scripts.files.tsv import read_table
-from scripts.studies.work_precision.plan import case_of, measured_study
+from scripts.studies.work_precision.plan import cases_of
 from scripts.tables.accuracy import read_references
 
 HORIZONS = TABLES / "trusted-horizons.tsv"
@@ -37,7 +37,6 @@ def compute_references(names: list[str]) -> None:
 def scenes_up_to_horizons(cases: dict[str, dict]) -> dict[str, Scene]:
     """The scenes of the study, each up to the time to which it can be trusted."""
     horizons = {row["scene"]: row["horizon"] for row in read_table(HORIZONS)}
-    given = {name: case_of(name, settings) for name, settings in cases.items()}
     return {
         name: Scene(
             **{key: float(case[key]) for key in ("tau", "epsilon", "xi", "gamma")},
@@ -45,7 +44,7 @@ def scenes_up_to_horizons(cases: dict[str, dict]) -> dict[str, Scene]:
             t_end=horizons[name],
             sample_interval=case["sample_interval"],
         )
-        for name, case in given.items()
+        for name, case in cases.items()
     }
 
 
@@ -78,7 +77,7 @@ def ratio_rows(rows: list[dict]) -> list[dict]:
 
 def main() -> None:
     """Measure and write the tables."""
-    cases = measured_study(configuration())["cases"]
+    cases = cases_of(configuration())
     parser = options_of("benchmarks/run", TABLES)
     parser.add_argument("--scenes", nargs="+", choices=list(cases), default=list(cases))
     parser.add_argument("--solvers", nargs="+", choices=CHOICES, default=CHOICES)

@@ -192,7 +192,7 @@ def test_modules_found_by_name_enter_the_digests():
     """A claim of any study is stale once its module changes, or one that this imports."""
     found = modules_in("claims/ledger.py")
     every = {f"studies/{path.parent.name}/claims.py" for path in studies.FOLDER.glob("*/claims.py")}
-    assert every | {"studies/atlas/roots_of_5.py", "studies/formulas/printed_formulas.py"} <= found
+    assert every | {"tables/roots_of_5.py", "studies/formulas/printed_formulas.py"} <= found
     shown = {f"studies/{path.parent.name}/finding.py" for path in studies.files_of("finding.py")}
     assert shown <= modules_in("page/write_page.py")
 

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from characteristic_equation import count_by_crossings, residual
+from characteristic_equation import residual
 from made_up_results import NO, YES, Results, stability_row
 
 from scripts.claims.claims_results import changes
@@ -12,6 +12,7 @@ from scripts.files.tsv import read_table
 from scripts.namelists.parameters import PARAMETERS
 from scripts.studies.linear_stability import claims
 from scripts.studies.linear_stability.table import amplitude_death, row_of
+from scripts.tables.roots_of_5 import unstable_pairs
 
 SCENES = {"fixed_point": 0, "oscillation": 1, "torus": 1, "chaos": 1}
 SCENES |= {"true_torus": 1, "stick_slip": 1}
@@ -45,7 +46,7 @@ def test_file_and_row_of_a_scene(stability):
     assert set(roots) == set(roots.conj())
     pairs = stability.attrs["unstable_pairs"]
     assert pairs == np.count_nonzero(roots.real > 0) // 2
-    assert pairs == count_by_crossings(*parameters(stability))
+    assert pairs == unstable_pairs(*parameters(stability))
     for key in ("tau", "epsilon"):
         places, omegas = stability[f"{key}_of_change"], stability[f"{key}_change_omega"]
         assert places.size > 0
@@ -66,9 +67,9 @@ def test_amplitude_death(stability):
     """Unstable without delay, stable between the first two crossings; by the crossings, too."""
     ((begin, end),) = amplitude_death(stability)
     assert (begin, end) == tuple(stability.tau_of_change.values[:2])
-    assert count_by_crossings(*parameters(stability, tau=0.9 * begin)) == 1
-    assert count_by_crossings(*parameters(stability, tau=(begin + end) / 2)) == 0
-    assert count_by_crossings(*parameters(stability, tau=1.1 * end)) == 1
+    assert unstable_pairs(*parameters(stability, tau=0.9 * begin)) == 1
+    assert unstable_pairs(*parameters(stability, tau=(begin + end) / 2)) == 0
+    assert unstable_pairs(*parameters(stability, tau=1.1 * end)) == 1
 
 
 @pytest.mark.parametrize("stability", ["fixed_point", "oscillation"], indirect=True)
