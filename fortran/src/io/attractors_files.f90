@@ -16,7 +16,7 @@ module attractors_files
    use namelist_input, only: namelist_file_type, word_length
    use netcdf_output, only: output_file_type
    use points_input, only: points_settings_type
-   use value_checks, only: check_number, missing, missing_count
+   use value_checks, only: check_number, missing, missing_count, most_samples
    implicit none (type, external)
    private
    public :: read_attractors, write_attractors
@@ -62,6 +62,10 @@ contains
                                     absolute=solver%tolerance, most_steps=solver%most_steps)
       call check_number(error, path//": observation", "interval", observation%interval, &
                         above=0.0_wp)
+      call check_number(error, path//": observation", "t_path", observation%t_path, &
+                        at_least=0.0_wp)
+      call check_number(error, path//": observation", "sample_interval", &
+                        observation%sample_interval, at_least=observation%t_path/most_samples)
       call points%open(path//": points", model, error)
       call read_histories(path, model, history, error)
    end subroutine read_attractors

@@ -52,6 +52,7 @@ contains
             call one%model%open(place, case%model, error)
             call read_history(place, case%model, pack(one%history, one%history /= ""), &
                               elements(one%values), case%history, error)
+            call check_number(error, place, "t_end", one%t_end, at_least=0.0_wp)
             call check_number(error, place, "sample_interval", one%sample_interval, &
                               at_least=one%t_end/most_samples)
          end associate

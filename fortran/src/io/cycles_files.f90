@@ -79,6 +79,8 @@ contains
       if (allocated(error)) return
       call check_choice(error, path, "along", cycles%along, line%model%names)
       call check_count(error, path, "degree", cycles%degree, at_least=3)
+      call check_count(error, path, "intervals", cycles%intervals, at_least=1)
+      call check_count(error, path, "most_orbits", cycles%most_orbits, at_least=2)
       line%along = line%model%number_of(cycles%along)
       line%window = cycles%window
       line_settings = cycle_settings_type(line=line, starts=elements(cycles%starts), &

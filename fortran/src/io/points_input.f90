@@ -9,7 +9,7 @@ module points_input
    use model_problem, only: model_type
    use model_settings, only: model_settings_type
    use namelist_input, only: word_length
-   use value_checks, only: check_choice, missing_count
+   use value_checks, only: check_choice, check_count, missing_count
    implicit none (type, external)
    private
    public :: points_settings_type
@@ -66,6 +66,8 @@ contains
          end do
          if (.not. allocated(error)) call corner%open(place, model, error)
       end do
+      call check_count(error, place, "refinements", self%refinements, at_least=0)
+      call check_count(error, place, "kept", self%kept, at_least=0)
       call check_choice(error, place, "sweep", self%sweep, ["none", "up  ", "down"])
    end subroutine open_points
 
