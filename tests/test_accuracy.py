@@ -6,32 +6,7 @@ import numpy as np
 import pytest
 
 from scripts.files.tsv import read_table, write_table
-from scripts.tables.accuracy import (
-    Reference,
-    distances,
-    errors_of,
-    largest,
-)
-
-
-@pytest.fixture
-def reference() -> Reference:
-    time = np.arange(5.0)
-    uncertainty = np.full(5, 1e-17)
-    return Reference(
-        status="ok",
-        time=time,
-        state=np.zeros((3, 5)),
-        uncertainty=uncertainty,
-        amplification=10.0**time,
-    )
-
-
-def made_up_run(errors: list[float]) -> dict:
-    state = np.zeros((3, len(errors)))
-    state[1] = errors
-    time = np.arange(float(len(errors)))
-    return {"case": "made up", "setting": 1e-13, "t_end": 4.0, "time": time, "state": state}
+from scripts.tables.accuracy import Reference, distances, errors_of, largest
 
 
 def test_table_is_read_as_written(tmp_path):
@@ -52,9 +27,10 @@ def test_errors_are_relative_above_one():
     assert math.isnan(largest(np.array([0.0, np.nan])))
 
 
-def test_samples_at_other_times_are_refused(reference):
+def test_samples_at_other_times_are_refused():
     """Two states at different times cannot be compared."""
-    run = made_up_run([0.0, 0.0])
-    run["time"] = np.array([0.0, 0.9])
+    state, time = np.zeros((3, 2)), np.arange(2.0)
+    reference = Reference(status="ok", time=time, state=state, uncertainty=time, amplification=time)
+    run = {"case": "made up", "setting": 1e-13, "t_end": 1.0, "time": 0.9 * time, "state": state}
     with pytest.raises(ValueError, match=r"case 'made up'.*different times"):
         errors_of(run, reference)

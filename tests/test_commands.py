@@ -3,13 +3,14 @@
 import fcntl
 import os
 import re
+import shutil
 import subprocess
 import tempfile
 from pathlib import Path
 
 import pytest
 
-from conftest import ROOT, copy_of_project, write_script
+from conftest import ROOT, write_script
 
 TOOLS = ["ruff", "snakefmt", "fortitude", "snakemake", "cmake", "ctest", "pytest"]
 """Tools that ./test runs."""
@@ -18,9 +19,12 @@ PARTS = ["quick", "lint", "fortran", "python", "long", "compilers", "slurm"]
 
 @pytest.fixture
 def recording(tmp_path) -> Path:
-    """A copy of the project in which the set-up has nothing to do, and tools only write down how
-    they were called."""
-    folder = copy_of_project(tmp_path / "project").folder
+    """The two scripts in a folder in which the set-up has nothing to do, and tools only write down
+    how they were called."""
+    folder = tmp_path / "project"
+    shutil.copytree(ROOT / "compilers", folder / "compilers")
+    for script in ("reproduce", "test"):
+        shutil.copy(ROOT / script, folder)
     write_script(folder / "setup" / "setup.sh", "exit 0")
     for tool in [*TOOLS, "python"]:
         write_script(folder / ".venv" / "bin" / tool, 'echo "${0##*/} $*" >>"$CALLS"')
@@ -42,13 +46,11 @@ def test_reproduce_hands_its_arguments_on(recording, tmp_path):
     for command, arguments, passed in (
         ("project/reproduce", [], f"{quiet}--snakefile Snakefile --cores 2"),
         ("link", ["figure_5"], f"{quiet}--snakefile Snakefile --cores 2 figure_5"),
-        ("link", ["a", "--cores", "4"], f"{quiet}--snakefile Snakefile a --cores 4"),
         ("link", ["-c1", "a b"], f"{quiet}--snakefile Snakefile -c1 a b"),
         (
             "link",
-            ["mine.yaml", "scenes/a"],
-            f"{quiet}--snakefile Snakefile --cores 2 scenes/a"
-            f" --config user_file={tmp_path}/mine.yaml",
+            ["mine.yaml", "a", "--cores", "4"],
+            f"{quiet}--snakefile Snakefile a --cores 4 --config user_file={tmp_path}/mine.yaml",
         ),
         ("link", ["--dry-run"], "--snakefile Snakefile --cores 2 --dry-run"),
     ):

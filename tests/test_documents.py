@@ -91,15 +91,8 @@ def rules() -> set[str]:
 
 
 def is_made(path: str) -> bool:
-    """Whether something makes a file: the workflow, the benchmarks, CMake or the set-up.
-
-    A file of results stands in a folder of results; the code names each table.
-    """
+    """Whether something makes a file: the code names it, or where files of its kind stand."""
     wanted = re.sub(r"^results/mine(/|$)", r"results/", path).rstrip("/")
-    if program := re.fullmatch(r"build/release/bin/(\w+)", wanted):
-        return (ROOT / "fortran" / "app" / f"{program[1]}.f90").is_file()
-    if wanted == "build/release/models/NAME.so":
-        return True
     if wanted.endswith("/.venv"):
         return (ROOT / wanted).with_name("requirements.lock").is_file()
     folder = "/".join(wanted.split("/")[:2])
@@ -115,15 +108,10 @@ def files_and_folders() -> set[str]:
     return files | {str(parent) for name in files for parent in PurePath(name).parents}
 
 
-def exists(path: str, document: str) -> bool:
+def exists(path: str) -> bool:
     """Whether a path, its end, or a pattern names a file or folder of the project."""
     wanted = path.removeprefix("./").rstrip("/")
-    beside = str(PurePath(document).parent / wanted)
-    return any(
-        name in (wanted, beside) or name.endswith(f"/{wanted}") or fnmatch(name, wanted)
-        or fnmatch(PurePath(name).name, wanted)
-        for name in files_and_folders()
-    )  # fmt: skip
+    return any(fnmatch(f"/{name}", f"*/{wanted}") for name in files_and_folders())
 
 
 def is_path(token: str) -> bool:
@@ -165,7 +153,7 @@ def test_files_that_are_named_exist(document):
     paths = {token for token in ticked(document) if is_path(token) and "NAME" not in token}
     paths -= OF_THE_READER
     paths = {path for path in paths if path.partition("/")[0] not in USERS_FIGURES}
-    missing = [path for path in paths if not (exists(path, document) or is_made(path))]
+    missing = [path for path in paths if not (exists(path) or is_made(path))]
     assert missing == []
 
 
