@@ -1,7 +1,11 @@
-"""The workflow in smoke size: everything once, nothing twice, and only what is asked for."""
+"""The workflow in smoke size: everything once, nothing twice, only what is asked for; a report."""
 
+import json
 import re
+import shutil
+import subprocess
 import sys
+import zipfile
 from collections.abc import Iterator
 from types import SimpleNamespace
 
@@ -13,6 +17,7 @@ from conftest import ROOT, SMOKE, rules_in
 from scripts.plans import studies
 from scripts.plans.declare import PAPER as PRIORITY
 from scripts.workflow.check_run import problem_of
+from scripts.workflow.git_commit import UNKNOWN, commit_of
 
 PAPER = [f"figure_{number}" for number in range(1, 9)]
 
@@ -99,6 +104,26 @@ def test_second_run_does_nothing(smoke):
     assert "Nothing to be done" in run.stdout
 
 
+def test_report_holds_figures_captions_and_verdicts(smoke, tmp_path):
+    """In one file; the longest plain part of each caption stands for the whole."""
+    report, figures = tmp_path / "report.zip", studies.paper_figures()
+    run = smoke.snakemake(*SMOKE, "--report", str(report))
+    assert run.returncode == 0, run.stdout
+    with zipfile.ZipFile(report) as parts:
+        files = {name.split("/")[-1] for name in parts.namelist()}
+        text = parts.read("report/report.html").decode()
+    assert {"claims.tsv", *(f"{figure}.png" for figure in figures)} <= files
+    text = " ".join(text.replace("\\n", " ").split())
+    for figure in figures.values():
+        caption = (smoke.folder / f"results/figures/{figure.name}.rst").read_text()
+        paragraphs = [" ".join(one.split()) for one in caption.replace(":math:", "").split("\n\n")]
+        plain = [part for one in paragraphs for part in re.findall(r"[\w ,;:.()-]+", one)]
+        assert max(plain, key=len).strip() in text
+        assert f"{figure.name}.png" in text
+        assert json.dumps({"figure": figure.title.rstrip(".")})[1:-1] in text
+    assert '"content": "Verdicts"' in text
+
+
 @pytest.fixture(scope="module")
 def planned(fresh) -> list[Job]:
     run = fresh.snakemake("--dry-run")
@@ -168,3 +193,29 @@ def test_refusals_of_a_run(monkeypatch, cores, nodes, target, words):
     workflow = SimpleNamespace(resource_settings=settings, rules=[rule])
     assert problem_of(workflow, "mine", ["<results>/b.nc"]).startswith(words)
     assert bool(problem_of(workflow, "mine", ["<results>/b.nc"])) == bool(words)
+
+
+@pytest.mark.skipif(not shutil.which("git"), reason="no git")
+def test_commit_is_named(tmp_path, monkeypatch):
+    """By its full hash, with a word on changes; a repository around a copy is not its own."""
+
+    def git(*words: str) -> str:
+        me = ("-c", "user.name=me", "-c", "user.email=me@here")
+        run = subprocess.run(["git", *me, *words], cwd=tmp_path, capture_output=True, text=True)
+        return run.stdout.strip()
+
+    assert commit_of(tmp_path) == UNKNOWN
+    git("init")
+    assert commit_of(tmp_path) == UNKNOWN
+    (tmp_path / "file").write_text("one")
+    git("add", "file")
+    git("commit", "-m", "first")
+    commit = git("rev-parse", "HEAD")
+    assert commit_of(tmp_path) == commit
+    (tmp_path / "copy").mkdir()
+    assert commit_of(tmp_path / "copy") == UNKNOWN
+    (tmp_path / "other").write_text("two")
+    assert commit_of(tmp_path) == f"{commit} with changes"
+    # a machine without git
+    monkeypatch.setenv("PATH", "")
+    assert commit_of(tmp_path) == UNKNOWN
