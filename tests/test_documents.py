@@ -19,6 +19,7 @@ from scripts.files.read_config import parse, read
 from scripts.namelists.laws import block_parameters, built_in, chain_parameters
 from scripts.plans import studies
 from scripts.workflow import document_numbers
+from scripts.workflow.check_run import targets_of
 
 RESULTS = "results/README.md"
 """Stands beside what it names, and no other document links to it."""
@@ -33,8 +34,6 @@ DOCUMENTS = [
     *(name for name in project_files() if fnmatch(name, "docs/*.md") and name != "docs/ford.md"),
 ]
 ENDINGS = "c cff f90 in lock md mplstyle nc png py rst sh smk svg toml tsv txt yaml yml".split()
-WITH_VALUE = {"--cores", "--configfile", "--report", "--profile", "--workflow-profile"}
-"""Options of Snakemake that the documents use with a value behind them."""
 OF_THE_READER = {"mine.yaml", "mine.f90", "CMakeLists.txt"}
 """Files that the documents ask the reader to write."""
 USERS_FIGURES = {"scenes", "exponents", "planes", "routes", "cycles", "atlas"}
@@ -120,18 +119,15 @@ def is_path(token: str) -> bool:
     return "/" in token.strip(".") or token.rpartition(".")[2] in ENDINGS
 
 
-def commands_in(text: str) -> list[list[str]]:
-    """Words of the commands that call Snakemake or ./reproduce, without options."""
-    found = []
-    for line in re.findall(r"(?:snakemake|\./reproduce)(?: [^\n`|&#]*)?", text):
-        kept, skip = [], False
-        for word in line.split()[1:]:
-            # NAME=VALUE is a setting, of --default-resources for one
-            if not skip and not word.startswith("-") and "=" not in word:
-                kept.append(word)
-            skip = word in WITH_VALUE
-        found.append(kept)
-    return found
+def targets_in(text: str) -> set[str]:
+    """What commands that call Snakemake or ./reproduce ask for, but for words such as TARGET.
+
+    Not all have the plugin of a profile; help and --verify have no targets.
+    """
+    lines = re.findall(r"(?:snakemake|\./reproduce)((?: [^\n`|&#]*)?)", text)
+    words = [line.split() for line in lines if not re.search("--(help|verify)", line)]
+    words = [line[2:] if line[:1] == ["--profile"] else line for line in words]
+    return {one for line in words for one in targets_of(["snakemake", *line]) if not one.isupper()}
 
 
 @each
@@ -166,13 +162,10 @@ def test_words_of_code_exist(document):
 
 @each
 def test_targets_that_are_named_exist(document):
-    commands = commands_in("\n".join([*blocks_of(document, "sh"), *ticked(document)]))
-    targets = [word for command in commands for word in command]
-    # TARGET, SCENE and such stand for any
-    targets = [word for word in targets if not word.isupper()]
-    known = [*rules(), "new", *OF_THE_READER]
-    known += [word for word in targets if word.partition("/")[0] in USERS_FIGURES]
-    assert [target for target in targets if target not in known and not is_made(target)] == []
+    targets = targets_in("\n".join([*blocks_of(document, "sh"), *ticked(document)]))
+    targets -= {*rules(), "new", *OF_THE_READER}
+    targets = {word for word in targets if word.partition("/")[0] not in USERS_FIGURES}
+    assert [target for target in targets if not is_made(target)] == []
 
 
 @each
