@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 from conftest import ROOT
+from scripts.files.read_config import read
 
 FORTRAN = ROOT / "fortran"
 GENERATOR = ROOT / "generator"
@@ -109,6 +110,19 @@ def test_versions_agree():
             name: re.search(line, (ROOT / name).read_text())[1] for name, line in places.items()
         }
         assert len(set(found.values())) == 1, found
+
+
+def test_generator_and_methods_know_no_block():
+    """No name of its laws, and no parameter or state of it as a component or in quotes."""
+    model = FORTRAN / "src" / "model"
+    block = read(model / "spring_block.yaml")
+    keys = "|".join([*block["parameters"], *block["states"], "ln_v"])
+    laws = "|".join(path.stem for path in (model / "laws").glob("*.yaml"))
+    words = re.compile(rf"(?i)spring|friction|{laws}|%({keys})\b|[\"']({keys})[\"']")
+    files = [*GENERATOR.glob("*.py"), *GENERATOR.glob("*.jinja"), *GENERATOR.glob("fortran/**/*.*")]
+    files += (FORTRAN / "src" / "methods").glob("**/*.f90")
+    found = {path: words.findall(path.read_text()) for path in files}
+    assert [(path, met) for path, met in found.items() if met] == []
 
 
 PYTHON_LAYERS = [
