@@ -51,7 +51,7 @@ atlas:
   observation: *quick
   planes:
     my_atlas: { xi: 0.5, gamma: 0.8, ordinate_window: [0.0, 10.0] }
-exponents: { t_turning: 50.0, blocks: 3 }
+exponents: { t_turning: 50.0, batches: 3 }
 spectra: { segments: 3 }
 attractors:
   observation: *quick

@@ -40,7 +40,7 @@ def scripts() -> list[str]:
             "studies/routes/figure.py",
             ["studies/routes/figure.py", "drawing/class_map.py", "files/outputs.py", STYLE],
         ),
-        ("claims/ledger.py", ["studies/atlas/roots_of_5.py", *of_studies("claims.py")]),
+        ("claims/ledger.py", ["tables/roots_of_5.py", *of_studies("claims.py")]),
         ("page/write_page.py", of_studies("finding.py")),
     ],
 )
