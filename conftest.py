@@ -35,7 +35,7 @@ from scripts.namelists.models import law_of, models_in, objects_of, parts_of
 from scripts.namelists.write_namelist import write_namelist
 from scripts.plans import studies
 from scripts.workflow import manifest
-from scripts.workflow.plan import Plan, read_plan
+from scripts.workflow.plan import read_plan
 
 ROOT = Path(__file__).parent
 SMOKE = (
@@ -43,10 +43,7 @@ SMOKE = (
     *(path.relative_to(ROOT).as_posix() for path in studies.files_of("smoke.yaml")),
 )
 """Arguments for a run in smoke size; further config files may follow, targets must stand before."""
-COMMANDS = [
-    *("trajectory", "spectrum", "hopf", "linear_stability", "exponents", "cycles"),
-    *("attractors", "measure", "reference", "slip_events", "synchrony"),
-]
+COMMANDS = sorted(path.stem[:-8] for path in ROOT.glob("fortran/app/*_command.f90"))
 GROUPS = {
     "trajectory": "scene",
     "spectrum": "spectrum",
@@ -172,11 +169,7 @@ class Programs:
         before = unfinished(self.output)
         command = [*self.command(program), "input.nml", self.output.name]
         run = subprocess.Popen(command, cwd=self.folder, **options)
-        # text is written at the end
-        empty = 0 if program == "reference" else 1
-        wait_for(
-            lambda: any(path.stat().st_size >= empty for path in unfinished(self.output) - before)
-        )
+        wait_for(lambda: any(path.stat().st_size for path in unfinished(self.output) - before))
         return run
 
     def write(self, groups: dict[str, dict]) -> Path:
@@ -248,7 +241,7 @@ def default_config() -> dict:
 @pytest.fixture(scope="session")
 def filled_config(default_config) -> dict:
     """The config with its defaults; not to be changed."""
-    return paper_plan().config
+    return read_plan({}).config
 
 
 @pytest.fixture
@@ -256,10 +249,10 @@ def config(default_config) -> dict:
     return copy.deepcopy(default_config)
 
 
-@functools.cache
-def paper_plan() -> Plan:
-    """The plan of a run without arguments; not to be changed."""
-    return read_plan({})
+@pytest.fixture
+def own_config(filled_config) -> dict:
+    """The config with its defaults, to change."""
+    return copy.deepcopy(filled_config)
 
 
 @pytest.fixture(scope="session")

@@ -183,7 +183,7 @@ def measure_costs(
     theirs |= {
         "seconds_per_time_and_block": statistics.median(their_seconds) / scale if done else None,
         "set_up_seconds": worker.set_up_seconds,
-        "peak_memory_mb": worker.peak_memory() if done else None,
+        "peak_memory_mb": peak_memory_of(worker.process) if done else None,
     }
 
 

@@ -1,6 +1,5 @@
 """Error and time of this project's solver and of others on the same scenes (benchmarks/run)."""
 
-import dataclasses
 import math
 import platform
 import subprocess
@@ -11,10 +10,10 @@ import numpy as np
 from measuring import add_limits, describe_machine, first_line, options_of, write_table
 from project import ROOT, TABLES, configuration
 from work_precision import measure, ratios
-from workers import OURS, SOLVERS, Scene, Solver, SolverError, Worker, chosen_solvers
+from workers import OURS, Scene, Solver, SolverError, Worker, chosen_solvers
 
 from scripts.files.tsv import read_table
-from scripts.studies.work_precision.plan import case_of, measured_study
+from scripts.studies.work_precision.plan import cases_of
 from scripts.tables.accuracy import read_references
 
 HORIZONS = TABLES / "trusted-horizons.tsv"
@@ -22,10 +21,6 @@ CHOICES = (OURS, "jitcdde", "desolve", "desolve_interpol_2")
 TOLERANCES = tuple(float(f"1e-{k}") for k in range(3, 14))
 LEVELS = tuple(10.0**-k for k in range(4, 13))
 """Errors at which times are compared."""
-LONG_RUN_SCENE, LONG_RUN_TOLERANCE = "torus", 1e-8
-LONG_RUN_LIMIT = 600.0
-LAST_TIMES = (1e3, 1e4, 1e5, 1e6)
-"""Ends of the long runs, each in a process of its own."""
 
 
 def reference_path(name: str) -> Path:
@@ -42,7 +37,6 @@ def compute_references(names: list[str]) -> None:
 def scenes_up_to_horizons(cases: dict[str, dict]) -> dict[str, Scene]:
     """The scenes of the study, each up to the time to which it can be trusted."""
     horizons = {row["scene"]: row["horizon"] for row in read_table(HORIZONS)}
-    given = {name: case_of(name, settings) for name, settings in cases.items()}
     return {
         name: Scene(
             **{key: float(case[key]) for key in ("tau", "epsilon", "xi", "gamma")},
@@ -50,7 +44,7 @@ def scenes_up_to_horizons(cases: dict[str, dict]) -> dict[str, Scene]:
             t_end=horizons[name],
             sample_interval=case["sample_interval"],
         )
-        for name, case in given.items()
+        for name, case in cases.items()
     }
 
 
@@ -81,23 +75,9 @@ def ratio_rows(rows: list[dict]) -> list[dict]:
     ]
 
 
-def long_run(scene: Scene, t_end: float) -> dict:
-    """Seconds and memory of one run of this project's solver without samples."""
-    with Worker(SOLVERS[OURS].command, dataclasses.replace(scene, t_end=t_end)) as worker:
-        seconds = worker.seconds(LONG_RUN_TOLERANCE, 1, LONG_RUN_LIMIT)
-        return {
-            "scene": LONG_RUN_SCENE,
-            "t_end": f"{t_end:.0f}",
-            "tolerance": LONG_RUN_TOLERANCE,
-            "seconds": seconds,
-            "seconds_per_time": seconds / t_end,
-            "peak_memory_mb": worker.peak_memory(),
-        }
-
-
 def main() -> None:
     """Measure and write the tables."""
-    cases = measured_study(configuration())["cases"]
+    cases = cases_of(configuration())
     parser = options_of("benchmarks/run", TABLES)
     parser.add_argument("--scenes", nargs="+", choices=list(cases), default=list(cases))
     parser.add_argument("--solvers", nargs="+", choices=CHOICES, default=CHOICES)
@@ -114,7 +94,6 @@ def main() -> None:
                 name, scenes[name], solvers, options.repeats, options.time_limit
             )
         ]
-        long_runs = [long_run(scenes[LONG_RUN_SCENE], t_end) for t_end in LAST_TIMES]
     except (subprocess.CalledProcessError, SolverError) as failure:
         raise SystemExit(f"benchmarks: {failure}") from None
     header = [
@@ -126,7 +105,6 @@ def main() -> None:
     write_table(options.output / "benchmarks.tsv", rows, header)
     meaning = "columns of solvers: their time over ours, at equal error; empty where not reached"
     write_table(options.output / "benchmark-ratios.tsv", ratio_rows(rows), [*header, meaning])
-    write_table(options.output / "long-runs.tsv", long_runs, header[:3])
 
 
 if __name__ == "__main__":

@@ -9,8 +9,6 @@ draws docs/NAME.png of all `FIGURES` from results/figures/. Given a picture and 
 it draws docs/page.png from build/page.png: after `setup/setup.sh tests/browser`
 
     tests/browser/.venv/bin/python docs/page_picture.py results/index.html build/page.png
-
-docs/dense-output.png is drawn by docs/dense_picture.py.
 """
 
 import sys

@@ -5,6 +5,7 @@ Expressions are read by Python's own parser and never evaluated: a definition ca
 
 import ast
 import math
+import operator as operators
 import random
 import re
 from collections.abc import Iterable
@@ -25,7 +26,7 @@ RESERVED = {"t", "derivative", "second_difference", *FUNCTIONS}
 """Names with a meaning of their own in expressions."""
 KEYS = {
     *("name", "about", "source", "parameters", "states", "auxiliary", "definitions"),
-    *("equations", "steady_state", "history", "fast", "domain"),
+    *("equations", "steady_state", "fast", "domain"),
     *("event", "section", "integral", "coordinates"),
 }
 EVENT, SECTION = re.compile(r"(\w+) ?> ?(\S+)"), re.compile(r"(\w+) ?= ?(\S+)")
@@ -41,6 +42,10 @@ LARGEST_POWER = 64
 """Largest exponent that is a number: 9**9**9 has more digits than there is memory for."""
 LARGEST_LOGARITHM = 700
 """Largest logarithm of a power of numbers: ((9**64)**64)**64 has a million digits."""
+OPERATORS = {
+    **{ast.Add: operators.add, ast.Sub: operators.sub, ast.Mult: operators.mul},
+    **{ast.Div: operators.truediv, ast.Pow: operators.pow},
+}
 TRIALS, DIGITS = 5, 40
 """Values of the parameters at which a steady state is tested, and digits of these tests."""
 LONGEST_TEXT, LONGEST_UNIT = 500, 60
@@ -110,8 +115,6 @@ class Model:
     """Of each state an expression of parameters, or its own symbol where it is computed."""
     near: dict[str, sympy.Expr] | None = None
     """Where the computation of the steady state starts."""
-    history: dict[str, sympy.Expr] | None = None
-    """Each state up to the initial time as an expression of t; None: numbers, given later."""
     fast: str | None = None
     observed: Observed | None = None
     domain: dict[str, tuple[float, float]] = field(default_factory=dict)
@@ -313,12 +316,6 @@ class _Reader:
         """What a definition may leave out."""
         model = self.model
         self.read_steady_state(values)
-        expected = "an expression of t for each state"
-        model.history = self.of_each_state(values, "history", expected)
-        for state, value in model.history.items() if model.history else ():
-            if value.free_symbols & (model.variables - {TIME}):
-                text = values["history"][state]
-                self.refuse(f"history of {state}", text, "an expression of t alone")
         fast = values.get("fast")
         if fast is not None and fast not in model.states:
             self.refuse("fast", fast, f"one of the states {', '.join(model.states)}")
@@ -361,60 +358,50 @@ class _Reader:
 
     def read_steady_state(self, values: dict) -> None:
         """As expressions, which are tested, or where to look for it."""
-        model, expected = self.model, "a value for each state"
-        near = near_of(values)
+        model, near, texts = self.model, near_of(values), values.get("steady_state")
+        if texts is None:
+            return
+        if near and len(texts) > 1:
+            self.refuse("steady_state", ", ".join(texts), "near alone")
+        texts = near or texts
+        if set(texts) != set(model.states):
+            self.refuse("steady_state", ", ".join(texts), "a value for each state")
+        found = {}
+        for state in model.states:
+            found[state] = self.expression(f"steady state of {state}", texts[state])
+            if found[state].free_symbols & model.variables:
+                expected = "an expression of parameters"
+                self.refuse(f"steady state of {state}", texts[state], expected)
+        model.steady_state = found
         if near:
-            if len(values["steady_state"]) > 1:
-                self.refuse("steady_state", ", ".join(values["steady_state"]), "near alone")
-            values = {"steady_state": near}
-        found = self.of_each_state(values, "steady_state", expected)
-        for state, value in found.items() if found else ():
-            if value.free_symbols & model.variables:
-                text = values["steady_state"][state]
-                self.refuse(f"steady state of {state}", text, "an expression of parameters")
-        if near:
-            for state, equation in model.equations.items():
-                if equation.has(TIME):
-                    text = model.texts[state]
-                    self.refuse(f"equation of {state} with a steady state", text, "no t")
             model.near = found
             model.steady_state = {state: model.symbol(state) for state in model.states}
-            return
-        model.steady_state = found
-        for state, equation in model.equations.items() if found else ():
+        for state, equation in model.equations.items():
+            if equation.has(TIME):
+                text = model.texts[state]
+                self.refuse(f"equation of {state} with a steady state", text, "no t")
             left = model.at_steady_state(equation)
-            if left.has(sympy.zoo, sympy.nan, sympy.oo) or not self.vanishes(left):
+            undefined = left.has(sympy.zoo, sympy.nan, sympy.oo)
+            if not near and (undefined or not self.vanishes(left)):
                 text = f"{model.texts[state]} = {sympy.simplify(left)}"
                 self.refuse(f"equation of {state} at the steady state", text, "0")
 
     def vanishes(self, value: sympy.Expr) -> bool:
-        """Whether an expression is 0 at values of the parameters, where it has a value."""
+        """Whether an expression is 0 at values of the parameters, where it has a real value."""
         draw = random.Random(1)
         terms = sympy.Add.make_args(self.model.plain(value))
         for _ in range(TRIALS):
-            at = {TIME: sympy.Rational(draw.gauss(0, 1))}
+            at = {}
             for one in self.model.parameters:
                 least = one.at_least if one.above is None else one.above
                 number = draw.gauss(0, 1) if least is None else least + draw.expovariate(1)
                 at[self.model.symbol(one.name)] = sympy.Rational(number)
-            total = sympy.Abs(sympy.Add(*terms).evalf(DIGITS, subs=at))
-            size = 1 + sum(sympy.Abs(term.evalf(DIGITS, subs=at)) for term in terms)
-            if total.is_comparable and total > size * sympy.Rational(10) ** (-DIGITS // 2):
+            found = [term.evalf(DIGITS, subs=at) for term in terms]
+            size = 1 + sum(map(sympy.Abs, found))
+            is_real = all(one.is_comparable for one in found)
+            if is_real and abs(sum(found)) > size * sympy.Rational(10) ** (-DIGITS // 2):
                 return False
         return True
-
-    def of_each_state(self, values: dict, key: str, expected: str) -> dict[str, sympy.Expr] | None:
-        """An expression for each state, in their order; None where there are none."""
-        texts = values.get(key)
-        if texts is None:
-            return None
-        if set(texts) != set(self.model.states):
-            self.refuse(key, ", ".join(texts), expected)
-        place = key.replace("_", " ")
-        return {
-            state: self.expression(f"{place} of {state}", texts[state])
-            for state in self.model.states
-        }
 
     def expression(self, place: str, text) -> sympy.Expr:
         """An expression from its text."""
@@ -489,31 +476,23 @@ class _Expression:
             return TIME
         if name in model.definitions:
             return self.reader.definition(name)
-        if name in {*model.states, *model.auxiliary, *(one.name for one in model.parameters)}:
-            return model.symbol(name)
         known = [*(one.name for one in model.parameters), *model.states, *model.auxiliary]
+        if name in known:
+            return model.symbol(name)
         self.refuse(node, f"one of {', '.join([*known, *model.definitions])}")
 
     def combined(self, node, operator, left: sympy.Expr, right: sympy.Expr) -> sympy.Expr:
-        match operator:
-            case ast.Add():
-                return left + right
-            case ast.Sub():
-                return left - right
-            case ast.Mult():
-                return left * right
-            case ast.Div():
-                return left / right
-            case ast.Pow():
-                if right.free_symbols & self.reader.model.variables:
-                    self.refuse(node, "a power with a constant exponent; write exp(b*log(a))")
-                if right.is_number and abs(right) > LARGEST_POWER:
-                    self.refuse(node, f"an exponent of size <= {LARGEST_POWER}")
-                size = abs(right) * sympy.log(abs(left)) if left.is_number and left != 0 else 0
-                if right.is_number and abs(sympy.N(size)) > LARGEST_LOGARITHM:
-                    self.refuse(node, f"a power below exp({LARGEST_LOGARITHM})")
-                return left**right
-        self.refuse(node, "+ - * / **")
+        if type(operator) not in OPERATORS:
+            self.refuse(node, "+ - * / **")
+        if isinstance(operator, ast.Pow):
+            if right.free_symbols & self.reader.model.variables:
+                self.refuse(node, "a power with a constant exponent; write exp(b*log(a))")
+            if right.is_number and abs(right) > LARGEST_POWER:
+                self.refuse(node, f"an exponent of size <= {LARGEST_POWER}")
+            size = abs(right) * sympy.log(abs(left)) if left.is_number and left != 0 else 0
+            if right.is_number and abs(sympy.N(size)) > LARGEST_LOGARITHM:
+                self.refuse(node, f"a power below exp({LARGEST_LOGARITHM})")
+        return OPERATORS[type(operator)](left, right)
 
     def called(self, node: ast.Call, name: str, args: list[ast.AST]) -> sympy.Expr:
         model = self.reader.model

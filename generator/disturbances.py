@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from generator.address import Address
 from generator.definition import Model
 from generator.flow import Flow, exponential_lines, integral_of
-from generator.fortran import indented, text_of
+from generator.fortran import indented
 from generator.graph import Node, in_order
 from generator.recurrences import Constants, Recurrences, weighted_sum
 
@@ -39,15 +39,11 @@ class Disturbances:
     """Nodes whose own series are needed."""
     stored: dict[Node, None] = field(default_factory=dict)
     """Nodes whose disturbances sums take."""
-    lanes: list[str] = field(default_factory=list)
-    early: list[Node] = field(default_factory=list)
 
     def __post_init__(self):
         # which sums stand alone, and which within the expression that takes them
         self.inlined = Recurrences(self.nodes, self.roots, Constants(self.constants.model)).inlined
-        for node in self.nodes:
-            if self.is_early(node):
-                self.early.append(node)
+        self.early = [node for node in self.nodes if self.is_early(node)]
         for node in self.nodes:
             if node.is_convolution:
                 self.formula(node)
@@ -56,7 +52,6 @@ class Disturbances:
             for node in self.nodes
             if node.kind != "input" and node not in self.inlined and not self.is_constant(node)
         ]
-        self.lanes = [f"d_{node.name}" for node in self.alone if node not in self.stored]
 
     def is_constant(self, node: Node) -> bool:
         """Whether a node does not change in time."""
@@ -106,10 +101,6 @@ class Disturbances:
             return total
         return f"{total} + {self.series_text(series, '0')}*{self.text(of)}"
 
-    def statement(self, node: Node) -> str:
-        """The statement that sets the disturbance of a node."""
-        return f"{self.text(node)} = {self.formula(node)}"
-
     def formula(self, node: Node) -> str:
         """The disturbance of a node from those of its arguments."""
         a = node.args[0] if node.args else node
@@ -135,12 +126,7 @@ class Disturbances:
                 return f"({self.text(a)} - {own})/{self.series_text(a, '0')}"
             case "power":
                 ratio = self.ratio(node, a)
-                exponent = (
-                    text_of(node.exponent)
-                    if node.exponent.is_Integer
-                    else self.constants.text(node.exponent)
-                )
-                return f"{exponent}*({self.times(ratio, a)})"
+                return f"{self.constants.text(node.exponent)}*({self.times(ratio, a)})"
         product = self.times(node.slope, a)
         return f"-({product})" if node.sign else product
 
@@ -153,7 +139,7 @@ class Disturbances:
         """The sums, and zeros for the terms that come later."""
         if not self.sums:
             return []
-        names = [f"d_total_{i + 1}" for i in range(len(self.sums))]
+        names = self.totals()
         return [
             *(f"{self.text(node)} = 0.0_wp" for node in self.stored if node not in self.early),
             *(f"{name} = 0.0_wp" for name in names),
@@ -165,17 +151,19 @@ class Disturbances:
             "end do",
         ]
 
-    def before_loop(self) -> list[str]:
-        """Statements of early nodes."""
-        return [self.statement(node) for node in self.alone if node in self.early]
+    def statements(self, *, early: bool) -> list[str]:
+        """Statements that set the disturbances of early nodes, or of the others."""
+        nodes = [node for node in self.alone if (node in self.early) == early]
+        return [f"{self.text(node)} = {self.formula(node)}" for node in nodes]
 
-    def after_loop(self) -> list[str]:
-        """Statements of the others."""
-        return [self.statement(node) for node in self.alone if node not in self.early]
+    def totals(self) -> list[str]:
+        """Names of the sums."""
+        return [f"d_total_{i + 1}" for i in range(len(self.sums))]
 
     def lane_names(self) -> list[str]:
         """Scalars of each lane."""
-        return [*self.lanes, *(f"d_total_{i + 1}" for i in range(len(self.sums)))]
+        own = [f"d_{node.name}" for node in self.alone if node not in self.stored]
+        return [*own, *self.totals()]
 
     def arrays(self) -> list[str]:
         """Arrays of each lane."""

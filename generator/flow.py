@@ -13,7 +13,7 @@ import sympy
 from generator.definition import LARGEST_EXPONENT, TIME, Model
 from generator.fortran import indented, text_of
 from generator.graph import Graph, Node, convolutions
-from generator.recurrences import Constants
+from generator.recurrences import Constants, fetch_parameters, names_of_parameters
 
 REFUSED = {
     sympy.log: ".not. {} > 0.0_wp",
@@ -30,6 +30,12 @@ class Procedure:
 
     names: dict[str, list[str]]
     lines: list[str]
+
+
+def with_parameters(model: Model, lines: list[str], *reals: str) -> Procedure:
+    """A procedure whose statements take the parameters, and set real numbers of these names."""
+    names = {"real(wp)": [*names_of_parameters(model), *reals]}
+    return Procedure(names, [*fetch_parameters(model), *lines])
 
 
 def input_names(model: Model) -> dict[sympy.Symbol, str]:

@@ -4,15 +4,12 @@ import hashlib
 from pathlib import Path
 
 import jinja2
-import sympy
 
 from generator import pointwise, rest
 from generator.address import couplings
-from generator.definition import TIME, Model
-from generator.flow import Flow, Procedure, flow_of, rate_of_auxiliary
-from generator.fortran import in_words, indented, text_of, wrapped
-from generator.graph import Graph, in_order
-from generator.recurrences import Constants, Recurrences, fetch_parameters, names_of_parameters
+from generator.definition import Model
+from generator.flow import Flow, Procedure, flow_of, rate_of_auxiliary, with_parameters
+from generator.fortran import in_words, text_of, wrapped
 from generator.series import series_procedure
 from generator.slow import Balance, balance_of
 from generator.tangents import tangent_series_procedure
@@ -49,11 +46,6 @@ def write_module(model: Model) -> str:
             parts["at_rest"] = rest.rest_procedure(model)
         if not model.differences:
             parts["derivative"] = rest.derivative_procedure(model)
-    if model.history:
-        parts["history"] = history_procedure(model)
-        parts["history_series"] = {
-            state: history_series_procedure(model, state) for state in model.states
-        }
     return rendered("model.f90.jinja", model.written, model=model, balance=balance, **parts)
 
 
@@ -153,43 +145,6 @@ def delayed_procedure(model: Model) -> Procedure:
     """Delays and components of the delayed states."""
     states = list(model.states)
     components = [states.index(one.state) + 1 for one in model.delayed]
-    lines = [
-        *fetch_parameters(model),
-        *(f"lag({i}) = {text_of(one.lag)}" for i, one in enumerate(model.delayed, 1)),
-        *(f"component({i}) = {number}" for i, number in enumerate(components, 1)),
-    ]
-    return Procedure({"real(wp)": names_of_parameters(model)}, lines)
-
-
-def history_procedure(model: Model) -> Procedure:
-    """Values up to the initial time."""
-    lines = [*fetch_parameters(model), "select case (component)"]
-    for place, value in enumerate(model.history.values(), 1):
-        lines += [f"case ({place})", f"   value = {text_of(value)}"]
-    lines += ["case default", "   value = ieee_value(1.0_wp, ieee_quiet_nan)", "end select"]
-    return Procedure({"real(wp)": names_of_parameters(model)}, lines)
-
-
-def history_series_procedure(model: Model, state: str) -> Procedure:
-    """Coefficients of one component up to the initial time."""
-    graph = Graph(model, {TIME: "time"})
-    target = graph.node(sympy.sympify(model.history[state]))
-    constants = Constants(model)
-    recurrences = Recurrences(in_order([target]), [target], constants)
-    start, later = recurrences.rate_text(target, first=True), recurrences.rate_text(target)
-    body = recurrences.at_k(["time = merge(unit, 0.0_wp, k == 1)"])
-    lines = [
-        *constants.fetched(),
-        "time_0 = t",
-        *recurrences.at_0(),
-        f"y(0) = {start}",
-        "do k = 1, degree",
-        *indented([*body, f"y(k) = {later}"]),
-        "end do",
-    ]
-    names = {
-        "real(wp)": [*constants.scalars(), "time", "time_0", *recurrences.scalars],
-        "real(wp), dimension(0:degree)": recurrences.arrays(),
-        "integer": ["j", "k"],
-    }
-    return Procedure(names, lines)
+    lines = [f"lag({i}) = {text_of(one.lag)}" for i, one in enumerate(model.delayed, 1)]
+    lines += [f"component({i}) = {number}" for i, number in enumerate(components, 1)]
+    return with_parameters(model, lines)

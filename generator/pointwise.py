@@ -4,7 +4,7 @@ import sympy
 
 from generator.address import Address
 from generator.definition import Model
-from generator.flow import Procedure, guard_names, refusals
+from generator.flow import Procedure, guard_names, refusals, with_parameters
 from generator.fortran import indented, text_of
 from generator.recurrences import fetch_parameters, names_of_parameters
 from generator.slow import Balance
@@ -120,8 +120,4 @@ def relaxation_procedure(model: Model, balance: Balance) -> Procedure:
     place, size = list(model.states).index(balance.state) + 1, len(model.states)
     least = text_of(sympy.Rational(str(model.domain.get(balance.state, (-300, 0))[0])))
     value = f"maxval(y({place}::{size}))" if Address(model).in_chain else f"y({place})"
-    lines = [
-        *fetch_parameters(model),
-        f"rate = {text_of(balance.rate)}*exp(-max({least}, {value}))",
-    ]
-    return Procedure({"real(wp)": names_of_parameters(model)}, lines)
+    return with_parameters(model, [f"rate = {text_of(balance.rate)}*exp(-max({least}, {value}))"])

@@ -16,7 +16,6 @@ computed last, from scalars: the others, 0 < j < k, are known before, in one loo
 There the left factor is stored backwards, so that both factors are read forwards.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import sympy
@@ -173,14 +172,7 @@ class Recurrences:
                 [f"{zero} = {self.sum_text(node, first=True)}"],
                 [f"{name} = {self.sum_text(node, first=False)}"],
             )
-        kinds: dict[str, Callable] = {
-            "product": self.product,
-            "quotient": self.quotient,
-            "exp": self.exponential,
-            "log": self.logarithm,
-            "power": self.power,
-        }
-        return kinds.get(node.kind, self.function)(node, name, zero)
+        return getattr(self, node.kind, self.function)(node, name, zero)
 
     def product(self, node, name, zero):
         left, right = node.args
@@ -210,7 +202,7 @@ class Recurrences:
         name = self.define(f"multiple_of_{a}")
         return name, f"{name} = {self.k}*{a}"
 
-    def exponential(self, node, name, zero):
+    def exp(self, node, name, zero):
         a = self.text(node.args[0])
         multiple, line = self.multiple(a)
         rest = self.convolved(name, multiple)
@@ -219,7 +211,7 @@ class Recurrences:
             [line, f"{name} = {self.over_k}({rest} + {self.keep(zero)}*{multiple})"],
         )
 
-    def logarithm(self, node, name, zero):
+    def log(self, node, name, zero):
         a = self.text(node.args[0])
         (multiple, _), inverse = self.multiple(name), self.keep(self.define(f"by_{a}"))
         rest = self.convolved(a, multiple)
@@ -234,11 +226,7 @@ class Recurrences:
 
     def power(self, node, name, zero):
         a = self.text(node.args[0])
-        exponent = (
-            text_of(node.exponent)
-            if node.exponent.is_Integer
-            else self.constants.text(node.exponent)
-        )
+        exponent = self.constants.text(node.exponent)
         (own, _), (given, line) = self.multiple(name), self.multiple(a)
         inverse = self.keep(self.define(f"by_{a}"))
         grows, rest = self.convolved(name, given), self.convolved(a, own)

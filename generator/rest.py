@@ -8,9 +8,8 @@ their place where there are any.
 import sympy
 
 from generator.definition import MODE, Model
-from generator.flow import Procedure, refusals
+from generator.flow import Procedure, refusals, with_parameters
 from generator.fortran import indented, text_of
-from generator.recurrences import fetch_parameters, names_of_parameters
 
 
 def at(model: Model, array: str = "state") -> dict[sympy.Expr, str]:
@@ -21,12 +20,11 @@ def at(model: Model, array: str = "state") -> dict[sympy.Expr, str]:
 def steady_state_procedure(model: Model) -> Procedure:
     """The state at rest, or where Newton's method starts."""
     values = list((model.near or model.steady_state).values())
-    lines = [*fetch_parameters(model)]
-    lines += [f"state({place}) = {text_of(value)}" for place, value in enumerate(values, 1)]
+    lines = [f"state({place}) = {text_of(value)}" for place, value in enumerate(values, 1)]
     if model.near:
         given = f"parameters(:{len(model.parameters)}), state(:{len(values)})"
         lines.append(f"call approach(equations_at_rest, {given})")
-    return Procedure({"real(wp)": names_of_parameters(model)}, lines)
+    return with_parameters(model, lines)
 
 
 def rest_procedure(model: Model) -> Procedure:
@@ -36,11 +34,8 @@ def rest_procedure(model: Model) -> Procedure:
     guarded = names | {
         model.symbol(v): f"exp({names[model.symbol(w)]})" for v, w in model.auxiliary.items()
     }
-    lines = [
-        *fetch_parameters(model),
-        *refusals(model, equations, guarded, "rates"),
-        *(f"rates({row}) = {text_of(one, names)}" for row, one in enumerate(equations, 1)),
-    ]
+    lines = refusals(model, equations, guarded, "rates")
+    lines += [f"rates({row}) = {text_of(one, names)}" for row, one in enumerate(equations, 1)]
     for array, symbols in (
         ("by_state", list(names)),
         ("by_parameter", [model.symbol(one.name) for one in model.parameters]),
@@ -51,19 +46,18 @@ def rest_procedure(model: Model) -> Procedure:
                 if (slope := one.diff(symbol)) != 0:
                     lines.append(f"   {array}({row}, {column}) = {text_of(slope, names)}")
         lines.append("end if")
-    return Procedure({"real(wp)": names_of_parameters(model)}, lines)
+    return with_parameters(model, lines)
 
 
 def derivative_procedure(model: Model) -> Procedure:
     """The k-linear forms of the equations at the steady state, by nilpotent numbers."""
     equations = list(map(model.plain, model.equations.values()))
     symbols = set().union(*(one.free_symbols for one in equations))
-    lines = fetch_parameters(model)
     values = {name: text_of(value, at(model)) for name, value in model.steady_state.items()}
     places = {state: place for place, state in enumerate(model.states, 1)}
     made = [(state, state, 1) for state in model.states]
     made += [(one.symbol.name, one.state, i) for i, one in enumerate(model.delayed, 2)]
-    lines += [
+    lines = [
         f"{name} = disturbed({values[state]}, arguments({places[state]}, {column}, :))"
         for name, state, column in made
     ]
@@ -72,9 +66,9 @@ def derivative_procedure(model: Model) -> Procedure:
     for place, equation in enumerate(equations, 1):
         constant = not equation.free_symbols & model.variables
         lines.append(f"form({place}) = " + ("0.0_wp" if constant else f"top({text_of(equation)})"))
-    numbers = [*(name for name, _, _ in made), *auxiliary]
-    names = {"real(wp)": names_of_parameters(model), "type(nilpotent_type)": numbers}
-    return Procedure(names, lines)
+    procedure = with_parameters(model, lines)
+    procedure.names["type(nilpotent_type)"] = [*(name for name, _, _ in made), *auxiliary]
+    return procedure
 
 
 def shortest(expression: sympy.Expr) -> sympy.Expr:
@@ -136,7 +130,7 @@ def characteristic_procedure(model: Model) -> Procedure:
     """Coefficients, powers and delays of the terms, and their derivatives where these are not 0."""
     terms = characteristic_terms(model)
     linear = linear_part(model) if model.near else {}
-    lines = [*fetch_parameters(model), *entry_lines(model, linear)]
+    lines = entry_lines(model, linear)
     parts = [sympy.S.Zero]
     for i, (coefficient, power, delay) in enumerate(terms, 1):
         if delay not in parts:
@@ -163,8 +157,7 @@ def characteristic_procedure(model: Model) -> Procedure:
     count, size, entries = len(model.parameters), len(model.states), len(linear)
     arrays = [f"rates({size})", f"by_state({size}, {size})", f"moves({size}, {count})"]
     arrays += [f"entry({entries})", f"entry_by({entries}, {count})"]
-    names = [*names_of_parameters(model), *(arrays if linear else [])]
-    return Procedure({"real(wp)": names}, lines)
+    return with_parameters(model, lines, *(arrays if linear else []))
 
 
 def entry_lines(model: Model, linear: dict[tuple, sympy.Expr]) -> list[str]:

@@ -37,25 +37,23 @@ def balance_of(model: Model) -> Balance | None:
 
     Other balances would need sums over lower orders before the fast state is known.
     """
-    if model.fast is None:
+    state = model.fast
+    auxiliary = next((v for v, w in model.auxiliary.items() if w == state), None)
+    if auxiliary is None:
         return None
-    for auxiliary, state in model.auxiliary.items():
-        if state != model.fast:
-            continue
-        w, v = model.symbol(state), model.symbol(auxiliary)
-        rate = sympy.simplify(-model.equations[state].diff(w) * v)
-        if rate == 0 or rate.free_symbols & model.variables:
-            return None
-        value = sympy.expand(w + model.equations[state] * v / rate)
-        others = {name: model.symbol(name) for name in model.states if name != state}
-        others |= {symbol.name: symbol for symbol in model.differences.values()}
-        slopes = {name: value.diff(symbol) for name, symbol in others.items()}
-        linear = sympy.Add(*(slope * others[name] for name, slope in slopes.items()))
-        constant = sympy.expand(value - linear)
-        if any(one.free_symbols & model.variables for one in [*slopes.values(), constant]):
-            return None
-        return Balance(state, auxiliary, rate, value, slopes, constant)
-    return None
+    w, v = model.symbol(state), model.symbol(auxiliary)
+    rate = sympy.simplify(-model.equations[state].diff(w) * v)
+    if rate == 0 or rate.free_symbols & model.variables:
+        return None
+    value = sympy.expand(w + model.equations[state] * v / rate)
+    others = {name: model.symbol(name) for name in model.states if name != state}
+    others |= {symbol.name: symbol for symbol in model.differences.values()}
+    slopes = {name: value.diff(symbol) for name, symbol in others.items()}
+    linear = sympy.Add(*(slope * others[name] for name, slope in slopes.items()))
+    constant = sympy.expand(value - linear)
+    if any(one.free_symbols & model.variables for one in [*slopes.values(), constant]):
+        return None
+    return Balance(state, auxiliary, rate, value, slopes, constant)
 
 
 def inertia_lines(balance: Balance | None, constants: Constants) -> list[str]:

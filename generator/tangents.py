@@ -158,9 +158,9 @@ class Tangents:
         return [
             *self.balanced(),
             *self.at_order,
-            *steps.before_loop(),
+            *steps.statements(early=True),
             *steps.loop(),
-            *steps.after_loop(),
+            *steps.statements(early=False),
             *(f"d_{name}_rate = {steps.rate_text(node)}" for name, node in self.rates.items()),
             "step = unit*reciprocal(k + 1)",
             *(f"{text(name, 'k + 1')} = step*d_{name}_rate" for name in self.rates),

@@ -57,6 +57,7 @@ function reveal(clear) {
   target.scrollIntoView();
 }
 
+document.documentElement.classList.add("scripted");
 const filter = document.getElementById("claims");
 if (filter) {
   const clear = claimFilter(filter);

@@ -68,27 +68,6 @@ function ticksOfV(low, high) {
   return values.map((value) => ({ at: Math.log(value), label: signed(value, 6) }));
 }
 
-// A smooth curve through points of a plot: centripetal Catmull-Rom splines, which make no loops
-// between two points (Yuksel, Schaefer and Keyser 2011, Computer-Aided Design 43, 747).
-function curveThrough(points) {
-  const root = (a, b) => Math.sqrt(Math.hypot(b[0] - a[0], b[1] - a[1]));
-  // the control point beside `near`, from the point before it, towards `far`
-  const control = (before, near, far) => {
-    const [a, b] = [root(before, near), root(near, far)];
-    if (a < 1e-3) return near;
-    const weight = 3 * a * (a + b);
-    return near.map((value, i) => (a * a * far[i] - b * b * before[i] + (2 * a * a + 3 * a * b + b * b) * value) / weight);
-  };
-  const at = (i) => points[Math.max(0, Math.min(points.length - 1, i))];
-  const text = (point) => point.map((value) => value.toFixed(1)).join(" ");
-  const curves = points.slice(1).map((end, i) => {
-    const first = control(at(i - 1), at(i), end);
-    const second = control(at(i + 2), end, at(i));
-    return `C${text(first)} ${text(second)} ${text(end)}`;
-  });
-  return `M${text(points[0])}${curves.join("")}`;
-}
-
 // An empty plot with its axes; what it returns turns values into places.
 function plotIn(svg, x, y) {
   const { width, height } = svg.getBoundingClientRect();
@@ -153,8 +132,8 @@ function drawCurve(svg, x, y, across, up) {
   const id = `inside-${svg.classList[0]}`;
   const inside = drawn("clipPath", { id });
   inside.append(drawn("rect", { x: left, y: top, width: right - left, height: bottom - top }));
-  const points = across.map((value, i) => [place.x(value), place.y(up[i])]);
-  svg.append(inside, drawn("path", { class: "motion", "clip-path": `url(#${id})`, d: curveThrough(points) }));
+  const points = across.map((value, i) => [place.x(value).toFixed(1), place.y(up[i]).toFixed(1)]);
+  svg.append(inside, drawn("polyline", { class: "motion", "clip-path": `url(#${id})`, points: points.join(" ") }));
   const isDot = across.every((value, i) => value === across[0] && up[i] === up[0]);
   if (isDot) svg.append(drawn("circle", { class: "motion", cx: points[0][0], cy: points[0][1], r: 3 }));
 }

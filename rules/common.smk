@@ -8,7 +8,7 @@ from scripts.files.tsv import read_table
 from scripts.namelists import laws, models
 from scripts.namelists.write_namelist import end_at_horizons, text_of
 from scripts.plans import studies
-from scripts.plans.declare import BUILD, MAIN, PAPER
+from scripts.plans.declare import BUILD, MAIN, PAPER, stem_of
 from scripts.workflow.script_imports import modules_of
 
 
@@ -88,71 +88,45 @@ def made(path):
     return [] if fill_in(path) in unmade else path
 
 
-def namelist_of(run):
-    """The text of a run's namelist, by the wildcards."""
-
-    # without `input`: Snakemake does not compare parameters that take it with those of the last run
-    def write_text(wildcards):
-        groups = fill_in(run.groups(config, **wildcards))
-        if run.horizons:
-            table = read_table(fill_in(f"<results>/{run.needs['horizons']}"))
-            groups = end_at_horizons(groups, table)
-        return text_of(groups)
-
-    return write_text
+# without `input`: Snakemake does not compare parameters that take it with those of the last run
+def namelist_of(run, wildcards):
+    """The text of a run's namelist."""
+    groups = fill_in(run.groups(config, **wildcards))
+    if run.horizons:
+        table = read_table(fill_in(f"<results>/{run.needs['horizons']}"))
+        groups = end_at_horizons(groups, table)
+    return text_of(groups)
 
 
-def namelists_before(run):
-    """Texts of the namelists of the runs whose results a run reads, by the wildcards.
+def namelists_before(run, wildcards):
+    """Texts of the namelists of the runs whose results a run reads.
 
     A result that is missing is no reason for Snakemake to doubt what was made of it.
     """
-    makers = [
-        namelist_of(other) for other in RUNS if other.output in run.needs.values()
-    ]
-
-    def write_texts(wildcards):
-        return [write_text(wildcards) for write_text in makers]
-
-    return write_texts
+    before = [other for other in RUNS if other.output in run.needs.values()]
+    return [namelist_of(other, wildcards) for other in before]
 
 
-def models_of(run):
-    """Models that a run opens, by the wildcards."""
-
-    def find_models(wildcards):
-        return models.models_in(run.groups(config, **wildcards))
-
-    return find_models
+def models_of(run, wildcards):
+    """Models that a run opens."""
+    return models.models_in(run.groups(config, **wildcards))
 
 
-def objects_of(run):
-    """Compiled models that a run opens, by the wildcards."""
-
-    def find_objects(wildcards):
-        return models.objects_of(models_of(run)(wildcards), config, BUILT, run.quad)
-
-    return find_objects
+def objects_of(run, wildcards):
+    """Compiled models that a run opens."""
+    return models.objects_of(models_of(run, wildcards), config, BUILT, run.quad)
 
 
-def digests_of_models(run):
-    """Digests of the models that a run opens, by the wildcards."""
-
-    def find_digests(wildcards):
-        return {
-            model: digest_of_model(model) for model in sorted(models_of(run)(wildcards))
-        }
-
-    return find_digests
+def digests_of_models(run, wildcards):
+    """Digests of the models that a run opens."""
+    return {
+        model: digest_of_model(model) for model in sorted(models_of(run, wildcards))
+    }
 
 
-def by_wildcards(function):
-    """A function of the configuration and of names, as one of the wildcards."""
-
-    def ask(wildcards):
-        return fill_in(function(config, **wildcards))
-
-    return ask
+def ask(function, wildcards):
+    """What a function of the configuration and of names says."""
+    return fill_in(function(config, **wildcards))
 
 
 def drawing_of(figure):

@@ -1,6 +1,5 @@
 # The page.
 from scripts.page import findings, page_assets
-from scripts.plans.scenes import scenes_with
 from scripts.workflow.git_commit import commit_of
 
 PAPERS = [
@@ -34,23 +33,15 @@ rule page:
         **{
             name: made(path)
             for name, path in findings.tables_read().items()
-            if name != "attractors" and not plan.is_users
+            if not plan.is_users
         },
         figures=expand("<results>/figures/{figure}.svg", figure=plan.figures),
         captions=expand("<results>/figures/{figure}.rst", figure=plan.figures),
         claims="<results>/tables/claims.json" if plan.claims else [],
-        attractors=(
-            made("<results>/tables/attractors.tsv")
-            if scenes_with(config, "attractors")
-            else []
-        ),
         tables=[path for path in plan.tables() if plan.is_users and made(path)],
-        trajectories=plan.trajectories(),
         play=made(PLAY) if studies.inside(config, ("atlas", "planes")) else [],
-        library=[path for path in page_assets.ASSETS.values() if path.startswith("/")],
     output:
         page="<results>/index.html",
-        times="<results>/times.html",
         assets=expand("<results>/page/{asset}", asset=page_assets.ASSETS),
     log:
         "<results>/logs/page.log",

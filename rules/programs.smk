@@ -1,4 +1,5 @@
 # Programs, each built when a result needs it, and their runs: the plans in scripts/studies/ declare them.
+import json
 
 
 rule definition:
@@ -10,12 +11,15 @@ rule definition:
     priority: BUILD
     localrule: True
     params:
-        definition=lambda wildcards: laws.definition(
-            wildcards.defined, models.of_user(config)[wildcards.defined]
+        # JSON is YAML, too
+        definition=lambda wildcards: json.dumps(
+            laws.definition(
+                wildcards.defined, models.of_user(config)[wildcards.defined]
+            ),
+            indent=2,
         ),
-        code=code_of("namelists/write_definition.py"),
-    script:
-        "../scripts/namelists/write_definition.py"
+    shell:
+        "printf '%s\\n' {params.definition:q} >{output:q} 2>{log:q}"
 
 
 rule program:
@@ -66,24 +70,24 @@ for run in RUNS:
         input:
             **{name: f"<results>/{path}" for name, path in run.needs.items()},
             program=f"build/release/bin/{run.program}",
-            models=objects_of(run),
+            models=functools.partial(objects_of, run),
         output:
             f"<results>/{run.output}",
-            namelist=f"<results>/namelists/{run.stem}.nml",
+            namelist=f"<results>/namelists/{stem_of(run.output)}.nml",
         log:
-            f"<results>/logs/{run.stem}.log",
+            f"<results>/logs/{stem_of(run.output)}.log",
         benchmark:
-            f"<results>/benchmarks/{run.stem}.tsv"
+            f"<results>/benchmarks/{stem_of(run.output)}.tsv"
         priority: run.priority
         localrule: not run.minutes
         resources:
             mem_mb=1000,
             runtime=run.minutes,
         params:
-            namelist=namelist_of(run),
-            before=namelists_before(run),
+            namelist=functools.partial(namelist_of, run),
+            before=functools.partial(namelists_before, run),
             sources=digest_of_program(),
-            models=digests_of_models(run),
+            models=functools.partial(digests_of_models, run),
             command=run.command,
             folders=":".join(models.folders_of(config, BUILT, run.quad)),
         script:

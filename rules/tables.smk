@@ -8,15 +8,18 @@ for path, table in studies.tables():
         name:
             table.rule
         input:
-            unpack(by_wildcards(table.inputs)),
+            unpack(functools.partial(ask, table.inputs)),
         output:
             **{name: f"<results>/{file}" for name, file in outputs.items()},
         log:
-            f"<results>/logs/{table.stem}.log",
+            f"<results>/logs/{stem_of(table.output)}.log",
         priority: table.priority
         localrule: True
         params:
-            **{name: by_wildcards(value) for name, value in table.params.items()},
+            **{
+                name: functools.partial(ask, value)
+                for name, value in table.params.items()
+            },
             script=path,
             code=code_of(path),
         script:

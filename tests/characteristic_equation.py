@@ -26,19 +26,3 @@ def closed_form(omega, xi, gamma):
     b = xi * (gamma**2 - omega**2) / (gamma**2 * omega)
     epsilon = np.sqrt((1 + omega**2) * (1 + b**2)) - 1
     return epsilon, np.arctan(b) - np.arctan(omega)
-
-
-def count_by_crossings(epsilon, tau, xi, gamma):
-    """Unstable pairs, independently: those of the cubic at tau = 0, and what crosses up to tau."""
-    lost = gamma**2 * xi / (xi + gamma**2)
-    pairs = 1 if epsilon > lost else 0
-    c = xi**2 / gamma**4
-    cubic = [c, c + 1 - 2 * c * gamma**2, 1 - 2 * c * gamma**2 + xi**2 - (1 + epsilon) ** 2, xi**2]
-    squares = np.roots(cubic)
-    squares = np.sort(squares[(abs(squares.imag) < 1e-9) & (squares.real > 0)].real)
-    for way, omega in zip((-1, 1), np.sqrt(squares), strict=False):
-        _, angle = closed_form(omega, xi, gamma)
-        turns = np.arange(100)
-        delays = (angle + 2 * np.pi * turns) / omega
-        pairs += way * np.count_nonzero((delays > 0) & (delays < tau))
-    return pairs

@@ -19,14 +19,6 @@ def attractor(epsilon: float, tau: float, **given) -> dict:
     return {**row, "period": 1.0, "reason": np.nan, "problem": np.nan, **given}
 
 
-def run(count: int = 30001, interval: float = 0.05) -> xr.Dataset:
-    time = interval * np.arange(count)
-    values = {"v": ("t", 1 + 0.5 * np.cos(time)), "u": ("t", 0.5 * np.sin(time))}
-    parameters = {"epsilon": 0.5, "tau": 10.0, "xi": 0.8, "gamma": 0.8}
-    attributes = {"scene": "my_scene", "sample_interval": interval, **parameters}
-    return xr.Dataset(values, {"t": time}, attributes)
-
-
 def atlas_run(*paths: np.ndarray | None) -> xr.Dataset:
     """A part of the atlas with these paths, as far as the page reads it."""
     moving = [path for path in paths if path is not None]

@@ -19,6 +19,16 @@ BLOCK = {"model": PAPER, "parameters": " ".join(PARAMETERS), "signal": "v"}
 """What a file says of the block."""
 PLACE = {"tau": 10.0, "epsilon": 0.5, "xi": 0.8, "gamma": 0.8}
 """Parameters of a line, but for the one along it."""
+AT = {"along": "tau", "epsilon": 0.7, "xi": 0.5, "gamma": 0.8, "law": PAPER}
+LINES = {
+    "mine": AT,
+    "beside": {**AT, "xi": 0.6},
+    "faster": {**AT, "gamma": 0.9},
+    "ageing": {**AT, "law": "ageing_delayed_velocity"},
+    "across": {"along": "epsilon", "tau": 7.0, "xi": 0.5, "gamma": 0.8, "law": PAPER},
+    "in_xi": {"along": "xi", "tau": 7.0, "epsilon": 0.9, "gamma": 0.8, "law": PAPER},
+}
+"""Lines of cycles: the first and `across` are lines of routes and in a plane of the atlas."""
 SCENE = {"tau": 3.0, "epsilon": 0.4, "xi": 0.8, "gamma": 0.8}
 """Parameters of a scene."""
 

@@ -128,7 +128,7 @@ OBSERVATION = {
 }
 SYNCHRONY = {
     **{"s_window": [1.0, 2.0], "count": 2, "t_end": 60.0, "t_turning": 5.0},
-    **{"interval": 5.0, "blocks": 2},
+    **{"interval": 5.0, "batches": 2},
 }
 POINTS = {
     "name": "a part",
@@ -177,7 +177,7 @@ EXPONENTS = {
     "t_end": 20.0,
     "t_turning": 5.0,
     "interval": 1.0,
-    "blocks": 2,
+    "batches": 2,
     "zero_level": 1e-3,
     "longest_bar": 1e-3,
     "check_tolerances": [1e-7],

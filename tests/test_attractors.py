@@ -54,26 +54,21 @@ def test_points_that_were_not_computed_have_class_and_period_only():
 
 
 def test_rows_say_what_the_file_holds():
-    """Zeros that stand for nothing become empty, and there are none."""
-    run = a_run(["cycle", "undecided"], period=[3, 0], problem=["", "it stopped"])
-    first, second = attractor_tables.rows_of(run)
-    assert (first["class"], first["period"], first["f1"]) == ("cycle", 3.0, 0.1)
-    assert (first["exponent_1"], first["exponent_2"]) == (0.0, -1.0)
-    assert math.isnan(first["f2"])
-    assert math.isnan(first["f3"])
-    assert (first["reason"], second["reason"]) == ("", "not confirmed")
-    assert first["time"] == 900.0
-    assert math.isnan(second["period"])
-    assert (first["problem"], second["problem"]) == ("", "it stopped")
-
-
-def test_signs_are_counted_as_the_file_has_them():
-    """Two are unclear, which are not zero; of a run that failed nothing is counted."""
-    run = a_run(["chaos", "undecided"])
+    """Zeros that stand for nothing become empty, and there are none. Signs are counted as the file
+    has them: unclear ones are not zero; of a run that failed nothing is counted."""
+    run = a_run(["chaos", "undecided"], period=[3, 0], problem=["", "it stopped"])
     signs = [[1, 0, -1, 2, 2], [math.nan] * 5]
     run = run.drop_dims("exponent").assign(sign=(("point", "exponent"), signs))
     run["lyapunov_exponent"] = run["lyapunov_error"] = run.sign
     first, second = attractor_tables.rows_of(run)
+    assert (first["class"], first["period"], first["f1"]) == ("chaos", 3.0, 0.1)
+    assert (first["exponent_1"], first["exponent_2"]) == (1.0, 0.0)
+    assert math.isnan(first["f2"])
+    assert math.isnan(first["f3"])
+    assert first["time"] == 900.0
+    assert math.isnan(second["period"])
+    for key, value in {"problem": "it stopped", "reason": "not confirmed"}.items():
+        assert (first[key], second[key]) == ("", value)
     counts = [f"{word}_exponents" for word in ("positive", "zero", "unclear")]
     assert [first[key] for key in counts] == [1, 1, 2]
     assert all(math.isnan(second[key]) for key in counts)

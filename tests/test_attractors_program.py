@@ -11,9 +11,6 @@ import xarray as xr
 from namelist_groups import OBSERVATION, in_groups
 from scipy.integrate import solve_ivp
 
-from scripts.files.tsv import read_table, write_table
-from scripts.tables.attractor_tables import scene_rows
-
 ONE_HISTORY = {"theta": [0.0], "u": [0.0], "v": [1.1]}
 REST = {"epsilon_part": [2, 2], "tau_part": [1, 1]}
 """A point at which the block comes to rest."""
@@ -118,37 +115,17 @@ def test_recurrence_time_of_a_cycle_is_its_period(programs, groups):
     np.testing.assert_allclose(of_cycle, np.diff(run.t_events[0])[-1], rtol=1e-6)
 
 
-def test_table_shows_runs_that_failed_as_no_attractors(programs, groups):
-    """Empty cells and NaN where nothing was found, and the reason of a failure."""
-    groups["points"] |= {**REST, "theta": [0.0] * 3, "u": [0.0] * 3, "v": [1.1, 1e-300, 1.0]}
-    found = programs.made_of("attractors", groups)
-    table = programs.folder / "table.tsv"
-    write_table(table, scene_rows("mine", found))
-    at_rest, failed, steady = rows = read_table(table)
-    assert [row["class"] for row in rows] == ["fixed point", "undecided", "fixed point"]
-    assert (at_rest["attractor"], steady["attractor"]) == (1, 1)
-    assert math.isnan(at_rest["problem"])
-    assert "stopped at t = " in failed["problem"]
-    for key in ("attractor", "exponent_1", "error_1", "period", "f1", "largest_maximum"):
-        assert math.isnan(failed[key])
-    assert math.isnan(steady["largest_maximum"])
-
-
-@pytest.mark.parametrize("kept", [0, 3])
-def test_the_last_points_are_kept(programs, groups, kept):
+def test_the_last_points_are_kept(programs, groups):
     """The number of points that `kept` gives, or none at all."""
     groups["points"] |= {"epsilon_part": [3, 3], "tau_part": [2, 2]}
     whole = programs.made_of("attractors", groups)
-    groups["points"]["kept"] = kept
+    groups["points"]["kept"] = 0
+    assert not {*SECTION} & {*programs.made_of("attractors", groups)}
+    groups["points"]["kept"] = 3
     found = programs.made_of("attractors", groups)
     for key in SECTION:
-        if kept == 0:
-            assert key not in found
-            continue
-        for point in range(2):
-            values = whole[key][point].values
-            last = values[np.isfinite(values)][-kept:]
-            np.testing.assert_array_equal(found[key][point], last)
+        for values, kept in zip(whole[key].values, found[key].values, strict=True):
+            np.testing.assert_array_equal(kept, values[np.isfinite(values)][-3:])
 
 
 def test_paths_are_kept_where_the_block_moves(programs, groups):
@@ -174,11 +151,11 @@ def test_paths_are_kept_where_the_block_moves(programs, groups):
 
 @pytest.mark.parametrize("refinements", [0, 1])
 def test_same_bytes_in_one_thread_and_in_two(programs, groups, monkeypatch, refinements):
-    """A second run gives the same bytes, also if only some points are computed."""
+    """Also if only some points are computed."""
     groups["points"] |= {"epsilon_part": [1, 3], "refinements": refinements}
     groups["points"] |= ONE_HISTORY if refinements else {}
     contents = set()
-    for threads in ("1", "2", "2"):
+    for threads in ("1", "2"):
         monkeypatch.setenv("OMP_NUM_THREADS", threads)
         programs.made_of("attractors", groups)
         contents.add(programs.output.read_bytes())

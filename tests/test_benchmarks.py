@@ -92,7 +92,7 @@ def test_worker_answers_and_says_why_not():
     with workers.Worker(stand_in(script), SCENE) as worker:
         assert worker.seconds(1e-3, 7, 30.0) == 0.5
         assert (worker.version, worker.set_up_seconds) == ("1.2", 3.5)
-        assert 1 < worker.peak_memory() < 1000
+        assert 1 < workers.peak_memory_of(worker.process) < 1000
         with pytest.raises(workers.SolverError, match="too stiff for me"):
             worker.seconds(1e-3, 8, 30.0)
         with pytest.raises(workers.TimeLimitError, match=r"longer than 0\.2 s"):

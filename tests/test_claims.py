@@ -162,7 +162,7 @@ def test_bad_claim_is_refused(accept, given, words):
         ),
         ("chaos_by_a_and_b", {"routes": ["x"]}, "0 = 'x'; expected name of a route, one of: chaos"),
         ("equation_10", {**PLANE, "limit": 0.1}, "limit = 0.1; expected residual"),
-        ("equation_10", {**PLANE, "limit": "1e-9"}, "write 1e-9 without quotes"),
+        ("equation_10", {**PLANE, "limit": "1e-9"}, "limit = '1e-9'; expected residual"),
         ("route", {**ROUTE, "expected": ["ring"]}, "0 = 'ring'; expected one of: fixed point, "),
         ("route", {**ROUTE, "expected": []}, "expected = []; expected classes of attractors in"),
         (

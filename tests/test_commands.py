@@ -1,15 +1,16 @@
-"""./reproduce and ./test, with stand-ins for the set-up and the tools that they call."""
+"""Scripts of a shell for users and developers, with stand-ins for the tools that they call."""
 
 import fcntl
 import os
 import re
+import shutil
 import subprocess
 import tempfile
 from pathlib import Path
 
 import pytest
 
-from conftest import ROOT, copy_of_project, write_script
+from conftest import ROOT, write_script
 
 TOOLS = ["ruff", "snakefmt", "fortitude", "snakemake", "cmake", "ctest", "pytest"]
 """Tools that ./test runs."""
@@ -18,9 +19,12 @@ PARTS = ["quick", "lint", "fortran", "python", "long", "compilers", "slurm"]
 
 @pytest.fixture
 def recording(tmp_path) -> Path:
-    """A copy of the project in which the set-up has nothing to do, and tools only write down how
-    they were called."""
-    folder = copy_of_project(tmp_path / "project").folder
+    """The two scripts in a folder in which the set-up has nothing to do, and tools only write down
+    how they were called."""
+    folder = tmp_path / "project"
+    shutil.copytree(ROOT / "compilers", folder / "compilers")
+    for script in ("reproduce", "test"):
+        shutil.copy(ROOT / script, folder)
     write_script(folder / "setup" / "setup.sh", "exit 0")
     for tool in [*TOOLS, "python"]:
         write_script(folder / ".venv" / "bin" / tool, 'echo "${0##*/} $*" >>"$CALLS"')
@@ -42,13 +46,11 @@ def test_reproduce_hands_its_arguments_on(recording, tmp_path):
     for command, arguments, passed in (
         ("project/reproduce", [], f"{quiet}--snakefile Snakefile --cores 2"),
         ("link", ["figure_5"], f"{quiet}--snakefile Snakefile --cores 2 figure_5"),
-        ("link", ["a", "--cores", "4"], f"{quiet}--snakefile Snakefile a --cores 4"),
         ("link", ["-c1", "a b"], f"{quiet}--snakefile Snakefile -c1 a b"),
         (
             "link",
-            ["mine.yaml", "scenes/a"],
-            f"{quiet}--snakefile Snakefile --cores 2 scenes/a"
-            f" --config user_file={tmp_path}/mine.yaml",
+            ["mine.yaml", "a", "--cores", "4"],
+            f"{quiet}--snakefile Snakefile a --cores 4 --config user_file={tmp_path}/mine.yaml",
         ),
         ("link", ["--dry-run"], "--snakefile Snakefile --cores 2 --dry-run"),
     ):
@@ -128,3 +130,41 @@ def test_test_stops_at_the_first_failure(recording):
         status, calls = calls_of(recording / "test")
         assert status == 3
         assert calls[-1] == tool
+
+
+CMAKE = """[[ $1 == --build ]] || exit 0
+mkdir -p $2/bin
+echo "echo cycle: $(<bits-$(basename $2))" >$2/bin/trajectory_bits
+chmod +x $2/bin/trajectory_bits"""
+
+
+@pytest.mark.parametrize(
+    ("second", "failing", "said"),
+    [
+        ("3F", "none", "all tests pass, same bits"),
+        ("40", "none", "other bits: build/gfortran-11/trajectories.txt build/gfortran-12"),
+        ("3F", "gfortran-12", "failed; see build/gfortran-12/log"),
+        # the others are compared without it
+        ("3F", "gfortran-11", "all tests pass, same bits"),
+    ],
+)
+def test_builds_that_differ_or_fail_are_named(tmp_path, second, failing, said):
+    """With status 1; all builds are tried."""
+    (tmp_path / "compilers").mkdir()
+    shutil.copy(ROOT / "compilers" / "run", tmp_path / "compilers")
+    (tmp_path / "apt-packages.txt").write_text("gfortran-11\ngfortran-12\n")
+    for name, bits in {"gfortran-11": "3F", "gfortran-12": second, "sanitize": "3F"}.items():
+        (tmp_path / f"bits-{name}").write_text(bits)
+    write_script(tmp_path / "bin" / "cmake", CMAKE)
+    write_script(tmp_path / "bin" / "ctest", f"[[ $2 != build/{failing} ]]")
+    run = subprocess.run(
+        ["compilers/run", "."],
+        cwd=tmp_path,
+        env={**os.environ, "PATH": f"{tmp_path}/bin:{os.environ['PATH']}"},
+        capture_output=True,
+        text=True,
+    )
+    lines = run.stdout.splitlines()
+    assert [line.split(": ")[1] for line in lines] == ["gfortran-11", "gfortran-12", "sanitize"]
+    assert said in lines[1]
+    assert run.returncode == (not all("same bits" in line for line in lines))

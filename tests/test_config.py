@@ -282,14 +282,6 @@ def test_name_that_makes_no_file_name_is_refused(config, path):
         assert all(any(line.startswith(start) for line in lines) for start in starts), lines
 
 
-@pytest.mark.parametrize(("value", "hint"), [("1e-9", True), ("inf", False), ("1,5", False)])
-def test_number_in_quotes_is_explained(config, value, hint):
-    """What the hint says to write is a number."""
-    config["scenes"]["torus"]["tolerance"] = value
-    (line,) = refuse(config)
-    assert line.endswith(f" (this is text; write {value} without quotes for the number)") is hint
-
-
 def test_all_problems_are_listed_at_once(config):
     """One run of the check is enough to mend a file."""
     config["scenes"]["torus"]["tau"] = -1.0

@@ -19,6 +19,7 @@ from scripts.files.read_config import parse, read
 from scripts.namelists.laws import block_parameters, built_in, chain_parameters
 from scripts.plans import studies
 from scripts.workflow import document_numbers
+from scripts.workflow.check_run import targets_of
 
 RESULTS = "results/README.md"
 """Stands beside what it names, and no other document links to it."""
@@ -33,8 +34,6 @@ DOCUMENTS = [
     *(name for name in project_files() if fnmatch(name, "docs/*.md") and name != "docs/ford.md"),
 ]
 ENDINGS = "c cff f90 in lock md mplstyle nc png py rst sh smk svg toml tsv txt yaml yml".split()
-WITH_VALUE = {"--cores", "--configfile", "--report", "--profile", "--workflow-profile"}
-"""Options of Snakemake that the documents use with a value behind them."""
 OF_THE_READER = {"mine.yaml", "mine.f90", "CMakeLists.txt"}
 """Files that the documents ask the reader to write."""
 USERS_FIGURES = {"scenes", "exponents", "planes", "routes", "cycles", "atlas"}
@@ -91,15 +90,8 @@ def rules() -> set[str]:
 
 
 def is_made(path: str) -> bool:
-    """Whether something makes a file: the workflow, the benchmarks, CMake or the set-up.
-
-    A file of results stands in a folder of results; the code names each table.
-    """
+    """Whether something makes a file: the code names it, or where files of its kind stand."""
     wanted = re.sub(r"^results/mine(/|$)", r"results/", path).rstrip("/")
-    if program := re.fullmatch(r"build/release/bin/(\w+)", wanted):
-        return (ROOT / "fortran" / "app" / f"{program[1]}.f90").is_file()
-    if wanted == "build/release/models/NAME.so":
-        return True
     if wanted.endswith("/.venv"):
         return (ROOT / wanted).with_name("requirements.lock").is_file()
     folder = "/".join(wanted.split("/")[:2])
@@ -115,15 +107,10 @@ def files_and_folders() -> set[str]:
     return files | {str(parent) for name in files for parent in PurePath(name).parents}
 
 
-def exists(path: str, document: str) -> bool:
+def exists(path: str) -> bool:
     """Whether a path, its end, or a pattern names a file or folder of the project."""
     wanted = path.removeprefix("./").rstrip("/")
-    beside = str(PurePath(document).parent / wanted)
-    return any(
-        name in (wanted, beside) or name.endswith(f"/{wanted}") or fnmatch(name, wanted)
-        or fnmatch(PurePath(name).name, wanted)
-        for name in files_and_folders()
-    )  # fmt: skip
+    return any(fnmatch(f"/{name}", f"*/{wanted}") for name in files_and_folders())
 
 
 def is_path(token: str) -> bool:
@@ -132,18 +119,15 @@ def is_path(token: str) -> bool:
     return "/" in token.strip(".") or token.rpartition(".")[2] in ENDINGS
 
 
-def commands_in(text: str) -> list[list[str]]:
-    """Words of the commands that call Snakemake or ./reproduce, without options."""
-    found = []
-    for line in re.findall(r"(?:snakemake|\./reproduce)(?: [^\n`|&#]*)?", text):
-        kept, skip = [], False
-        for word in line.split()[1:]:
-            # NAME=VALUE is a setting, of --default-resources for one
-            if not skip and not word.startswith("-") and "=" not in word:
-                kept.append(word)
-            skip = word in WITH_VALUE
-        found.append(kept)
-    return found
+def targets_in(text: str) -> set[str]:
+    """What commands that call Snakemake or ./reproduce ask for, but for words such as TARGET.
+
+    Not all have the plugin of a profile; help and --verify have no targets.
+    """
+    lines = re.findall(r"(?:snakemake|\./reproduce)((?: [^\n`|&#]*)?)", text)
+    words = [line.split() for line in lines if not re.search("--(help|verify)", line)]
+    words = [line[2:] if line[:1] == ["--profile"] else line for line in words]
+    return {one for line in words for one in targets_of(["snakemake", *line]) if not one.isupper()}
 
 
 @each
@@ -165,7 +149,7 @@ def test_files_that_are_named_exist(document):
     paths = {token for token in ticked(document) if is_path(token) and "NAME" not in token}
     paths -= OF_THE_READER
     paths = {path for path in paths if path.partition("/")[0] not in USERS_FIGURES}
-    missing = [path for path in paths if not (exists(path, document) or is_made(path))]
+    missing = [path for path in paths if not (exists(path) or is_made(path))]
     assert missing == []
 
 
@@ -178,13 +162,10 @@ def test_words_of_code_exist(document):
 
 @each
 def test_targets_that_are_named_exist(document):
-    commands = commands_in("\n".join([*blocks_of(document, "sh"), *ticked(document)]))
-    targets = [word for command in commands for word in command]
-    # TARGET, SCENE and such stand for any
-    targets = [word for word in targets if not word.isupper()]
-    known = [*rules(), "new", *OF_THE_READER]
-    known += [word for word in targets if word.partition("/")[0] in USERS_FIGURES]
-    assert [target for target in targets if target not in known and not is_made(target)] == []
+    targets = targets_in("\n".join([*blocks_of(document, "sh"), *ticked(document)]))
+    targets -= {*rules(), "new", *OF_THE_READER}
+    targets = {word for word in targets if word.partition("/")[0] not in USERS_FIGURES}
+    assert [target for target in targets if not is_made(target)] == []
 
 
 @each

@@ -113,8 +113,6 @@ def block(law: str = PAPER) -> dict:
             r"equation of a with a steady state: 'sin\(t\) - a'; expected no t",
         ),
         ({"of_a": "w/a"}, r"equation of a at the steady state: 'w/a = nan'; expected 0"),
-        ({"history": {"a": 0}}, r"history: 'a'; expected an expression of t for each state"),
-        ({"history": {"a": "w", "w": 0}}, r"history of a: 'w'; expected an expression of t alone"),
         ({"fast": "b"}, r"fast: 'b'; expected one of the states a, w"),
         ({"domain": {"b": [0, 1]}}, r"domain of b: \[0, 1\]; expected a state with its least"),
         ({"of_a": "__import__('os')"}, r"__import__\(.*; expected one of exp"),
@@ -222,7 +220,6 @@ def values_of_model(names: str, folder) -> list[np.ndarray]:
         "auxiliary": {v: f"exp({w})"},
         "definitions": {"of_all": f"{p}*{a} + {q}*{b}(t - {lag})*{r} - {s}/(1 + {a}**2)*{bound}"},
         "equations": {a: "of_all", b: f"expm1({w}) + log1p({a}**2)", w: f"-{p}**2/{v}*({a} + {w})"},
-        "history": {a: "sin(t)", b: f"{p}*t", w: f"{lag}"},
     }
     model = read_model(definition)
     path = folder / "named.so"

@@ -14,11 +14,6 @@ def measured(programs, good_groups) -> xr.Dataset:
     return programs.made_of("measure", good_groups["measure"])
 
 
-@pytest.fixture
-def references(programs, good_groups) -> list[dict]:
-    return references_of(programs, good_groups["reference"])
-
-
 def references_of(programs, groups: dict[str, dict]) -> list[dict]:
     done = programs.run_groups("reference", groups)
     assert done.returncode == 0, done.stderr
@@ -26,14 +21,23 @@ def references_of(programs, groups: dict[str, dict]) -> list[dict]:
         return list(csv.DictReader(file, delimiter="\t"))
 
 
-def test_each_method_runs_at_each_setting(measured):
-    """In the order of the namelist, one case after the other; a run has its time in seconds."""
+def test_measured_runs(measured):
+    """Each method at each setting, in the order of the namelist, one case after the other. A series
+    counts as one evaluation; a shorter case is filled up with NaN."""
     settings = list(zip(measured.method.values, measured.setting.values, strict=True))
     solver = [(name, value) for name in ("auto", "explicit") for value in (1e-6, 1e-9)]
-    expected = 2 * [*solver, ("rk4_cubic", 0.01)]
-    assert settings == expected
+    assert settings == 2 * [*solver, ("rk4_cubic", 0.01)]
     assert measured.case.values.tolist() == 5 * ["decay"] + 5 * ["stiff"]
     assert ((measured.seconds > 0) & (measured.seconds < 1)).all()
+    np.testing.assert_array_equal(measured.time[0], 0.5 * np.arange(41))
+    np.testing.assert_array_equal(measured.time[5, :11], 0.5 * np.arange(11))
+    assert np.isnan(measured.time[5, 11:]).all()
+    assert np.isnan(measured.ln_v[5, 11:]).all()
+    series, run = measured.isel(run=1), measured.isel(run=3)
+    assert series.steps_accepted < series.evaluations < run.evaluations
+    assert run.evaluations > 10 * run.steps_accepted > 200
+    assert run.least_ln_v <= run.ln_v.min() < run.ln_v.max() <= run.most_ln_v
+    assert measured.isel(run=4).evaluations == 4 * 2000 + 1
 
 
 def test_failed_run_is_a_row_with_its_reason(measured):
@@ -47,22 +51,16 @@ def test_failed_run_is_a_row_with_its_reason(measured):
     assert (ok.status, ok.reason, float(ok.t_reached)) == ("ok", "", 5.0)
 
 
-def test_samples_and_counts(measured):
-    """A shorter case is filled up with NaN; a series counts as one evaluation."""
-    np.testing.assert_array_equal(measured.time[0], 0.5 * np.arange(41))
-    np.testing.assert_array_equal(measured.time[5, :11], 0.5 * np.arange(11))
-    assert np.isnan(measured.time[5, 11:]).all()
-    assert np.isnan(measured.ln_v[5, 11:]).all()
-    series, run = measured.isel(run=1), measured.isel(run=3)
-    assert series.steps_accepted < series.evaluations < run.evaluations
-    assert run.evaluations > 10 * run.steps_accepted > 200
-    assert run.least_ln_v <= run.ln_v.min() < run.ln_v.max() <= run.most_ln_v
-    assert measured.isel(run=4).evaluations == 4 * 2000 + 1
-
-
-def test_reference_against_scipy(references):
-    """Without delay, an integrator of others at its tightest."""
-    rows = [row for row in references if row["case"] == "decay"]
+def test_reference_against_scipy(programs, good_groups):
+    """Without delay, an integrator of others at its tightest. The uncertainty is far below double
+    precision, and the magnification of a disturbance is 1 at the start."""
+    rows = references_of(programs, good_groups["reference"])
+    assert len(rows) == 41 + 11
+    assert {row["status"] for row in rows} == {"ok"}
+    assert max(float(row["uncertainty"]) for row in rows) < 1e-15
+    assert float(rows[0]["amplification"]) == pytest.approx(1.0, abs=1e-3)
+    assert all(len(row["u"].split("E")[0].lstrip("-")) >= 20 for row in rows)
+    rows = [row for row in rows if row["case"] == "decay"]
     times = np.array([float(row["time"]) for row in rows])
     state = np.array([[float(row[name]) for name in ("theta", "u", "ln_v")] for row in rows]).T
 
@@ -75,16 +73,6 @@ def test_reference_against_scipy(references):
     tight = {"method": "DOP853", "rtol": 3e-14, "atol": 1e-15}
     solved = solve_ivp(slopes, (0.0, 20.0), start, t_eval=times, **tight)
     np.testing.assert_allclose(state, solved.y, rtol=0, atol=3e-13)
-
-
-def test_reference_states_its_uncertainty(references):
-    """Far below double precision, and the magnification of a disturbance is 1 at the start."""
-    assert len(references) == 41 + 11
-    assert {row["status"] for row in references} == {"ok"}
-    assert max(float(row["uncertainty"]) for row in references) < 1e-15
-    first = references[0]
-    assert float(first["amplification"]) == pytest.approx(1.0, abs=1e-3)
-    assert all(len(row["u"].split("E")[0].lstrip("-")) >= 20 for row in references)
 
 
 def test_reference_that_stops_says_so(programs, good_groups):

@@ -337,7 +337,7 @@ def test_exponents_of_other_laws(programs, good_groups, place):
     groups["scene"] |= {"history": {"theta": 0.0, "u": 0.0, "v": 1.5}}
     groups["scene"] |= {"t_end": 2500.0, "t_transient": 2000.0, "tolerance": 1e-9}
     groups["exponents"] |= {"count": 4, "t_end": 6000.0, "t_turning": 500.0, "interval": 10.0}
-    groups["exponents"] |= {"blocks": 10, "check_tolerances": [1e-7]}
+    groups["exponents"] |= {"batches": 10, "check_tolerances": [1e-7]}
     measured = programs.made_of("exponents", groups)
     found, errors = measured.value.values[0], measured.error.values[0]
     assert np.abs(found - EXPONENTS[place]).max() < 3e-5 + 4 * errors.max()

@@ -1,6 +1,5 @@
 """The page: what it says of made-up results, and the page of the smoke run as a file."""
 
-import base64
 import itertools
 import json
 import re
@@ -8,17 +7,16 @@ from collections import Counter
 from html.parser import HTMLParser
 from pathlib import Path
 
-import numpy as np
 import pytest
 from docutils.utils import SystemMessage
 from jinja2 import UndefinedError
-from made_up_page import attractor, claim, run
+from made_up_page import claim
 
 from conftest import ROOT
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, NOT_TESTABLE, VERDICTS
 from scripts.claims.ledger import paper_claims
 from scripts.files.marked_words import to_html
-from scripts.page import captions, findings, page_content, page_provenance, page_views, write_page
+from scripts.page import captions, findings, page_content, write_page
 from scripts.page.write_single_page import in_one_file
 from scripts.plans.studies import paper_figures
 
@@ -116,46 +114,6 @@ def test_equations_mark_what_differs_from_the_print():
         assert ('class="boxed"' in one["correct"]) == bool(one["printed"])
     beside = {one["id"] for one in shown["model_claims"] + shown["hopf_claims"]}
     assert beside == {f"equation_{number}" for number in (3, 4, 6, 8, 9, 10)}
-
-
-MOTION = {**attractor(0.5, 10.0), "scene": "my_scene", "history": 1.0}
-
-
-def sent(values: str) -> np.ndarray:
-    """Numbers that the page holds as text."""
-    return np.frombuffer(base64.b64decode(values), "<f4")
-
-
-def test_trajectory_is_thinned_to_its_last_part():
-    """Every second sample of the last 1000 units of time, with class and exponents."""
-    shown = page_views.describe_run(run(), [{**MOTION, "history": 2.0, "class": "chaos"}, MOTION])
-    assert (shown["start"], shown["every"], shown["step"]) == (500.0, 2, 0.1)
-    expected = 1 + 0.5 * np.cos(500 + 0.1 * np.arange(10001))
-    np.testing.assert_allclose(sent(shown["series"][0]["values"]), expected, atol=1e-6)
-    assert shown["words"] == (
-        "ε = 0.5, τ = 10, ξ = 0.8, γ = 0.8: cycle;"
-        " exponents −0.01 ± 0.001, −0.02 ± 0.001, −0.03 ± 0.001"
-    )
-
-
-def test_samples_that_follow_the_motion_keep_their_times():
-    """None of the last 12 000 is left out: it may be a maximum."""
-    whole = run()
-    times = np.sort(np.append(whole.t, whole.t[-200:-1] + 0.01))
-    shown = page_views.describe_run(whole.interp(t=times), [])
-    assert (shown["start"], shown["every"]) == (times[-12_000], 1)
-    np.testing.assert_allclose(sent(shown["times"]), times[-12_000:] - times[-12_000], atol=1e-4)
-
-
-def test_seconds_are_summed_over_the_jobs_of_a_kind(tmp_path):
-    """Memory is the largest that was measured: Snakemake misses that of short jobs."""
-    for name, line in (("hopf/a", "1.5\t-"), ("hopf/b/c", "2.5\t30.0"), ("spectra/d", "4.0\t20.0")):
-        path = tmp_path / f"{name}.tsv"
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(f"s\tmax_rss\n{line}\n")
-    hopf, spectra = page_provenance.seconds(tmp_path)
-    assert hopf == {"kind": "hopf", "jobs": 2, "seconds": 4.0, "longest": 2.5, "memory": 30.0}
-    assert (spectra["kind"], spectra["jobs"]) == ("spectra", 1)
 
 
 def test_missing_value_is_an_error():

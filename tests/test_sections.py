@@ -1,11 +1,9 @@
-"""Each section of the schema in a file of one's own: alone, in pairs, all, with nothing to show."""
+"""Each section of the schema in a file of one's own: alone, all, with nothing to show."""
 
-import itertools
 import json
 
 import pytest
 
-from conftest import Project
 from scripts.files.read_config import merge
 from scripts.plans.studies import schema
 from scripts.workflow.plan import read_plan
@@ -63,38 +61,31 @@ SECTIONS, NOTHING = (
     for sections in (SECTIONS, NOTHING)
 )
 """Those that a study has."""
-SETTINGS = {"attractors": QUICK, "exponents": {"t_turning": 50.0, "blocks": 3}}
+SETTINGS = {"attractors": QUICK, "exponents": {"t_turning": 50.0, "batches": 3}}
 
 
-@pytest.mark.parametrize("number", [1, pytest.param(2, marks=pytest.mark.long)])
-def test_sections_are_planned_in_any_company(tmp_path, number):
+def test_section_is_planned_alone(tmp_path):
     path = tmp_path / "mine.yaml"
-    for names in itertools.combinations(SECTIONS, number):
-        path.write_text(json.dumps({name: SECTIONS[name] for name in names}))
+    for name, section in SECTIONS.items():
+        path.write_text(json.dumps({name: section}))
         assert "<results>/index.html" in read_plan({"user_file": str(path)}).targets()
 
 
-def made_with(project: Project, values: dict) -> None:
-    """A page with all figures that the file asks for."""
-    (project.folder / "mine.yaml").write_text(json.dumps(merge(SETTINGS, values)))
-    run = project.snakemake("--config", "user_file=mine.yaml")
-    assert run.returncode == 0, run.stdout
-    results = project.folder / "results" / "mine"
-    page = (results / "index.html").read_text()
-    for figure in read_plan({"user_file": str(project.folder / "mine.yaml")}).figures:
-        assert f"figures/{figure}.svg" in page
-        assert (results / "figures" / f"{figure}.svg").exists()
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("values", [SECTIONS, NOTHING], ids=["all", "nothing to show"])
-def test_sections_together_have_a_page(scratch, values):
-    made_with(scratch, {**values, "event_sizes": {"scenes": ["chain"]}})
+EACH = [{name: part[name]} for part in (SECTIONS, NOTHING) for name in part]
 
 
 @pytest.mark.long
 @pytest.mark.parametrize(
-    "values", [{name: part[name]} for part in (SECTIONS, NOTHING) for name in part]
+    "values",
+    [*EACH, *({**part, "event_sizes": {"scenes": ["chain"]}} for part in (SECTIONS, NOTHING))],
 )
-def test_section_alone_has_a_page(scratch, values):
-    made_with(scratch, values)
+def test_sections_have_a_page(scratch, values):
+    """With all figures that the file asks for; alone, and all together."""
+    path, results = scratch.folder / "mine.yaml", scratch.folder / "results" / "mine"
+    path.write_text(json.dumps(merge(SETTINGS, values)))
+    run = scratch.snakemake("--config", "user_file=mine.yaml")
+    assert run.returncode == 0, run.stdout
+    page = (results / "index.html").read_text()
+    for figure in read_plan({"user_file": str(path)}).figures:
+        assert f"figures/{figure}.svg" in page
+        assert (results / "figures" / f"{figure}.svg").exists()

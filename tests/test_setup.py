@@ -39,30 +39,19 @@ def test_shell_script_is_sound(script):
 
 @pytest.mark.parametrize("folder", LOCKS)
 def test_lock_holds_every_required_package(folder):
-    """With version and hashes; it names no address, which is the user's business."""
+    """With version and hashes. What is added to the main .venv has the versions that are there."""
     packages = locked_packages(folder)
     line = re.compile(r"[a-zA-Z0-9._-]+==\S+( ; [^;]+?)?( +--hash=sha256:[0-9a-f]{64})+ *")
     assert [package for package in packages if not line.fullmatch(package)] == []
     text = (ROOT / folder / "requirements.in").read_text()
     wanted = {name.lower() for name in re.findall(r"^([a-zA-Z][\w.-]*)", text, re.MULTILINE)}
     assert set() < wanted <= {package.split("==")[0].lower() for package in packages}
-    text = (ROOT / folder / "requirements.lock").read_text()
-    assert not re.search(r"://|index-url|find-links|trusted-host", text)
-
-
-def test_lock_of_the_profile_agrees_with_the_main_one():
-    """Both fill one .venv: what both name has one version."""
-    pins = [
-        {line.partition(" ;")[0].split(" ")[0] for line in locked_packages(folder)}
-        for folder in (".", "profiles/slurm")
-    ]
-    names = [{pin.split("==")[0] for pin in each} for each in pins]
-    added = {pin for pin in pins[1] - pins[0] if pin.split("==")[0] in names[0]}
-    assert added == set()
-    assert names[1] - names[0] == {
-        "snakemake-executor-plugin-slurm",
-        "snakemake-executor-plugin-slurm-jobstep",
-    }
+    if folder.startswith("profiles/"):
+        main, added = (
+            dict(re.findall(r"^(\S+)==(\S+)", "\n".join(lines), re.MULTILINE))
+            for lines in (locked_packages("."), packages)
+        )
+        assert {name for name in main.keys() & added if main[name] != added[name]} == set()
 
 
 def test_no_file_names_a_package_index():
@@ -72,8 +61,9 @@ def test_no_file_names_a_package_index():
     )
     files = set(project_files()) - {"tests/test_setup.py"}
     texts = {name: (ROOT / name).read_text(errors="ignore") for name in files}
-    assert len(texts) > 50
     assert [name for name, text in texts.items() if address.search(text)] == []
+    locks = [text for name, text in texts.items() if name.endswith("requirements.lock")]
+    assert "://" not in "".join(locks)
 
 
 def test_continuous_integration_calls_the_tests():
@@ -89,10 +79,7 @@ def test_continuous_integration_calls_the_tests():
     assert actions
     assert all(re.search("@[0-9a-f]{40}$", action) for action in actions)
     assert {".ci/run", "./test long"} <= {step.get("run") for step in job["steps"]}
-    lines = (ROOT / ".ci" / "run").read_text().splitlines()
-    assert [line for line in lines if line and not line.startswith("#")] == [
-        'exec "$(dirname "$(readlink -f "$0")")/../test"'
-    ]
+    assert (ROOT / ".ci" / "run").read_text().endswith('/../test"\n')
 
 
 NUMBERS = {"threads"}

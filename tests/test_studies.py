@@ -6,52 +6,16 @@ from types import SimpleNamespace
 
 import pytest
 
-from conftest import ROOT, SMOKE, copy_of_project
+from conftest import ROOT, SMOKE
 from scripts.claims import declare, ledger
 from scripts.files.read_config import ConfigError, read
 from scripts.plans import studies
-from scripts.plans.declare import Figure, Study, Table
+from scripts.plans.declare import Figure, Study
 from scripts.workflow.plan import read_plan
-from scripts.workflow.script_imports import modules_of
 
 NAMES = sorted(studies.studies())
 READ = {other for study in studies.studies().values() for other in study.reads}
 REMOVABLE = sorted(set(NAMES) - READ)
-CACHED = (
-    *(studies.files_of, studies.studies, studies.entries, studies.paper_figures),
-    *(studies.data, studies.kinds_of_results, studies.schema),
-)
-"""What is found once in a process."""
-
-
-@pytest.fixture
-def hide(monkeypatch):
-    """Hide the folder of a study, and the claims that it has declared."""
-    there = studies.files_of.__wrapped__
-
-    def forget() -> None:
-        for function in CACHED:
-            getattr(function, "cache_clear", lambda: None)()
-
-    def hide(name: str) -> None:
-        def files_of(file: str) -> list:
-            return [path for path in there(file) if path.parent.name != name]
-
-        monkeypatch.setattr(studies, "files_of", files_of)
-        forget()
-        tests = {key: test for key, test in declare.TESTS.items() if study_of(key) != name}
-        claims = {
-            key: (number, about)
-            for key, (number, about) in declare._CLAIMS.items()
-            if {*about.get("test", {})} <= {*tests}
-        }
-        monkeypatch.setattr(declare, "_CLAIMS", claims)
-        monkeypatch.setattr(declare, "TESTS", tests)
-        monkeypatch.setattr(ledger, "TESTS", tests)
-
-    yield hide
-    monkeypatch.undo()
-    forget()
 
 
 def study_of(test: str) -> str:
@@ -123,47 +87,35 @@ def test_study_declares_what_it_reads(name, filled_config):
     assert found - {name} <= {*studies.studies()[name].reads}
 
 
-@pytest.mark.parametrize("name", REMOVABLE)
-def test_study_that_no_other_reads_can_be_deleted(name, hide):
-    """What is left is planned: the paper, a user's file, claims and findings."""
-    figures, claims = read_plan({}).figures, read_plan({}).claims
-    hide(name)
-    paper = read_plan({})
-    assert {*paper.figures} == {key for key, one in figures.items() if one.study != name}
-    assert {*paper.claims} <= {*claims}
-    assert ledger.inputs_for(paper.claims, paper.config)
-    read_plan({"user_file": str(ROOT / "config" / "new.yaml")})
-    assert name not in studies.load_parts("finding")
-
-
-def test_study_that_another_one_reads_is_missed_by_name(hide):
-    hide("basins")
-    words = "studies/basins/ is missing: the plans of atlas, linear_stability read it"
-    with pytest.raises(ConfigError, match=words):
-        read_plan({})
-
-
-def test_missing_caption_is_named(monkeypatch):
-    study = Study(figures=(Figure("mine", category="Atlas", place=1),))
-    plan = SimpleNamespace(STUDY=study, __doc__="Mine.")
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ({"reads": ("other",)}, "studies/other/ is missing: the plans of mine read it"),
+        (
+            {"figures": (Figure("mine", category="Atlas", place=1),)},
+            "studies/mine/caption.rst is missing: the caption of the figure mine",
+        ),
+    ],
+)
+def test_what_a_study_misses_is_named(monkeypatch, values, words):
+    plan = SimpleNamespace(STUDY=Study(**values), __doc__="Mine.")
     monkeypatch.setattr(studies, "load_parts", lambda _part: {"mine": plan})
-    words = "scripts/studies/mine/caption.rst is missing: the caption of the figure mine"
     with pytest.raises(ConfigError, match=words):
         studies.studies.__wrapped__()
 
 
-def test_project_without_studies_that_no_other_reads(tmp_path):
-    """All of them deleted: a dry run, the targets, and the tests of the others are found."""
-    project = copy_of_project(tmp_path / "project")
-    for name in REMOVABLE:
-        shutil.rmtree(project.folder / "scripts" / "studies" / name)
-    smoke = [path for path in SMOKE if (project.folder / path).exists() or path.startswith("-")]
-    run = project.snakemake("--dry-run", "all", *smoke)
-    assert run.returncode == 0, run.stdout
-    listed = project.snakemake("--list-target-rules").stdout
-    assert {"all", "hopf_points", "atlas", "claims"} <= {*re.findall(r"^\w+", listed, re.MULTILINE)}
-    deleted = {"synchrony", "event_sizes_table"}
-    assert not deleted & {*re.findall(r"^\w+", listed, re.MULTILINE)}
+def test_project_without_studies_that_no_other_reads(project):
+    """Half of them deleted, then all: the paper with its claims, and a user's file, are planned."""
+    for deleted in (REMOVABLE[::2], REMOVABLE[1::2]):
+        for name in deleted:
+            shutil.rmtree(project.folder / "scripts" / "studies" / name)
+        smoke = [path for path in SMOKE if (project.folder / path).exists() or path.startswith("-")]
+        for words in (["all", *smoke], ["--config", "user_file=config/new.yaml"]):
+            run = project.snakemake("--dry-run", *words)
+            assert run.returncode == 0, run.stdout
+    listed = {*re.findall(r"^\w+", project.snakemake("--list-target-rules").stdout, re.MULTILINE)}
+    assert {"all", "hopf_points", "atlas", "claims"} <= listed
+    assert not {"synchrony", "event_sizes_table"} & listed
 
 
 def test_study_of_the_document_works(scratch):
@@ -181,22 +133,6 @@ def test_study_of_the_document_works(scratch):
     assert re.search(r"The largest of all is .+\.$", caption.strip())
 
 
-def modules_in(script: str) -> set[str]:
-    """Paths of the modules that a script depends on."""
-    return {
-        path.relative_to(ROOT).as_posix().removeprefix("scripts/") for path in modules_of(script)
-    }
-
-
-def test_modules_found_by_name_enter_the_digests():
-    """A claim of any study is stale once its module changes, or one that this imports."""
-    found = modules_in("claims/ledger.py")
-    every = {f"studies/{path.parent.name}/claims.py" for path in studies.FOLDER.glob("*/claims.py")}
-    assert every | {"studies/atlas/roots_of_5.py", "studies/formulas/printed_formulas.py"} <= found
-    shown = {f"studies/{path.parent.name}/finding.py" for path in studies.files_of("finding.py")}
-    assert shown <= modules_in("page/write_page.py")
-
-
 def test_names_are_given_once():
     """Rules, figures, and sections: a second one would take the place of the first."""
     every = studies.studies().values()
@@ -207,12 +143,6 @@ def test_names_are_given_once():
         [name for study in every for name in (*study.entries, *study.wildcards)],
     ):
         assert len(names) == len({*names})
-
-
-def test_scripts_of_tables_exist():
-    for path, table in studies.tables():
-        assert isinstance(table, Table)
-        assert (ROOT / "scripts" / path).is_file()
 
 
 def test_entries_of_the_configuration_stand_in_one_file():

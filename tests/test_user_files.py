@@ -1,6 +1,5 @@
 """Users' files: all that they add is made in a folder of their own, the paper's stays."""
 
-import csv
 import json
 import re
 import subprocess
@@ -13,9 +12,10 @@ from dry_runs import jobs_in
 
 from conftest import ROOT, Project, rules_in, write_script
 from scripts.files.read_config import ConfigError, merge, parse, read
+from scripts.files.tsv import read_table
 from scripts.plans.studies import kinds_of_results
 from scripts.workflow import plan as plans
-from scripts.workflow.plan import added, name_of, read_plan
+from scripts.workflow.plan import Plan, added, name_of, read_plan
 
 SMALL = """
 scenes:
@@ -51,7 +51,7 @@ atlas:
   observation: *quick
   planes:
     my_atlas: { xi: 0.5, gamma: 0.8, ordinate_window: [0.0, 10.0] }
-exponents: { t_turning: 50.0, blocks: 3 }
+exponents: { t_turning: 50.0, batches: 3 }
 spectra: { segments: 3 }
 attractors:
   observation: *quick
@@ -70,6 +70,12 @@ scenes:
 def write_new_file(path: Path) -> subprocess.CompletedProcess[str]:
     command = [ROOT / "reproduce", "new", path]
     return subprocess.run(command, capture_output=True, text=True)
+
+
+def plan_of(folder: Path, text: str) -> Plan:
+    """The plan of a user's file with this text."""
+    (folder / "mine.yaml").write_text(text)
+    return read_plan({"user_file": str(folder / "mine.yaml")})
 
 
 def state_of(results: Path) -> dict[str, tuple[int, int]]:
@@ -108,8 +114,7 @@ def test_everything_that_the_file_adds_is_made(made):
         "claims": ("id", "my_claim"),
     }
     for table, (column, *names) in tables.items():
-        with open(results / "tables" / f"{table}.tsv", newline="") as file:
-            rows = list(csv.DictReader(file, delimiter="\t"))
+        rows = read_table(results / "tables" / f"{table}.tsv")
         assert {row[column] for row in rows} == set(names)
     events = pd.read_csv(results / "tables" / "events" / "my_fault.csv")
     assert (events[["duration_s", "slip_m", "stress_drop_Pa"]] > 0).all(axis=None)
@@ -119,49 +124,38 @@ def test_everything_that_the_file_adds_is_made(made):
     assert xr.load_dataset(results / "exponents" / "my_scene.nc").attrs["t_end"] == 300.0
     # the paper's Hopf curves in the same plane are drawn in the atlas
     assert (results / "hopf" / "tau_of_epsilon.nc").exists()
-    texts = {name: (results / "figures" / f"{name}.rst").read_text() for name in FIGURES}
-    assert [name for name, text in texts.items() if re.search(r"[{}]{2}|\bnan\b", text)] == []
+    caption = (results / "figures" / "routes" / "my_start.rst").read_text()
     place = r":math:`\tau = 3`, :math:`\varepsilon = 0.1`, :math:`\xi = 0.5`, :math:`\gamma = 0.8`"
-    assert place in texts["routes/my_start"]
-    page = results / "index.html"
-    links = re.findall(r'(?:href|src)="([^"#][^"]*)"', page.read_text())
-    files = {link for link in links if not link.startswith(("data:", "http"))}
-    assert {f"figures/{name}.svg" for name in FIGURES} <= files
-    assert [link for link in files if not (page.parent / link).is_file()] == []
-    for part in ('id="trajectory-view"', 'id="claim-my_claim"', 'id="play-view"'):
-        assert part in page.read_text()
-    # figures of one scene have entries of their own; of four verdicts one was reached
-    entries = re.findall(r'<li><a href="#[^"]*">([^<]*)</a>', page.read_text())
-    assert {"Scenes: My scene", "Exponents: My scene"} <= set(entries)
-    assert len(re.findall(r"<span>\d claims?</span>", page.read_text())) == 1
+    assert place in caption
+    page = (results / "index.html").read_text()
+    views = [f'id="{name}"' for name in ("claim-my_claim", "play-view")]
+    # figures of one scene have entries of their own
+    entries = [f">{kind}: My scene</a>" for kind in ("Scenes", "Exponents")]
+    for part in (*views, *entries, *(f'src="figures/{name}.svg"' for name in FIGURES)):
+        assert part in page
+    # of four verdicts one was reached
+    assert len(re.findall(r"<span>\d claims?</span>", page)) == 1
 
 
 def test_one_key_of_a_scene_can_be_changed(tmp_path):
     """The others keep their values; 010 is ten."""
-    (tmp_path / "mine.yaml").write_text("scenes: { torus: { tau: 010, history: { v: 1.5 } } }")
-    scene = read_plan({"user_file": str(tmp_path / "mine.yaml")}).config["scenes"]["torus"]
-    assert {key: scene[key] for key in ("tau", "epsilon", "t_end")} == {
-        **{"tau": 10, "epsilon": 0.5, "t_end": 8000.0}
-    }
+    plan = plan_of(tmp_path, "scenes: { torus: { tau: 010, history: { v: 1.5 } } }")
+    scene = plan.config["scenes"]["torus"]
+    assert [scene[key] for key in ("tau", "epsilon", "t_end")] == [10, 0.5, 8000.0]
     assert scene["history"] == {"theta": 0.0, "u": 0.0, "v": 1.5}
 
 
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("scenes:\n  torus:\n    tau: 1\n    tau: 2", "mine.yaml, line 4: found duplicate key"),
-        (None, "mine.yaml: cannot be read: No such file or directory"),
         ("spectra: { segments: 4 }", "the file adds no scene, plane, route"),
         ("scenes: { mine: { tau: 1 } }", "scene 'mine': key"),
         ("pathvars: { results: other }", "pathvars: expected none; the file names its folder"),
     ],
 )
 def test_bad_file_is_refused(tmp_path, text, words):
-    path = tmp_path / "mine.yaml"
-    if text is not None:
-        path.write_text(text)
     with pytest.raises(ConfigError, match=re.escape(words)):
-        read_plan({"user_file": str(path)})
+        plan_of(tmp_path, text)
 
 
 def test_bad_file_stops_the_workflow_in_words(smoke, tmp_path):
@@ -214,26 +208,22 @@ def test_paper_can_be_run_with_other_settings_in_another_folder(smoke, tmp_path)
     assert "results/" not in re.sub("/results/", "", run.stdout)
 
 
-@pytest.mark.parametrize("folder", ["scripts", "docs/mine", "README.md"])
-def test_results_lie_in_no_folder_of_sources(folder):
-    with pytest.raises(ConfigError, match=f"results = '{folder}': .* expected a new folder"):
-        read_plan({"pathvars": {"results": folder}})
-
-
 def test_results_lie_beside_others(tmp_path, monkeypatch):
     """In one folder, but neither in other results nor where anything else lies."""
     monkeypatch.setattr(plans, "PROJECT", tmp_path)
-    (tmp_path / "other" / "one" / "logs").mkdir(parents=True)
-    (tmp_path / "other" / "one" / "index.html").touch()
-    (tmp_path / "mixed" / "one" / "logs").mkdir(parents=True)
-    (tmp_path / "mixed" / "deeper").mkdir()
-    (tmp_path / "mixed" / "deeper" / "script.py").touch()
+    for name in ("other/one/logs", "mixed/one/logs", "mixed/deeper", "docs"):
+        (tmp_path / name).mkdir(parents=True)
+    for name in ("other/one/index.html", "mixed/deeper/script.py", "docs/a.md", "README.md"):
+        (tmp_path / name).touch()
     (tmp_path / "linked").symlink_to(tmp_path / "other")
     for folder in ("new", "new/one", "other/two", "other/two/three", "other/one"):
         assert plans.checked_folder(folder) == folder
-    for folder in ("other", "other/one/two", "mixed/two", "mixed/deeper/two", "linked/two"):
-        with pytest.raises(ConfigError, match="expected a new folder, one beside other results"):
+    in_results, in_sources = ("other", "other/one/two", "linked/two"), ("docs/mine", "README.md")
+    for folder in (*in_results, "mixed/two", "mixed/deeper/two", *in_sources):
+        with pytest.raises(ConfigError, match=f"results = '{folder}': .* expected a new folder"):
             plans.checked_folder(folder)
+    with pytest.raises(ConfigError, match="results = 'docs/mine': docs is there, without results"):
+        read_plan({"pathvars": {"results": "docs/mine"}})
 
 
 def test_new_file_overwrites_none(tmp_path):
@@ -285,19 +275,18 @@ def test_list_of_what_a_file_adds(default_config):
 def test_curves_in_planes_of_the_atlas_stay(tmp_path):
     """The atlas draws the paper's Hopf curves in planes of the user's file."""
     planes = "my_atlas: { xi: 0.5, gamma: 0.8, ordinate_window: [0.0, 10.0] }"
-    (tmp_path / "mine.yaml").write_text(f"atlas: {{ planes: {{ {planes} }} }}")
-    config = read_plan({"user_file": str(tmp_path / "mine.yaml")}).config
+    config = plan_of(tmp_path, f"atlas: {{ planes: {{ {planes} }} }}").config
     assert list(config["atlas"]["planes"]) == ["my_atlas"]
     assert list(config["hopf_curves"]) == ["tau_of_epsilon"]
 
 
 def test_claims_of_a_user_may_name_scenes_of_the_paper(tmp_path):
     """They are computed, too, in the user's folder; no figure shows them."""
-    (tmp_path / "mine.yaml").write_text(
+    plan = plan_of(
+        tmp_path,
         "claims: { mine: { place: here, claim: It is chaos., look_at: attractors.tsv,"
-        " test: { attractor_class: { scene: chaos, expected: chaos } } } }"
+        " test: { attractor_class: { scene: chaos, expected: chaos } } } }",
     )
-    plan = read_plan({"user_file": str(tmp_path / "mine.yaml")})
     assert list(plan.config["scenes"]) == ["chaos"]
     assert plan.figures == {}
     assert "<results>/tables/claims.tsv" in plan.targets()

@@ -1,7 +1,11 @@
-"""The workflow in smoke size: everything once, nothing twice, and only what is asked for."""
+"""The workflow in smoke size: everything once, nothing twice, only what is asked for; a report."""
 
+import json
 import re
+import shutil
+import subprocess
 import sys
+import zipfile
 from collections.abc import Iterator
 from types import SimpleNamespace
 
@@ -13,6 +17,7 @@ from conftest import ROOT, SMOKE, rules_in
 from scripts.plans import studies
 from scripts.plans.declare import PAPER as PRIORITY
 from scripts.workflow.check_run import problem_of
+from scripts.workflow.git_commit import UNKNOWN, commit_of
 
 PAPER = [f"figure_{number}" for number in range(1, 9)]
 
@@ -47,19 +52,6 @@ def test_figures_of_the_paper_come_first(smoke_run):
     assert len(before) < sum(rule in long for rule in started) / 5
 
 
-def test_every_figure_is_there_three_times(smoke):
-    """For print, as picture and for the page, none empty, and for the page none that is slow."""
-    begins = {"pdf": b"%PDF", "png": b"\x89PNG", "svg": b"<?xml"}
-    drawn = {path for path in smoke.folder.glob("results/figures/*") if path.suffix != ".rst"}
-    names = {path.stem for path in drawn}
-    assert len(drawn) == 3 * len(names)
-    assert set(PAPER) | {"atlas", "cycles", "routes", "work_precision"} <= names
-    for path in drawn:
-        content = path.read_bytes()
-        assert content.startswith(begins[path.suffix[1:]])
-        assert 5000 < len(content) < 1_500_000
-
-
 def test_namelists_hold_the_config(smoke, smoke_config):
     """Whatever groups its values are in."""
 
@@ -85,18 +77,40 @@ def test_namelists_hold_the_config(smoke, smoke_config):
 
 
 def test_folders_of_results_stand_in_their_readme(smoke):
-    """Every folder and the page; the file itself is kept as it is."""
+    """Every folder and the page; the file itself is kept as it is. No picture is too large."""
     readme = (smoke.folder / "results" / "README.md").read_text()
     assert readme == (ROOT / "results" / "README.md").read_text()
     named = set(re.findall(r"`results/([\w.-]+)", readme))
     made = {path.name for path in (smoke.folder / "results").iterdir()}
     assert made <= named | studies.kinds_of_results() | {"README.md"}
+    pictures = (smoke.folder / "results" / "figures").glob("*.svg")
+    assert max(path.stat().st_size for path in pictures) < 1_500_000
 
 
 def test_second_run_does_nothing(smoke):
     run = smoke.snakemake(*SMOKE)
     assert run.returncode == 0
     assert "Nothing to be done" in run.stdout
+
+
+def test_report_holds_figures_captions_and_verdicts(smoke, tmp_path):
+    """In one file; the longest plain part of each caption stands for the whole."""
+    report, figures = tmp_path / "report.zip", studies.paper_figures()
+    run = smoke.snakemake(*SMOKE, "--report", str(report))
+    assert run.returncode == 0, run.stdout
+    with zipfile.ZipFile(report) as parts:
+        files = {name.split("/")[-1] for name in parts.namelist()}
+        text = parts.read("report/report.html").decode()
+    assert {"claims.tsv", *(f"{figure}.png" for figure in figures)} <= files
+    text = " ".join(text.replace("\\n", " ").split())
+    for figure in figures.values():
+        caption = (smoke.folder / f"results/figures/{figure.name}.rst").read_text()
+        paragraphs = [" ".join(one.split()) for one in caption.replace(":math:", "").split("\n\n")]
+        plain = [part for one in paragraphs for part in re.findall(r"[\w ,;:.()-]+", one)]
+        assert max(plain, key=len).strip() in text
+        assert f"{figure.name}.png" in text
+        assert json.dumps({"figure": figure.title.rstrip(".")})[1:-1] in text
+    assert '"content": "Verdicts"' in text
 
 
 @pytest.fixture(scope="module")
@@ -139,20 +153,15 @@ def test_target_needs_only_its_own_rules(planned, target, rules, data):
 
 
 def test_figures_and_files_can_be_made_alone(fresh, planned):
-    """The jobs are those that the whole has for them."""
+    """The jobs are those that the whole has for them; a wrong name is refused at once."""
     targets = ("figure_5", "results/references/stability/strong.tsv")
     run = fresh.snakemake("--dry-run", *targets)
     assert run.returncode == 0, run.stdout
     assert set(jobs_in(run.stdout)) == set.union(*(needed_for(one, planned) for one in targets))
-
-
-def test_run_that_cannot_work_is_refused_at_once(fresh):
-    run = fresh.snakemake("--dry-run", "results/figure/figure_5.png")
+    run = fresh.snakemake("--dry-run", "figure_55")
     assert run.returncode != 0
-    assert run.stdout.splitlines()[-1].startswith(
-        "error: no target is named results/figure/figure_5.png; the nearest one is"
-        " results/figures/figure_5.png "
-    )
+    words = "error: no target is named figure_55; the nearest one is figure_5 "
+    assert run.stdout.splitlines()[-1].startswith(words)
 
 
 @pytest.mark.parametrize(
@@ -173,3 +182,29 @@ def test_refusals_of_a_run(monkeypatch, cores, nodes, target, words):
     workflow = SimpleNamespace(resource_settings=settings, rules=[rule])
     assert problem_of(workflow, "mine", ["<results>/b.nc"]).startswith(words)
     assert bool(problem_of(workflow, "mine", ["<results>/b.nc"])) == bool(words)
+
+
+@pytest.mark.skipif(not shutil.which("git"), reason="no git")
+def test_commit_is_named(tmp_path, monkeypatch):
+    """By its full hash, with a word on changes; a repository around a copy is not its own."""
+
+    def git(*words: str) -> str:
+        me = ("-c", "user.name=me", "-c", "user.email=me@here")
+        run = subprocess.run(["git", *me, *words], cwd=tmp_path, capture_output=True, text=True)
+        return run.stdout.strip()
+
+    assert commit_of(tmp_path) == UNKNOWN
+    git("init")
+    assert commit_of(tmp_path) == UNKNOWN
+    (tmp_path / "file").write_text("one")
+    git("add", "file")
+    git("commit", "-m", "first")
+    commit = git("rev-parse", "HEAD")
+    assert commit_of(tmp_path) == commit
+    (tmp_path / "copy").mkdir()
+    assert commit_of(tmp_path / "copy") == UNKNOWN
+    (tmp_path / "other").write_text("two")
+    assert commit_of(tmp_path) == f"{commit} with changes"
+    # a machine without git
+    monkeypatch.setenv("PATH", "")
+    assert commit_of(tmp_path) == UNKNOWN

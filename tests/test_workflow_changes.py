@@ -7,10 +7,11 @@ import pytest
 from dry_runs import data_of_jobs, jobs_in
 
 from conftest import ROOT, SMOKE, Project, rules_in
-from scripts.plans.studies import runs
+from scripts.plans.studies import files_of, runs
 from scripts.workflow.script_imports import modules_of
 
-STYLE = "scripts/drawing/paper.mplstyle"
+SCRIPTS = ROOT / "scripts"
+STYLE = "drawing/paper.mplstyle"
 
 
 def change(project: Project, *names: str) -> None:
@@ -21,27 +22,34 @@ def change(project: Project, *names: str) -> None:
         os.utime(path, (1.5e9, 1.5e9))
 
 
+def of_studies(name: str) -> list[str]:
+    return [path.relative_to(SCRIPTS).as_posix() for path in files_of(name)]
+
+
 def scripts() -> list[str]:
-    files = (ROOT / "scripts").glob("**/*.py")
+    files = SCRIPTS.glob("**/*.py")
     marks = ("logged(snakemake.log[0])", "\ndef draw(")
     of_rules = [path for path in files if any(mark in path.read_text() for mark in marks)]
     return sorted(path.relative_to(ROOT).as_posix() for path in of_rules)
 
 
-def test_results_of_a_script_depend_on_what_it_imports():
-    """Also on what that imports; what draws depends on the style, too."""
-    files = modules_of("studies/routes/figure.py")
-    expected = [
-        "studies/routes/figure.py",
-        "drawing/class_map.py",
-        "drawing/style.py",
-        "files/outputs.py",
-    ]
-    found = {path.relative_to(ROOT).as_posix() for path in files}
-    assert {STYLE, *(f"scripts/{name}" for name in expected)} <= found
-    assert STYLE not in {
-        path.relative_to(ROOT).as_posix() for path in modules_of("claims/ledger.py")
-    }
+@pytest.mark.parametrize(
+    ("script", "expected"),
+    [
+        (
+            "studies/routes/figure.py",
+            ["studies/routes/figure.py", "drawing/class_map.py", "files/outputs.py", STYLE],
+        ),
+        ("claims/ledger.py", ["tables/roots_of_5.py", *of_studies("claims.py")]),
+        ("page/write_page.py", of_studies("finding.py")),
+    ],
+)
+def test_results_of_a_script_depend_on_what_it_imports(script, expected):
+    """Also on what that imports, and on modules that are found by their name; what draws depends on
+    the style, too."""
+    found = {*modules_of(script)}
+    assert {SCRIPTS / name for name in expected} <= found
+    assert (SCRIPTS / STYLE in found) == (STYLE in expected)
 
 
 def test_results_of_changed_scripts_are_stale(scratch):
@@ -59,7 +67,7 @@ def test_changed_files_of_the_project_make_their_results_anew(scratch):
     """Templates, tables and what the page is made of; a changed style would redraw all figures."""
     change(
         scratch,
-        "scripts/studies/power_spectra/figure_6.rst",
+        "scripts/studies/paper_scenes/figure_6.rst",
         "benchmarks/measured.tsv",
         "page/style.css",
     )

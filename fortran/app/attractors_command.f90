@@ -9,7 +9,6 @@ module attractors_command
    use model_history, only: history_type
    use model_problem, only: model_type
    use points_input, only: points_settings_type
-   use program_arguments, only: stop_on
    use progress, only: progress_type
    implicit none (type, external)
    private
@@ -17,15 +16,11 @@ module attractors_command
 
 contains
 
-   !> Attractors of a model on a grid of its parameters, from one history or several, or
-   !> along a sweep, with their classes.
-   subroutine run_attractors(namelist_path, output_path)
-      !> Path of the namelist
-      character(len=*), intent(in) :: namelist_path
-      !> Path of the file to write
-      character(len=*), intent(in) :: output_path
+   !> Run the command.
+   subroutine run_attractors(namelist_path, output_path, error)
+      character(len=*), intent(in) :: namelist_path, output_path
+      type(error_type), allocatable, intent(out) :: error
       type(attractor_settings_type) :: settings
-      type(error_type), allocatable :: error
       type(finding_type), allocatable :: findings(:)
       type(integration_options) :: options
       type(points_settings_type) :: points
@@ -35,7 +30,7 @@ contains
       type(progress_type) :: report
 
       call read_attractors(namelist_path, settings, options, points, model, history, error)
-      call stop_on(error)
+      if (allocated(error)) return
       list = points%list(model, history)
       report = progress_type("attractors of "//trim(points%name))
       if (points%sweep == "none") then
@@ -46,6 +41,5 @@ contains
       end if
       call write_attractors(output_path, points, model, history, list, settings, options, &
                             findings, error)
-      call stop_on(error)
    end subroutine run_attractors
 end module attractors_command

@@ -6,7 +6,6 @@ module cycles_command
    use cycles_files, only: read_cycles, write_cycles
    use dde_errors, only: error_type
    use hopf_lines, only: hopf_on_line_type
-   use program_arguments, only: stop_on
    use progress, only: progress_type
    implicit none (type, external)
    private
@@ -14,30 +13,25 @@ module cycles_command
 
 contains
 
-   !> Cycles along a line of parameters: stable and unstable branches, their special points, and
-   !> curves of these over two parameters.
-   subroutine run_cycles(namelist_path, output_path)
-      !> Path of the namelist
-      character(len=*), intent(in) :: namelist_path
-      !> Path of the file to write
-      character(len=*), intent(in) :: output_path
+   !> Run the command.
+   subroutine run_cycles(namelist_path, output_path, error)
+      character(len=*), intent(in) :: namelist_path, output_path
+      type(error_type), allocatable, intent(out) :: error
       type(cycle_settings_type) :: settings
       type(cycle_curve_type), allocatable :: curves(:)
       type(cycles_type), allocatable :: found(:)
-      type(error_type), allocatable :: error
       type(hopf_on_line_type), allocatable :: hopf(:)
       type(left_out_type), allocatable :: left_out(:)
       type(progress_type) :: report
 
       call read_cycles(namelist_path, settings, error)
-      call stop_on(error)
+      if (allocated(error)) return
       report = progress_type("branches of cycles")
       call find_cycles(settings, hopf, found, left_out, error, report)
-      call stop_on(error)
+      if (allocated(error)) return
       report = progress_type("curves of their special points")
       call find_curves(settings, found, curves, error, report)
-      call stop_on(error)
+      if (allocated(error)) return
       call write_cycles(output_path, settings, hopf, found, left_out, curves, error)
-      call stop_on(error)
    end subroutine run_cycles
 end module cycles_command

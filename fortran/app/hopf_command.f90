@@ -6,21 +6,16 @@ module hopf_command
    use hopf_files, only: hopf_settings_type, read_plane, write_curves
    use hopf_planes, only: curve_plane_type, middles
    use hopf_points, only: find_hopf_points, hopf_point_type, judge_points
-   use program_arguments, only: stop_on
    implicit none (type, external)
    private
    public :: run_hopf
 
 contains
 
-   !> Hopf curves in one plane of parameters, their special points, and the number of unstable
-   !> pairs.
-   subroutine run_hopf(namelist_path, output_path)
-      !> Path of the namelist
-      character(len=*), intent(in) :: namelist_path
-      !> Path of the file to write
-      character(len=*), intent(in) :: output_path
-      type(error_type), allocatable :: error
+   !> Run the command.
+   subroutine run_hopf(namelist_path, output_path, error)
+      character(len=*), intent(in) :: namelist_path, output_path
+      type(error_type), allocatable, intent(out) :: error
       type(hopf_settings_type) :: settings
       type(curve_plane_type) :: plane
       type(curve_point_type), allocatable :: points(:)
@@ -29,18 +24,17 @@ contains
       real(wp), allocatable :: grid(:)
 
       call read_plane(namelist_path, settings, plane, error)
-      call stop_on(error)
+      if (allocated(error)) return
       ! the edges of the window, and the middles of the cells
       grid = [0.0_wp, middles([0.0_wp, 1.0_wp], settings%cells), 1.0_wp]
       pairs = plane%unstable_pairs(grid, grid)
       call trace_curves(plane, grid, grid, pairs, points, error)
-      call stop_on(error)
+      if (allocated(error)) return
       call judge_points(plane, points, error)
-      call stop_on(error)
+      if (allocated(error)) return
       call find_hopf_points(plane, points, special, error)
-      call stop_on(error)
+      if (allocated(error)) return
       call write_curves(output_path, settings, plane, points, special, &
                         pairs(2:settings%cells + 1, 2:settings%cells + 1), error)
-      call stop_on(error)
    end subroutine run_hopf
 end module hopf_command

@@ -6,7 +6,6 @@ module linear_stability_command
                                      write_linear_stability
    use model_problem, only: model_type
    use model_roots, only: count_roots, find_model_roots
-   use program_arguments, only: stop_on
    use stability_changes, only: changes_type, find_changes, roots_without_delay
    implicit none (type, external)
    private
@@ -14,32 +13,28 @@ module linear_stability_command
 
 contains
 
-   !> Linear stability of a model at rest, at one set of parameters.
-   subroutine run_linear_stability(namelist_path, output_path)
-      !> Path of the namelist
-      character(len=*), intent(in) :: namelist_path
-      !> Path of the file to write
-      character(len=*), intent(in) :: output_path
+   !> Run the command.
+   subroutine run_linear_stability(namelist_path, output_path, error)
+      character(len=*), intent(in) :: namelist_path, output_path
+      type(error_type), allocatable, intent(out) :: error
       type(changes_type), allocatable :: changes(:)
-      type(error_type), allocatable :: error
       type(linear_stability_settings_type) :: settings
       type(model_type) :: model
       complex(wp), allocatable :: roots(:)
       integer :: i
 
       call read_linear_stability(namelist_path, settings, model, error)
-      call stop_on(error)
+      if (allocated(error)) return
       call find_model_roots(model, settings%root_bound, roots, error)
-      call stop_on(error)
+      if (allocated(error)) return
       allocate (changes(count(settings%along /= "")))
       do i = 1, size(changes)
          changes(i)%along = model%number_of(settings%along(i))
          call find_changes(model, settings%windows(:, i), changes(i), error)
-         call stop_on(error)
+         if (allocated(error)) return
       end do
       call write_linear_stability(output_path, settings, model, roots, &
                                   [count_roots(model, 0.0_wp), roots_without_delay(model)]/2, &
                                   changes, error)
-      call stop_on(error)
    end subroutine run_linear_stability
 end module linear_stability_command

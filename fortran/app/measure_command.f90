@@ -2,12 +2,10 @@
 !> what it cost. A run that fails is a row with its reason.
 module measure_command
    use dde_errors, only: error_type
-   use measure_files, only: measure_settings_type, measured_runs_type, read_measure, &
-                            write_measured_runs
+   use measure_files, only: measure_settings_type, read_measure, write_measured_runs
    use dde_kinds, only: wp
    use measured_case, only: case_type
-   use measured_run, only: measure_run, time_runs
-   use program_arguments, only: stop_on
+   use measured_run, only: measure_run, run_type, time_runs
    use progress, only: progress_type
    implicit none (type, external)
    private
@@ -15,37 +13,33 @@ module measure_command
 
 contains
 
-   !> Measured runs: cases solved by several methods at several tolerances, with what each run
-   !> gave and what it cost. A run that fails is a row with its reason.
-   subroutine run_measure(namelist_path, output_path)
-      !> Path of the namelist
-      character(len=*), intent(in) :: namelist_path
-      !> Path of the file to write
-      character(len=*), intent(in) :: output_path
+   !> Run the command.
+   subroutine run_measure(namelist_path, output_path, error)
+      character(len=*), intent(in) :: namelist_path, output_path
+      type(error_type), allocatable, intent(out) :: error
       type(case_type), allocatable :: cases(:)
-      type(error_type), allocatable :: error
       type(measure_settings_type) :: settings
-      type(measured_runs_type), allocatable :: measured(:)
       type(progress_type) :: report
-      integer :: i, j
+      type(run_type), allocatable :: runs(:)
+      integer :: i, j, last, n
 
       call read_measure(namelist_path, cases, settings, error)
-      call stop_on(error)
-      allocate (measured(size(cases)))
+      if (allocated(error)) return
+      n = size(settings%runs())
+      allocate (runs(n*size(cases)))
       report = progress_type("measured runs", parts=2*size(cases))
       do i = 1, size(cases)
          call report%begin_part(2*i - 1)
-         measured(i)%case = cases(i)
-         measured(i)%runs = settings%runs()
-         do j = 1, size(measured(i)%runs)
-            call measure_run(cases(i), 0.0_wp, settings%most_steps, measured(i)%runs(j))
-            call report%advance(j, size(measured(i)%runs))
+         last = n*i
+         runs(last - n + 1:last) = settings%runs()
+         do j = 1, n
+            call measure_run(cases(i), 0.0_wp, settings%most_steps, runs(last - n + j))
+            call report%advance(j, n)
          end do
          call report%begin_part(2*i)
          call time_runs(cases(i), settings%most_steps, settings%repeats, settings%least_seconds, &
-                        measured(i)%runs, report)
+                        runs(last - n + 1:last), report)
       end do
-      call write_measured_runs(output_path, measured, error)
-      call stop_on(error)
+      call write_measured_runs(output_path, cases, runs, error)
    end subroutine run_measure
 end module measure_command

@@ -5,7 +5,6 @@ module reference_command
    use dde_kinds, only: wp
    use measured_case, only: case_type
    use measured_run, only: measure_run, run_type
-   use program_arguments, only: stop_on
    use progress, only: progress_type
    use reference_files, only: read_reference, reference_file_type, reference_settings_type
    implicit none (type, external)
@@ -14,15 +13,11 @@ module reference_command
 
 contains
 
-   !> Reference solutions of cases in quadruple precision, each with the evidence of its own
-   !> uncertainty and of how much the case magnifies a disturbance of its history.
-   subroutine run_reference(namelist_path, output_path)
-      !> Path of the namelist
-      character(len=*), intent(in) :: namelist_path
-      !> Path of the file to write
-      character(len=*), intent(in) :: output_path
+   !> Run the command.
+   subroutine run_reference(namelist_path, output_path, error)
+      character(len=*), intent(in) :: namelist_path, output_path
+      type(error_type), allocatable, intent(out) :: error
       type(case_type), allocatable :: cases(:)
-      type(error_type), allocatable :: error
       type(progress_type) :: report
       type(reference_file_type) :: file
       type(reference_settings_type) :: settings
@@ -30,9 +25,9 @@ contains
       integer :: i
 
       call read_reference(namelist_path, cases, settings, error)
-      call stop_on(error)
+      if (allocated(error)) return
       call file%create(output_path, cases(1), error)
-      call stop_on(error)
+      if (allocated(error)) return
       associate (options => settings)
          best = run_type(trim(options%method), options%tolerance)
          disturbed = best
@@ -49,6 +44,5 @@ contains
          end do
       end associate
       call file%finish(error)
-      call stop_on(error)
    end subroutine run_reference
 end module reference_command

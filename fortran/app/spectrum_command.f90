@@ -4,7 +4,7 @@ module spectrum_command
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use even_slope, only: finer, smoothed_slope, undo_smoothing
-   use program_arguments, only: check_input, stop_on
+   use program_arguments, only: check_input
    use spectral_peaks, only: find_peaks, peak_type
    use spectrum, only: power_spectrum
    use spectrum_files, only: read_spectrum_settings, read_trajectory, spectrum_settings_type, &
@@ -15,15 +15,12 @@ module spectrum_command
 
 contains
 
-   !> Power spectrum of the signal over a trajectory after its transient, with its peaks labelled.
-   subroutine run_spectrum(namelist_path, output_path)
-      !> Path of the namelist
-      character(len=*), intent(in) :: namelist_path
-      !> Path of the file to write
-      character(len=*), intent(in) :: output_path
+   !> Run the command.
+   subroutine run_spectrum(namelist_path, output_path, error)
+      character(len=*), intent(in) :: namelist_path, output_path
+      type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: trajectory_path
       type(bases_type) :: bases
-      type(error_type), allocatable :: error
       type(peak_type), allocatable :: peaks(:)
       type(spectrum_settings_type) :: settings
       type(trajectory_type) :: trajectory
@@ -32,10 +29,10 @@ contains
       integer :: first
 
       call read_spectrum_settings(namelist_path, trajectory_path, settings, error)
-      call stop_on(error)
+      if (allocated(error)) return
       call check_input(trajectory_path, output_path)
       call read_trajectory(trajectory_path, settings%block, trajectory, error)
-      call stop_on(error)
+      if (allocated(error)) return
 
       interval = trajectory%sample_interval
       first = count(trajectory%t < trajectory%t_transient*(1.0_wp - epsilon(1.0_wp))) + 1
@@ -48,13 +45,12 @@ contains
       call power_spectrum(v, interval, settings%window, settings%segments, settings%overlap, &
                           frequency, power, error)
       if (allocated(error)) error%message = trajectory_path//": "//error%message
-      call stop_on(error)
+      if (allocated(error)) return
       if (allocated(trajectory%u)) call undo_smoothing(interval, frequency, power)
       peaks = find_peaks(frequency, power, settings%peak_floor, settings%peak_prominence)
       call label_peaks(peaks, frequency(2), bases)
       call write_spectrum(output_path, trim(trajectory%scene), trim(trajectory%signal), settings, &
                           frequency, power, sum((v - sum(v)/size(v))**2)/size(v), peaks, bases, &
                           error)
-      call stop_on(error)
    end subroutine run_spectrum
 end module spectrum_command

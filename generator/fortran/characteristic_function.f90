@@ -26,7 +26,6 @@ module characteristic_function
       procedure :: by_s
       procedure :: by_parameter
       procedure :: part
-      procedure :: part_by_parameter
       procedure :: curvature_bound
       procedure :: largest_term
       procedure :: root_by
@@ -72,17 +71,6 @@ contains
       value = polynomial(self%coefficient(:, number), s)
    end function part
 
-   !> Derivative of P_d(s) by a parameter.
-   pure complex(wp) function part_by_parameter(self, number, parameter, s) result(value)
-      class(characteristic_type), intent(in) :: self
-      !> Number of the delay, number of the parameter
-      integer, intent(in) :: number, parameter
-      !> Point of the complex plane
-      complex(wp), intent(in) :: s
-
-      value = polynomial(self%coefficient_by(:, number, parameter), s)
-   end function part_by_parameter
-
    !> Delta(s).
    pure complex(wp) function delta(self, s) result(value)
       class(characteristic_type), intent(in) :: self
@@ -121,7 +109,7 @@ contains
 
       value = 0.0_wp
       do i = 1, size(self%delay)
-         value = value + (self%part_by_parameter(i, parameter, s) &
+         value = value + (polynomial(self%coefficient_by(:, i, parameter), s) &
                           - s*self%delay_by(i, parameter)*self%part(i, s))*exp(-s*self%delay(i))
       end do
    end function by_parameter

@@ -6,7 +6,7 @@ module model_description
    implicit none (type, external)
    private
    public :: at_rest, auxiliary_type, description_of, description_type, line_length, &
-             observed_type, parameter_type, sizes_of, sizes_type, unbounded, word_length
+             observed_type, parameter_type, sizes_type, unbounded, word_length
 
    !> Letters of names; of meanings and equations.
    integer, parameter :: word_length = 64, line_length = 512
@@ -35,21 +35,6 @@ module model_description
       !> Number of the state
       integer :: state = 0
    end type auxiliary_type
-
-   !> What a definition says, for messages and files.
-   type :: description_type
-      !> Name, and where the equations are from
-      character(len=line_length) :: name = "", source = ""
-      !> Parameters
-      type(parameter_type), allocatable :: parameters(:)
-      !> Names and meanings of the states
-      character(len=word_length), allocatable :: states(:)
-      character(len=line_length), allocatable :: meanings(:)
-      !> Names of exponentials
-      type(auxiliary_type), allocatable :: auxiliaries(:)
-      !> Equations and definitions as they are written, one a line
-      character(len=line_length), allocatable :: equations(:)
-   end type description_type
 
    !> What is looked at in motions: the signal, a component of the state or its exponential.
    type :: observed_type
@@ -80,25 +65,55 @@ module model_description
       type(observed_type) :: observed
    end type sizes_type
 
+   !> What a definition says, for messages and files.
+   type :: description_type
+      !> Name, and where the equations are from
+      character(len=line_length) :: name = "", source = ""
+      !> Parameters
+      type(parameter_type), allocatable :: parameters(:)
+      !> Names and meanings of the states
+      character(len=word_length), allocatable :: states(:)
+      character(len=line_length), allocatable :: meanings(:)
+      !> Names of exponentials
+      type(auxiliary_type), allocatable :: auxiliaries(:)
+      !> Equations and definitions as they are written, one a line
+      character(len=line_length), allocatable :: equations(:)
+      !> Sizes of the definition
+      type(sizes_type) :: sizes
+   end type description_type
+
 contains
 
    !> What the definition says.
-   type(description_type) function description_of(lines, sizes) result(description)
+   type(description_type) function description_of(lines) result(description)
       !> The lines of the description
       procedure(describe_line), pointer, intent(in) :: lines
-      !> Sizes of the definition
-      type(sizes_type), intent(in) :: sizes
-      character(len=line_length) :: words(4)
-      integer :: equation, number, parameter, place
+      character(len=line_length) :: words(9)
+      integer :: equation, number, pair(2), parameter, place
       real(wp) :: bound
 
-      allocate (description%parameters(sizes%parameters), description%equations(sizes%equations))
       allocate (description%states(0), description%meanings(0), description%auxiliaries(0))
+      allocate (description%sizes%couplings(2, 0))
       equation = 0
       parameter = 0
+      ! behind the line of the interface
       number = 2
       do while (has_line(lines, number, words))
          select case (words(1))
+         case ("sizes")
+            associate (sizes => description%sizes)
+               read (words(2:6), *) sizes%parameters, sizes%equations, sizes%states, &
+                  sizes%delayed, sizes%terms
+               allocate (description%parameters(sizes%parameters), &
+                         description%equations(sizes%equations))
+            end associate
+         case ("coupling")
+            read (words(2:3), *) pair
+            associate (sizes => description%sizes)
+               sizes%couplings = reshape([sizes%couplings, pair], [2, size(sizes%couplings, 2) + 1])
+            end associate
+         case ("observed")
+            description%sizes%observed = observed_of(words)
          case ("name")
             description%name = words(2)
          case ("source")
@@ -122,37 +137,11 @@ contains
             read (words(2), *) bound
             description%parameters(parameter)%at_least = bound
          case default
-            ! sizes, which are known
+            ! no other line is written
          end select
          number = number + 1
       end do
    end function description_of
-
-   !> The sizes: the first lines of the description after that of the interface.
-   type(sizes_type) function sizes_of(lines) result(sizes)
-      !> The lines of the description
-      procedure(describe_line), pointer, intent(in) :: lines
-      character(len=line_length) :: words(9)
-      integer :: number, pair(2)
-
-      allocate (sizes%couplings(2, 0))
-      number = 2
-      do while (has_line(lines, number, words))
-         select case (words(1))
-         case ("sizes")
-            read (words(2:), *) sizes%parameters, sizes%equations, sizes%states, sizes%delayed, &
-               sizes%terms
-         case ("coupling")
-            read (words(2:3), *) pair
-            sizes%couplings = reshape([sizes%couplings, pair], [2, size(sizes%couplings, 2) + 1])
-         case ("observed")
-            sizes%observed = observed_of(words)
-         case default
-            return
-         end select
-         number = number + 1
-      end do
-   end function sizes_of
 
    !> What is looked at, from its line.
    type(observed_type) function observed_of(words) result(observed)

@@ -1,6 +1,7 @@
-/* What C alone knows of models: the program's own place, their files, and the layout of folders. */
+/* What C alone knows of models: the program's own place, how they are opened, and folders. */
 #define _POSIX_C_SOURCE 200809L
 #include <dirent.h>
+#include <dlfcn.h>
 #include <elf.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,7 +17,7 @@ void model_program(char *path, size_t length)
 
 /* 1 where all of a shared object is there: its last part is the table of its sections. The system's
    loader crashes on one that was cut off. */
-int model_is_whole(const char *path)
+static int is_whole(const char *path)
 {
     Elf64_Ehdr head;
     FILE *file = fopen(path, "rb");
@@ -27,6 +28,15 @@ int model_is_whole(const char *path)
                 (Elf64_Off)ftell(file) >= head.e_shoff + head.e_shnum * head.e_shentsize;
     fclose(file);
     return whole;
+}
+
+/* A model that is opened; without one a null pointer, and why. */
+void *model_open(const char *path, char *reason, size_t length)
+{
+    void *library = is_whole(path) ? dlopen(path, RTLD_NOW) : NULL;
+    if (!library)
+        snprintf(reason, length, "%s", is_whole(path) ? dlerror() : "it is no whole shared object");
+    return library;
 }
 
 static int is_model(const struct dirent *entry)

@@ -2,14 +2,14 @@
 !> environment variable `MODELS`, with colons between them, or else the folder `models` beside that
 !> of the program (`models_quad` of a program in quadruple precision).
 module model_library
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_f_procpointer, &
-                                          c_funptr, c_int, c_null_char, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_procpointer, c_funptr, &
+                                          c_null_char, c_ptr, c_size_t
    use dde_errors, only: error_type, raise
    use dde_kinds, only: wp
-   use model_border, only: describe_line, expand, expand_past, expand_tangents, find_delayed, &
-                           find_forms, find_jacobian, find_past, find_rate, find_rhs, find_state, &
-                           list_terms, letters => line_length
-   use model_description, only: description_type, sizes_of, word_length
+   use model_border, only: describe_line, expand, expand_tangents, find_delayed, find_forms, &
+                           find_jacobian, find_rate, find_rhs, find_state, list_terms, &
+                           letters => line_length
+   use model_description, only: description_type, word_length
    use model_interface, only: interface_digest
    use model_problem, only: code_type, model_type
    implicit none (type, external)
@@ -21,16 +21,15 @@ module model_library
    !> What names of models are made of.
    character(len=*), parameter :: &
       letters_of_names = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_"
-   !> dlopen: all symbols at once.
-   integer(c_int), parameter :: now = 2
 
    interface
-      type(c_ptr) function dlopen(path, flags) result(library) bind(c)
-         import :: c_char, c_int, c_ptr
+      type(c_ptr) function model_open(path, reason, length) result(library) bind(c)
+         import :: c_char, c_ptr, c_size_t
          implicit none (type, external)
          character(kind=c_char), intent(in) :: path(*)
-         integer(c_int), value :: flags
-      end function dlopen
+         character(kind=c_char), intent(inout) :: reason(*)
+         integer(c_size_t), value :: length
+      end function model_open
 
       type(c_funptr) function dlsym(library, name) result(address) bind(c)
          import :: c_char, c_funptr, c_ptr
@@ -38,17 +37,6 @@ module model_library
          type(c_ptr), value :: library
          character(kind=c_char), intent(in) :: name(*)
       end function dlsym
-
-      type(c_ptr) function dlerror() result(text) bind(c)
-         import :: c_ptr
-         implicit none (type, external)
-      end function dlerror
-
-      integer(c_int) function model_is_whole(path) result(whole) bind(c)
-         import :: c_char, c_int
-         implicit none (type, external)
-         character(kind=c_char), intent(in) :: path(*)
-      end function model_is_whole
 
       subroutine model_program(path, length) bind(c)
          import :: c_char, c_size_t
@@ -80,8 +68,7 @@ contains
 
       path = path_of(name)
       if (path == "") then
-         call raise(error, "no model '"//name//"' in "//model_folders()//"; expected one of: " &
-                    //in_a_list(list_models("")))
+         call raise(error, "no model '"//name//"' in "//model_folders())
          return
       end if
       call open_object(path, model, error)
@@ -95,17 +82,14 @@ contains
       type(model_type), intent(out) :: model
       !> Error if it cannot be opened, or does not fit this program
       type(error_type), allocatable, intent(out) :: error
+      character(kind=c_char, len=path_length) :: reason
       type(c_ptr) :: library
       type(description_type) :: about
 
-      if (model_is_whole(path//c_null_char) == 0) then
-         call raise(error, path//": cannot be opened: it is no whole shared object; " &
-                    //"compile the model again")
-         return
-      end if
-      library = dlopen(path//c_null_char, now)
+      library = model_open(path//c_null_char, reason, int(path_length, c_size_t))
       if (.not. c_associated(library)) then
-         call raise(error, path//": cannot be opened: "//reason()//"; compile the model again")
+         call raise(error, path//": cannot be opened: "//reason(:index(reason, c_null_char) - 1) &
+                    //"; compile the model again")
          return
       end if
       if (has(library, "description")) then
@@ -116,8 +100,8 @@ contains
          return
       end if
       call find_procedures(library, model%code)
-      model%sizes = sizes_of(model%code%description)
       about = model%describe()
+      model%sizes = about%sizes
       model%names = about%parameters%name
    end subroutine open_object
 
@@ -187,19 +171,6 @@ contains
       folders = trim(folders)
    end function model_folders
 
-   !> Names with commas between them.
-   pure function in_a_list(names) result(list)
-      character(len=*), intent(in) :: names(:)
-      character(len=:), allocatable :: list
-      integer :: i
-
-      list = ""
-      do i = 1, size(names)
-         list = list//trim(names(i))
-         if (i < size(names)) list = list//", "
-      end do
-   end function in_a_list
-
    !> Whether a description begins with the digest and the kind of reals of this program.
    logical function fits(description) result(value)
       procedure(describe_line), pointer, intent(in) :: description
@@ -238,10 +209,6 @@ contains
          call c_f_procpointer(procedure_of(library, "characteristic_terms"), &
                               code%characteristic_terms)
       end if
-      if (has(library, "past")) then
-         call c_f_procpointer(procedure_of(library, "past"), code%past)
-         call c_f_procpointer(procedure_of(library, "past_series"), code%past_series)
-      end if
    end subroutine find_procedures
 
    logical function has(library, name) result(value)
@@ -258,21 +225,4 @@ contains
 
       address = dlsym(library, "model_"//name//c_null_char)
    end function procedure_of
-
-   !> Why the last opening failed.
-   function reason() result(words)
-      character(len=:), allocatable :: words
-      character(kind=c_char), pointer :: text(:)
-      integer :: i, length
-
-      call c_f_pointer(dlerror(), text, [path_length])
-      length = 0
-      do while (text(length + 1) /= c_null_char)
-         length = length + 1
-      end do
-      allocate (character(len=length) :: words)
-      do i = 1, length
-         words(i:i) = text(i)
-      end do
-   end function reason
 end module model_library

@@ -6,9 +6,8 @@ module model_problem
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde, only: problem_with_tangents
    use dde_kinds, only: wp
-   use model_border, only: describe_line, expand, expand_past, expand_tangents, find_delayed, &
-                           find_forms, find_jacobian, find_past, find_rate, find_rhs, find_state, &
-                           list_terms, shape_type
+   use model_border, only: describe_line, expand, expand_tangents, find_delayed, find_forms, &
+                           find_jacobian, find_rate, find_rhs, find_state, list_terms, shape_type
    use model_description, only: description_of, description_type, sizes_type, word_length
    implicit none (type, external)
    private
@@ -27,11 +26,9 @@ module model_problem
       procedure(find_state), pointer, nopass :: steady_state => null()
       procedure(find_forms), pointer, nopass :: derivative => null()
       procedure(list_terms), pointer, nopass :: characteristic_terms => null()
-      procedure(find_past), pointer, nopass :: past => null()
-      procedure(expand_past), pointer, nopass :: past_series => null()
    end type code_type
 
-   !> A model: its parameters, and constant values up to the initial time unless it has others.
+   !> A model: its parameters, and constant values up to the initial time.
    type, extends(problem_with_tangents) :: model_type
       !> The compiled procedures
       type(code_type) :: code
@@ -94,7 +91,7 @@ contains
       class(model_type), intent(in) :: self
       type(description_type) :: description
 
-      description = description_of(self%code%description, self%sizes)
+      description = description_of(self%code%description)
    end function describe
 
    !> Delays of a block with these parameters, some of them 0.
@@ -206,23 +203,18 @@ contains
    pure subroutine initial(self, y)
       class(model_type), intent(in) :: self
       real(wp), intent(out) :: y(self%n)
-      integer :: k
 
-      y = [(self%history(0.0_wp, k), k=1, self%n)]
+      y = self%past
    end subroutine initial
 
-   !> A component up to the initial time: as the definition has it, or constant.
+   !> A component up to the initial time.
    pure function history(self, t, component) result(value)
       class(model_type), intent(in) :: self
       real(wp), intent(in) :: t
       integer, intent(in) :: component
       real(wp) :: value
 
-      if (associated(self%code%past)) then
-         call self%code%past(self%numbers, t, component, value)
-      else
-         value = self%past(component)
-      end if
+      value = self%past(component)
    end function history
 
    !> Its Taylor coefficients.
@@ -232,15 +224,9 @@ contains
       integer, intent(in) :: component
       real(wp), intent(in) :: unit
       real(wp), intent(out) :: y(0:)
-      real(wp) :: whole(0:ubound(y, 1))
 
-      if (associated(self%code%past_series)) then
-         call self%code%past_series(self%numbers, t, component, unit, ubound(y, 1), whole)
-         y = whole
-      else
-         y = 0.0_wp
-         y(0) = self%past(component)
-      end if
+      y = 0.0_wp
+      y(0) = self%past(component)
    end subroutine past_series
 
    !> The equations.

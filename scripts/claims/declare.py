@@ -140,7 +140,10 @@ def claim(number: int, name: str, place: str, *, look_at: str) -> Callable:
     """
 
     def register(find: Callable) -> Callable:
-        _add_tested(find, name, number, place, look_at)
+        noted = find.__dict__.pop("noted")
+        parameters = {**TESTS[find.__name__].defaults, **noted.get("parameters", {})}
+        test = {find.__name__: parameters}
+        _add(name, number, place, {"claim": noted["claim"], "test": test, "look_at": look_at})
         return find
 
     return register
@@ -148,25 +151,12 @@ def claim(number: int, name: str, place: str, *, look_at: str) -> Callable:
 
 def question(number: int, name: str, *, look_at: str) -> Callable:
     """Declare a question that the paper does not ask, as a claim otherwise."""
-
-    def register(find: Callable) -> Callable:
-        _add_tested(find, name, number, "", look_at)
-        return find
-
-    return register
+    return claim(number, name, "", look_at=look_at)
 
 
 def not_testable(number: int, name: str, place: str, words: str, reason: str) -> None:
     """Declare a claim of the paper that no test can decide, and why."""
     _add(name, number, place, {"claim": words, "not_testable": reason})
-
-
-def _add_tested(find: Callable, name: str, number: int, place: str, look_at: str) -> None:
-    """Add a claim or a question with what was noted of it, and the test below."""
-    noted = find.__dict__.pop("noted")
-    parameters = {**TESTS[find.__name__].defaults, **noted.get("parameters", {})}
-    test = {find.__name__: parameters}
-    _add(name, number, place, {"claim": noted["claim"], "test": test, "look_at": look_at})
 
 
 def _add(name: str, number: int, place: str, about: dict) -> None:

@@ -165,14 +165,6 @@ def _tests_of(claims: dict) -> list[tuple[Test, dict]]:
     ]
 
 
-def find(claim: dict, results: Results) -> Finding:
-    """What the claim's test finds; the reason where there is none."""
-    if "not_testable" in claim:
-        return Finding(NOT_TESTABLE, claim["not_testable"])
-    ((name, parameters),) = claim["test"].items()
-    return TESTS[name].find(results, **parameters)
-
-
 def rows_of(claims: dict[str, dict], results: Results, folder: str) -> list[dict]:
     """One row a claim, in the order of the list; the results are in the folder."""
     return [
@@ -189,8 +181,11 @@ def rows_of(claims: dict[str, dict], results: Results, folder: str) -> list[dict
 
 
 def found_of(claim: dict, results: Results) -> dict:
-    """What the claim's test finds, in columns; of a question of ours its answer."""
-    found = vars(find(claim, results))
+    """What the claim's test finds, or why it has none, in columns; of our questions the answer."""
+    if "not_testable" in claim:
+        return vars(Finding(NOT_TESTABLE, claim["not_testable"]))
+    ((name, parameters),) = claim["test"].items()
+    found = vars(TESTS[name].find(results, **parameters))
     if claim.get("whose") == OURS:
         return found | {"verdict": ANSWERS[found["verdict"]]}
     return found

@@ -9,7 +9,7 @@ import jsonschema
 
 from scripts.config import check_models, si
 from scripts.config.checks import check_blocks, check_samples, place_of, wrong
-from scripts.files.read_config import ConfigError, parse
+from scripts.files.read_config import ConfigError
 from scripts.namelists.laws import history_of, is_law
 from scripts.plans import studies
 
@@ -94,12 +94,8 @@ def in_words(error: jsonschema.ValidationError) -> str:
     if "propertyNames" in error.absolute_schema_path:
         expected = expected if isinstance(value, str) else "text (quote it)"
         return f"{place_of(path)}: name {value!r}; expected {expected}"
-    line = (
-        f"{place_of(path[:-1])}: {path[-1] if path else 'value'} = {value!r}; expected {expected}"
-    )
-    if isinstance(value, str) and _is_number(value):
-        line += f" (this is text; write {value} without quotes for the number)"
-    return line
+    key = path[-1] if path else "value"
+    return f"{place_of(path[:-1])}: {key} = {value!r}; expected {expected}"
 
 
 def range_in_words(rules: dict) -> str:
@@ -112,14 +108,6 @@ def range_in_words(rules: dict) -> str:
     kind = {"number": "a finite number", "integer": "a whole number"}.get(rules.get("type"), "")
     bounds = [f"{sign} {rules[key]}" for key, sign in SIGNS.items() if key in rules]
     return f"{kind} {' and '.join(bounds)}".strip()
-
-
-def _is_number(text: str) -> bool:
-    """Whether a text would be a finite number without quotes."""
-    try:
-        return _is_finite_number(parse(text))
-    except ConfigError:
-        return False
 
 
 def _fill_in_exponents(config: dict) -> None:

@@ -2,18 +2,19 @@
 
 import csv
 import math
+from collections.abc import Iterable
 from pathlib import Path
 
 from scripts.files.outputs import written
 
 
-def write_table(path: str | Path, rows: list[dict], columns: list[str] | None = None) -> None:
+def write_table(path: str | Path, rows: list[dict], first: Iterable[str] = ()) -> None:
     """Write rows; the file appears only when complete.
 
-    Without `columns` these are the keys of all rows. What a row lacks is an empty cell.
+    Columns are the first ones, then all other keys of the rows. What a row lacks is an empty cell.
     """
     with written(path) as unfinished, open(unfinished, "w", newline="") as file:
-        columns = columns or list(dict.fromkeys(key for row in rows for key in row))
+        columns = list(dict.fromkeys([*first, *(key for row in rows for key in row)]))
         delimiter = "," if Path(path).suffix == ".csv" else "\t"
         writer = csv.DictWriter(file, columns, delimiter=delimiter, lineterminator="\n")
         writer.writeheader()
@@ -56,3 +57,12 @@ def as_value(text: str) -> float | str:
         return float(text)
     except ValueError:
         return text
+
+
+def rows_by(rows: Iterable[dict], *keys: str) -> dict:
+    """Rows by their value of a column, or by those of several, in the order of the first rows."""
+    found: dict = {}
+    for row in rows:
+        place = tuple(row[key] for key in keys)
+        found.setdefault(place if len(keys) > 1 else place[0], []).append(row)
+    return found

@@ -3,11 +3,8 @@
 from pathlib import Path
 
 PROJECT = Path(__file__).parents[2]
-LIBRARY = "/usr/share/javascript/dygraphs"
-"""Where Debian's libjs-dygraphs is."""
 ASSETS = {
     "style.css": "page/style.css",
-    "views.js": "page/views.js",
     "claims.js": "page/claims.js",
     "licence.txt": "LICENSE",
     "citation.txt": "CITATION.cff",
@@ -17,14 +14,11 @@ ASSETS = {
     "verification.txt": "docs/verification.md",
     "play.css": "page/play.css",
     "play.js": "page/play.js",
-    "dygraph.min.js": f"{LIBRARY}/dygraph.min.js",
-    "dygraph.min.css": f"{LIBRARY}/dygraph.min.css",
-    "dygraph-licence.txt": "/usr/share/doc/libjs-dygraphs/copyright",
 }
 """Source of each file, by its name in the folder `page` of the results."""
 
 
 def list_files() -> list[str]:
-    """Paths of all files of the project and of Debian that a page is made of."""
+    """Paths of all files of the project that a page is made of."""
     templates = [path.relative_to(PROJECT) for path in PROJECT.glob("page/**/*") if path.is_file()]
     return sorted({*map(str, templates), *ASSETS.values()})

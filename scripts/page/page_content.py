@@ -5,7 +5,7 @@ import os
 import re
 from pathlib import Path
 
-from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, VERDICTS
+from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED
 from scripts.files.read_config import read as read_yaml
 from scripts.page import captions, mathematics
 from scripts.plans.studies import is_measured
@@ -32,22 +32,11 @@ def read_claims(path: str | Path, folder: Path) -> list[dict]:
     return sorted(claims, key=lambda claim: (*FIRST, claim["verdict"]).index(claim["verdict"]))
 
 
-def describe_figures(figures: list[dict], claims: list[dict], folder: Path) -> list[dict]:
-    """Figures with captions, sizes and the claims beside them; links begin in the folder.
-
-    A figure is given by its `name`, `category`, `caption`, `drawing` and `data` (files).
-    """
-    return [
-        {
-            **describe_figure(figure, folder),
-            "claims": [claim for claim in claims if figure_of(claim, figures) == figure["name"]],
-        }
-        for figure in figures
-    ]
-
-
 def describe_figure(figure: dict, folder: Path) -> dict:
-    """A figure with its caption, size and files; links begin in the folder."""
+    """A figure with its caption, size and files; links begin in the folder.
+
+    It is given by its `name`, `category`, `caption`, `drawing` and `data` (files).
+    """
     caption = captions.as_html(figure["caption"])
     first, end, more = caption.partition("</p>")
     size = size_of(figure["drawing"])
@@ -109,11 +98,6 @@ def set_equations(path: str | Path, claims: list[dict]) -> dict[str, list[dict]]
             for equation in equations
         ]
     return found
-
-
-def tally(claims: list[dict]) -> dict[str, int]:
-    """Number of claims by verdict, every verdict in its order."""
-    return {v: sum(claim["verdict"] == v for claim in claims) for v in VERDICTS}
 
 
 def opening(readme: str) -> str:

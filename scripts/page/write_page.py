@@ -1,4 +1,4 @@
-"""The page of a run: index.html, times.html and the files beside them, in its folder of results."""
+"""The page of a run: index.html and the files beside it, in its folder of results."""
 
 import platform
 import shutil
@@ -6,12 +6,12 @@ from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
+from scripts.claims.claims_results import VERDICTS
 from scripts.claims.declare import OURS
 from scripts.files import marked_words
-from scripts.files.inputs import read
 from scripts.files.outputs import logged, written
 from scripts.files.tsv import read_table
-from scripts.page import findings, mathematics, page_content, page_provenance, page_views
+from scripts.page import findings, mathematics, page_content, page_provenance
 from scripts.page.page_assets import ASSETS, PROJECT
 from scripts.plans.declare import MAIN
 from scripts.tables.motion_rows import COLOURS
@@ -45,7 +45,10 @@ def content(given, params, folder: Path) -> dict:
         claim["figure"] = page_content.figure_of(claim, params.figures)
     claims = [claim for claim in claims if claim["whose"] != OURS]
     others = [claim for claim in claims if claim["id"] not in placed]
-    figures = page_content.describe_figures(params.figures, others, folder)
+    figures = [page_content.describe_figure(figure, folder) for figure in params.figures]
+    beside = {claim["id"]: page_content.figure_of(claim, figures) for claim in others}
+    for figure in figures:
+        figure["claims"] = [claim for claim in others if beside[claim["id"]] == figure["name"]]
     top = {figure["name"]: figure for figure in figures if paper and not figure["claims"]}
     if paper:
         paper |= {"block": top.get(BLOCK), "hero": top.get(HERO)}
@@ -62,23 +65,21 @@ def content(given, params, folder: Path) -> dict:
         "appendices": groups if paper else {},
         "claims": claims,
         "questions": questions,
-        "verdicts": page_content.tally(claims),
-        "unplaced": [one for one in others if not page_content.figure_of(one, figures)],
+        "verdicts": {v: sum(claim["verdict"] == v for claim in claims) for v in VERDICTS},
+        "unplaced": [claim for claim in others if not beside[claim["id"]]],
         "tables": [str(Path(path).relative_to(folder)) for path in given.tables],
-        "trajectories": trajectories(given),
         "atlas": groups["Atlas"][0]["name"] if given.play and "Atlas" in groups else "",
         "history": params.history,
         "colours": COLOURS,
         "commit": params.commit,
         "programs": page_provenance.programs(sorted(data)),
         "packages": {"Python": platform.python_version(), **page_provenance.packages()},
-        "measured": [figure for figure in figures if figure["measured"]],
     }
 
 
 def content_of_paper(given, claims: list[dict]) -> dict:
-    """What only the page of the paper has: opening, equations, findings and how to cite."""
-    names = ("attractors", *findings.tables_read())
+    """What only the page of the paper has: opening, equations and findings."""
+    names = findings.tables_read()
     # a run that failed lacks some
     complete = claims and all(given[name] for name in names)
     tables = {name: read_table(given[name]) for name in names if complete}
@@ -88,26 +89,7 @@ def content_of_paper(given, claims: list[dict]) -> dict:
         "opening": page_content.opening((PROJECT / "README.md").read_text()),
         "findings": findings.list_findings(claims, tables) if tables else [],
         "main_claims": [by_id[name] for name in findings.MAIN_CLAIMS if name in by_id],
-        "cited": page_provenance.citation(PROJECT / "CITATION.cff"),
     }
-
-
-def trajectories(given) -> list[dict]:
-    """Trajectories to zoom into."""
-    attractors = read_table(given.attractors) if given.attractors else []
-    runs = [read(path) for path in given.trajectories]
-    return [
-        page_views.describe_run(run, attractors) for run in runs if page_views.can_be_drawn(run)
-    ]
-
-
-def write_files(texts: dict[str, str], assets: list[str]) -> None:
-    """Write pages, by their paths, and what lies beside them."""
-    for source, target in zip(ASSETS.values(), assets, strict=True):
-        with written(target) as path:
-            shutil.copyfile(PROJECT / source, path)
-    for target, text in texts.items():
-        write_text(target, text)
 
 
 def write_text(target: str, text: str) -> None:
@@ -118,13 +100,9 @@ def write_text(target: str, text: str) -> None:
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        params, output = snakemake.params, snakemake.output
-        folder = Path(output.page).parent
-        shown = content(snakemake.input, params, folder)
-        # what is measured on this machine has a page of its own: two runs give the same index.html
-        seconds = page_provenance.seconds(folder / "benchmarks")
-        pages = {
-            output.page: render("index.html.jinja", **shown),
-            output.times: render("times.html.jinja", figures=shown["measured"], seconds=seconds),
-        }
-        write_files(pages, output.assets)
+        output = snakemake.output
+        shown = content(snakemake.input, snakemake.params, Path(output.page).parent)
+        for source, target in zip(ASSETS.values(), output.assets, strict=True):
+            with written(target) as path:
+                shutil.copyfile(PROJECT / source, path)
+        write_text(output.page, render("index.html.jinja", **shown))

@@ -46,11 +46,6 @@ class Run:
         """Name of the program that has the command."""
         return "spring_block_quad" if self.quad else "spring_block"
 
-    @property
-    def stem(self) -> str:
-        """Path of the output without its ending; log, benchmark and namelist have the same."""
-        return stem_of(self.output)
-
 
 @dataclass(frozen=True)
 class Table:
@@ -76,11 +71,6 @@ class Table:
     of_all_laws: bool = False
     """Whether claims about one law read its rows of other laws, too."""
     priority: int = 0
-
-    @property
-    def stem(self) -> str:
-        """Path of the output without its ending; the log has the same."""
-        return stem_of(self.output)
 
 
 @dataclass(frozen=True)
@@ -179,7 +169,7 @@ class Study:
 
 
 def stem_of(path: str) -> str:
-    """A path without its ending."""
+    """A path without its ending: log, benchmark and namelist of an output have the same."""
     return str(PurePath(path).with_suffix(""))
 
 

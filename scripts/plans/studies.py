@@ -130,8 +130,7 @@ def kinds_of_results() -> set[str]:
 
 def is_measured(path: str) -> bool:
     """Whether two runs may differ in a result, by its path in the folder of results."""
-    begins = [start for study in studies().values() for start in study.measured]
-    return path.startswith(("times.html", *begins))
+    return path.startswith(tuple(start for one in studies().values() for start in one.measured))
 
 
 def inside(config: dict, keys: tuple[str, ...]) -> dict:

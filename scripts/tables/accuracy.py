@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from scripts.files.inputs import read
-from scripts.files.tsv import read_table
+from scripts.files.tsv import read_table, rows_by
 from scripts.namelists.laws import law_in_file
 
 BEFORE, BEHIND = "time", "uncertainty"
@@ -28,10 +28,7 @@ class Reference:
 
 def read_references(paths: list[str] | list[Path]) -> dict[str, Reference]:
     """References of several files by case."""
-    by_case: dict[str, list[dict]] = {}
-    for path in paths:
-        for row in read_table(path):
-            by_case.setdefault(row["case"], []).append(row)
+    by_case = rows_by((row for path in paths for row in read_table(path)), "case")
     return {
         case: Reference(
             status=rows[0]["status"],
@@ -54,14 +51,14 @@ def read_runs(path: str | Path) -> list[dict]:
     """Runs of a file: words, numbers, samples as `time` and `state`, shape (states, samples)."""
     data = read(path)
     states = [name for name in data.data_vars if data[name].dims == data.time.dims]
-    numbers = {name for name, values in data.variables.items() if values.dims == ("run",)}
+    numbers = [name for name, values in data.variables.items() if values.dims == ("run",)]
     runs = []
     for i in range(data.sizes["run"]):
         row = data.isel(run=i)
         reached = np.isfinite(row.time.values)
         runs.append(
             {name: str(row[name].values) for name in WORDS}
-            | {name: float(row[name]) for name in numbers - set(WORDS)}
+            | {name: float(row[name]) for name in numbers if name not in WORDS}
             | {"time": row.time.values[reached]}
             | {"state": np.array([row[name].values[reached] for name in states])}
         )

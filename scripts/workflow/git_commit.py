@@ -11,18 +11,12 @@ def commit_of(folder: Path) -> str:
 
     A repository that merely lies around the folder is not the project's.
     """
-    top = run_git(folder, "rev-parse", "--show-toplevel")
-    commit = run_git(folder, "rev-parse", "--verify", "--quiet", "HEAD")
-    if not commit or not top or not Path(top).samefile(folder):
-        return UNKNOWN
-    changed = run_git(folder, "status", "--porcelain")
-    return f"{commit} with changes" if changed else commit
-
-
-def run_git(folder: Path, *arguments: str) -> str:
-    """Output of a git command; empty if it fails."""
-    command = ["git", "-C", str(folder), *arguments]
+    git = ["git", f"--git-dir={folder / '.git'}", f"--work-tree={folder}"]
     try:
-        return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+        commit, changed = (
+            subprocess.run([*git, *words], capture_output=True, text=True, check=True).stdout
+            for words in (["rev-parse", "--verify", "HEAD"], ["status", "--porcelain"])
+        )
     except (OSError, subprocess.CalledProcessError):
-        return ""
+        return UNKNOWN
+    return f"{commit.strip()} with changes" if changed else commit.strip()

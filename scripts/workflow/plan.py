@@ -75,11 +75,6 @@ class Plan:
         lines += [f"open {page}"] * page.exists()
         return "\n".join(lines)
 
-    def trajectories(self) -> list[str]:
-        """Trajectories that figures draw: the page lets a reader zoom into them."""
-        kept = "<results>/trajectories/"
-        return [path for path in self._data_of_figures() if path.startswith(kept)]
-
     def _data_of_figures(self) -> list[str]:
         """Results that figures read, each once."""
         read = [path for one in self.figures.values() for path in one.files_of(self.config)]

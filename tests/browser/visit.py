@@ -14,18 +14,11 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.support.ui import Select
 
 WIDTHS = [360, 800, 1400]
-SCHEMES = ["light", "dark"]
 FACTS = """
 return {
-  lang: document.documentElement.lang,
   images: [...document.images].map((i) => ({ src: i.src, alt: i.alt, width: i.naturalWidth })),
 };
 """
-INVERTED = """
-return [...document.querySelectorAll('figure img, .play-map image, .legend svg')].map(
-  (drawing) => getComputedStyle(drawing).filter);
-"""
-"""How drawings and the colours of classes are changed for a dark screen."""
 DRAWN = "const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(done))"
 """Waits until what follows an event or the size of the window has been drawn."""
 
@@ -40,16 +33,12 @@ def browser() -> Chrome:
     return Chrome(options, ChromeService("/usr/bin/chromedriver"))
 
 
-def emulate(chrome: Chrome, width: int, **media: str) -> None:
-    """A window of this width and a reader of these wishes."""
+def emulate(chrome: Chrome, width: int, media: str = "") -> None:
+    """A window of this width, or paper."""
     size = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False}
     chrome.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
     chrome.execute_cdp_cmd("Emulation.setScrollbarsHidden", {"hidden": True})
-    wishes = {
-        "media": media.get("media", ""),
-        "features": [{"name": "prefers-color-scheme", "value": media.get("scheme", "light")}],
-    }
-    chrome.execute_cdp_cmd("Emulation.setEmulatedMedia", wishes)
+    chrome.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": media})
     chrome.execute_async_script(DRAWN)
 
 
@@ -60,10 +49,9 @@ def too_wide(chrome: Chrome) -> int:
     )
 
 
-def violations(chrome: Chrome, scheme: str) -> list[str]:
-    """What axe finds wrong, with one place of each; of the dark scheme only its colours are new."""
-    options = {} if scheme == SCHEMES[0] else {"runOnly": ["cat.color"]}
-    found = Axe().run(chrome, options=options)["violations"]
+def violations(chrome: Chrome) -> list[str]:
+    """What axe finds wrong, with one place of each."""
+    found = Axe().run(chrome)["violations"]
     return [f"{one['id']}: {one['help']}: {one['nodes'][0]['html'][:200]}" for one in found]
 
 
@@ -78,41 +66,6 @@ def by_keyboard(chrome: Chrome) -> dict:
     }
     ActionChains(chrome).send_keys(Keys.ENTER).perform()
     return {**met, "leads_to": chrome.switch_to.active_element.get_attribute("id")}
-
-
-def values_read(chrome: Chrome, view) -> str:
-    """What stands below the plot when the pointer is at its middle."""
-    plot = view.find_element(By.CSS_SELECTOR, ".plot")
-    ActionChains(chrome).move_to_element(plot).perform()
-    return view.find_element(By.CSS_SELECTOR, ".values").text
-
-
-def visit_trajectories(chrome: Chrome) -> dict | None:
-    """What each scene says of itself and of a place, and the times before, in and after a zoom."""
-    views = chrome.find_elements(By.ID, "trajectory-view")
-    if not views:
-        return None
-    (view,) = views
-    said, values, titles = [], [], []
-    for option in view.find_elements(By.TAG_NAME, "option"):
-        option.click()
-        said.append(view.find_element(By.CSS_SELECTOR, ".read").text)
-        values.append(values_read(chrome, view))
-        labels = view.find_elements(By.CSS_SELECTOR, ".dygraph-ylabel, .dygraph-y2label")
-        titles.append([label.text for label in labels])
-    plot = view.find_element(By.CSS_SELECTOR, ".plot")
-    ticks = [axis_labels(plot)]
-    drag = ActionChains(chrome).move_to_element(plot).click_and_hold().move_by_offset(60, 0)
-    drag.release().perform()
-    ticks.append(axis_labels(plot))
-    view.find_element(By.TAG_NAME, "button").click()
-    ticks.append(axis_labels(plot))
-    return {"said": said, "ticks": ticks, "values": values, "titles": titles}
-
-
-def axis_labels(plot) -> list[str]:
-    labels = plot.find_elements(By.CSS_SELECTOR, ".dygraph-axis-label-x")
-    return [label.get_attribute("textContent") for label in labels]
 
 
 def visit_play(chrome: Chrome) -> dict[str, dict]:
@@ -137,13 +90,10 @@ def visit_play(chrome: Chrome) -> dict[str, dict]:
 
 
 def shown_motion(view) -> dict:
-    """The words, the values of the sliders, and the boxes around the two curves."""
-    curves = view.find_elements(By.CSS_SELECTOR, "path.motion")
+    """The class, the values of the sliders, and the words of the plot over time."""
     return {
         "class": view.find_element(By.CSS_SELECTOR, ".play-class").text,
-        "more": view.find_element(By.CSS_SELECTOR, ".play-more").text,
         "values": [output.text for output in view.find_elements(By.TAG_NAME, "output")],
-        "segments": [curve.get_attribute("d").count("C") for curve in curves],
         "ticks": [tick.text for tick in view.find_elements(By.CSS_SELECTOR, ".play-time text")],
     }
 
@@ -204,21 +154,19 @@ def visit(chrome: Chrome, page: Path) -> dict:
     """All that is looked at, in an order in which no look disturbs the next."""
     emulate(chrome, WIDTHS[-1])
     chrome.get(page.resolve().as_uri())
-    seen = {**chrome.execute_script(FACTS), "too_wide": {}, "axe": {}}
+    seen = {**chrome.execute_script(FACTS), "too_wide": {}}
     seen |= {"keyboard": by_keyboard(chrome)}
     seen |= {"claims": visit_claims(chrome)}
     chrome.get(page.resolve().as_uri())
     for details in chrome.find_elements(By.CSS_SELECTOR, "details.appendix:not([open]) > summary"):
         details.click()
-    seen |= {"trajectories": visit_trajectories(chrome), "play": visit_play(chrome)}
+    seen |= {"play": visit_play(chrome)}
     for details in chrome.find_elements(By.CSS_SELECTOR, "details:not([open]) > summary"):
         chrome.execute_script("arguments[0].parentElement.open = true", details)
-    for scheme in SCHEMES:
-        for width in WIDTHS:
-            emulate(chrome, width, scheme=scheme)
-            seen["too_wide"][f"{scheme} {width}"] = too_wide(chrome)
-        seen["axe"][scheme] = violations(chrome, scheme)
-    seen["dark"] = chrome.execute_script(INVERTED)
+    for width in WIDTHS:
+        emulate(chrome, width)
+        seen["too_wide"][width] = too_wide(chrome)
+    seen["axe"] = violations(chrome)
     emulate(chrome, 700, media="print")
     seen["too_wide"]["print"] = too_wide(chrome)
     messages = [entry["message"] for entry in chrome.get_log("browser")]

@@ -10,7 +10,6 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
@@ -25,8 +24,6 @@ ATLAS = "results/tables/atlas.tsv"
 PARTS = [f"results/attractors/atlas/xi_05/{part:04}.nc" for part in range(1, 5)]
 PART = r"results/attractors/atlas/\w+/000[1-4].nc"
 PATIENCE = 300.0
-
-
 GONE = (psutil.NoSuchProcess, psutil.AccessDenied, psutil.ZombieProcess)
 
 
@@ -66,61 +63,39 @@ def built(tmp_path_factory) -> Project:
     return project
 
 
-@dataclass
-class SlurmRun:
-    """A run of the workflow through Slurm, under way; a context, at whose end it has ended."""
-
-    folder: Path
-    process: subprocess.Popen[str]
-
-    def __enter__(self) -> "SlurmRun":
-        return self
-
-    def __exit__(self, *_) -> None:
-        self.process.kill()
-        self.process.wait()
-
-    def result(self) -> tuple[int, str]:
-        """Exit status and log, once it has ended by itself."""
-        log, _ = self.process.communicate(timeout=PATIENCE)
-        return self.process.returncode, log
-
-    def program(self, besides: str = "") -> Program:
-        """One that works in a job, waited for, on another namelist than `besides`."""
-        while not (found := running_program(self.folder, besides)):
-            assert self.process.poll() is None, self.result()[1]
-            time.sleep(0.1)
-        return found
-
-
-def started(cluster: Cluster, project: Project, *arguments: str) -> SlurmRun:
-    """Start the workflow; every job asks for one core, and Slurm lets them wait for theirs."""
+@contextlib.contextmanager
+def started(cluster: Cluster, project: Project, *arguments: str) -> Iterator[subprocess.Popen[str]]:
+    """The workflow under way; every job asks for one core, and Slurm lets them wait for theirs."""
     command = [Path(sys.executable).parent / "snakemake", "--profile", "profiles/slurm"]
     asked_soon = ["--slurm-init-seconds-before-status-checks", "10"]
     no_accounting = ["--slurm-status-command", "squeue", "--slurm-no-account"]
     one_core = ["--set-threads", "atlas_runs=1"]
-    process = subprocess.Popen(
+    with subprocess.Popen(
         [*command, *asked_soon, *no_accounting, *one_core, *arguments],
         cwd=project.folder,
         env=cluster.environment,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
-    )
-    return SlurmRun(project.folder, process)
+    ) as process:
+        try:
+            yield process
+        finally:
+            process.kill()
 
 
-def run_on(cluster: Cluster, project: Project, *arguments: str) -> tuple[int, str]:
-    with started(cluster, project, *arguments) as run:
-        return run.result()
+def result_of(run: subprocess.Popen[str]) -> tuple[int, str]:
+    """Exit status and log, once it has ended by itself."""
+    log, _ = run.communicate(timeout=PATIENCE)
+    return run.returncode, log
 
 
-def counted(log: str, rule: str) -> int:
-    return len(re.findall(rf"^(?:local)?rule {rule}:", log, flags=re.MULTILINE))
-
-
-def result_of(namelist: str) -> str:
-    return namelist.replace("namelists/", "", 1).replace(".nml", ".nc")
+def program_of(run: subprocess.Popen[str], folder: Path, besides: str = "") -> Program:
+    """One that works in a job, waited for, on another namelist than `besides`."""
+    while not (found := running_program(folder, besides)):
+        assert run.poll() is None, result_of(run)[1]
+        time.sleep(0.1)
+    return found
 
 
 def times_of_parts(project: Project) -> dict[str, int]:
@@ -133,20 +108,22 @@ def test_killed_jobs_are_redone_and_nothing_else(cluster, built, tmp_path):
     """A job by scancel, a program by kill -9; in the end the results are the local ones."""
     project = built.copy_to(tmp_path / "on slurm")
     with started(cluster, project, *SHORT_PARTS, "--", ATLAS) as run:
-        cancelled = run.program()
+        cancelled = program_of(run, project.folder)
         cluster.command("scancel", cancelled.job)
-        killed = run.program(besides=cancelled.namelist)
+        killed = program_of(run, project.folder, besides=cancelled.namelist)
         killed.process.kill()
-        status, log = run.result()
+        status, log = result_of(run)
     assert status != 0
-    victims = {result_of(namelist) for namelist in (cancelled.namelist, killed.namelist)}
+    namelists = [one.namelist.replace("namelists/", "", 1) for one in (cancelled, killed)]
+    victims = {name.replace(".nml", ".nc") for name in namelists}
     made = times_of_parts(project)
     assert len(made) == 3 * len(PARTS) - 2, log
     assert all(re.fullmatch(PART, name) and name not in victims for name in made)
 
-    status, log = run_on(cluster, project, *SHORT_PARTS, "--", ATLAS)
+    with started(cluster, project, *SHORT_PARTS, "--", ATLAS) as run:
+        status, log = result_of(run)
     assert status == 0, log
-    assert counted(log, "atlas_runs") == 2
+    assert len(re.findall(r"^(?:local)?rule atlas_runs:", log, flags=re.MULTILINE)) == 2
     again = times_of_parts(project)
     assert set(again) - set(made) == victims
     assert {name: again[name] for name in made} == made

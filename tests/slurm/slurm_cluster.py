@@ -9,15 +9,15 @@ import socket
 import string
 import subprocess
 import tempfile
-import time
 from pathlib import Path
 
 import psutil
 
+from conftest import wait_for
+
 PATIENCE = 60.0
-"""Seconds in which a daemon or the node must be up, or down."""
+"""Seconds in which a daemon must be down."""
 USER = pwd.getpwuid(os.getuid()).pw_name
-DAEMONS = ["munged", "slurmctld", "slurmd"]
 
 
 def free_ports(count: int) -> list[int]:
@@ -27,14 +27,6 @@ def free_ports(count: int) -> list[int]:
         for each in sockets:
             each.bind(("127.0.0.1", 0))
         return [each.getsockname()[1] for each in sockets]
-
-
-def until(done, what: str) -> None:
-    end = time.monotonic() + PATIENCE
-    while not done():
-        if time.monotonic() > end:
-            raise TimeoutError(f"{what}: not within {PATIENCE:.0f} s")
-        time.sleep(0.2)
 
 
 class Cluster:
@@ -54,10 +46,10 @@ class Cluster:
             self._write_files()
             socket_path = self.folder / "munge.socket"
             self._start_daemon("munged", "--foreground", *self._munge_files(socket_path))
-            until(socket_path.exists, "start of munged")
+            wait_for(socket_path.exists)
             self._start_daemon("slurmctld", "-D")
             self._start_daemon("slurmd", "-D")
-            until(lambda: self.command("sinfo", "-h", "-o", "%T") == "idle\n", "start of the node")
+            wait_for(lambda: self.command("sinfo", "-h", "-o", "%T") == "idle\n")
         except BaseException as error:
             error.add_note(self._last_words())
             self.__exit__()
@@ -67,9 +59,8 @@ class Cluster:
     def __exit__(self, *_) -> None:
         """End all jobs, then the daemons, the one started last first."""
         try:
-            if self._answers():
-                self.command("scancel", "--user", USER)
-                until(lambda: self.command("squeue", "-h") == "", "end of the jobs")
+            self.command("scancel", "--user", USER)
+            wait_for(lambda: self.command("squeue", "-h") == "")
         finally:
             for daemon in reversed(self.daemons):
                 daemon.terminate()
@@ -84,9 +75,6 @@ class Cluster:
         """What a command of Slurm says; empty where it fails."""
         run = subprocess.run(words, env=self.environment, capture_output=True, text=True)
         return run.stdout
-
-    def _answers(self) -> bool:
-        return len(self.daemons) == len(DAEMONS) and self.command("scontrol", "ping").find("UP") > 0
 
     def _munge_files(self, socket_path: Path) -> list[str]:
         names = {"key": "munge.key", "pid": "munge.pid", "log": "munge.log", "seed": "munge.seed"}

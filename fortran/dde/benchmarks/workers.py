@@ -116,10 +116,6 @@ class Worker:
             self._request(f"{tolerance:g} 0 {path}", limit)
             return np.loadtxt(path, ndmin=2)
 
-    def peak_memory(self) -> float:
-        """The most memory that the process has held, in MB."""
-        return peak_memory_of(self.process)
-
     def stop(self) -> None:
         """End the process, if there is one."""
         if self.process:

@@ -53,13 +53,11 @@ contains
 
    !> The root of `f` between `lower` and `upper`, where its signs differ, to the last few bits.
    subroutine find_root(f, lower, upper, root, error)
-      !> The function
       class(scalar_function_type), intent(in), target :: f
       !> Lower end of the bracket
       real(wp), intent(in) :: lower
       !> Upper end
       real(wp), intent(in) :: upper
-      !> The root
       real(wp), intent(out) :: root
       !> No bracket, the signs do not differ, or no convergence
       type(error_type), allocatable, intent(out) :: error

@@ -16,7 +16,7 @@ module attractors_files
    use namelist_input, only: namelist_file_type, word_length
    use netcdf_output, only: output_file_type
    use points_input, only: points_settings_type
-   use value_checks, only: check_number, missing, missing_count
+   use value_checks, only: check_number, missing, missing_count, most_samples
    implicit none (type, external)
    private
    public :: read_attractors, write_attractors
@@ -31,11 +31,13 @@ module attractors_files
       integer(int64) :: most_steps = missing_count
    end type solver_settings_type
 
+   !> Letters of the longest reason why no attractor was found.
+   integer, parameter :: longest_problem = 1000
+
 contains
 
    !> Read and check all sections.
    subroutine read_attractors(path, observation, options, points, model, history, error)
-      !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> How attractors are judged
       type(attractor_settings_type), intent(out) :: observation
@@ -43,7 +45,6 @@ contains
       type(integration_options), intent(out) :: options
       !> Where they are looked for
       type(points_settings_type), intent(out) :: points
-      !> The model
       type(model_type), intent(out) :: model
       !> Histories from which they are reached
       type(history_type), intent(out) :: history
@@ -53,8 +54,7 @@ contains
       type(solver_settings_type) :: solver
       namelist /settings/ observation, solver, points
 
-      call file%open(path, error)
-      if (allocated(error)) return
+      call file%open(path)
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
@@ -62,6 +62,10 @@ contains
                                     absolute=solver%tolerance, most_steps=solver%most_steps)
       call check_number(error, path//": observation", "interval", observation%interval, &
                         above=0.0_wp)
+      call check_number(error, path//": observation", "t_path", observation%t_path, &
+                        at_least=0.0_wp)
+      call check_number(error, path//": observation", "sample_interval", &
+                        observation%sample_interval, at_least=observation%t_path/most_samples)
       call points%open(path//": points", model, error)
       call read_histories(path, model, history, error)
    end subroutine read_attractors
@@ -69,21 +73,15 @@ contains
    !> Write what was found at each point.
    subroutine write_attractors(path, points, model, history, list, settings, options, findings, &
                                error)
-      !> Path of the file
       character(len=*), intent(in) :: path
       !> Where attractors were looked for, and what is kept of each
       type(points_settings_type), intent(in) :: points
-      !> The model
       type(model_type), intent(in) :: model
-      !> The histories
       type(history_type), intent(in) :: history
-      !> All points
       type(point_type), intent(in) :: list(:)
-      !> How attractors were judged
       type(attractor_settings_type), intent(in) :: settings
       !> Method and tolerances
       type(integration_options), intent(in) :: options
-      !> What was found
       type(finding_type), intent(in) :: findings(:)
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
@@ -91,7 +89,6 @@ contains
       character(len=*), parameter :: ordinals(3) = ["first ", "second", "third "]
       real(wp), dimension(size(findings)) :: least, mean_time, most, variation
       character(len=:), allocatable :: name
-      real(wp) :: numbers(size(model%names), size(list)), past(size(list))
       integer :: i, k, rows
 
       name = signal_name(model)
@@ -112,25 +109,19 @@ contains
       call file%attribute("longest_bar", settings%longest_bar)
       call file%attribute("sample_interval", settings%sample_interval)
       rows = file%dimension("point", size(findings))
-      do i = 1, size(list)
-         numbers(:, i) = list(i)%numbers
-      end do
-      call put_places(file, rows, model, numbers, "")
+      call put_places(file, rows, model, [(list(i)%numbers, i=1, size(list))])
       associate (found => findings%attractor)
          if (model%shape%blocks > 1) then
             call file%column(rows, "history", list%history, "number of the history")
          else if (allocated(history%values)) then
             do k = 1, size(history%names)
-               do i = 1, size(list)
-                  past(i) = history%values(k, 1, list(i)%history)
-               end do
-               call file%column(rows, "history_"//trim(history%names(k)), past, &
+               call file%column(rows, "history_"//trim(history%names(k)), &
+                                history%values(k, 1, list%history), &
                                 trim(history%names(k))//" for t <= 0")
             end do
          end if
-         call file%flags(rows, "computed", merge(1, 0, findings%computed), ["no ", "yes"], &
-                         "whether the motion was computed; "// &
-                         "if not, class and period are those of the neighbours")
+         call file%answers(rows, "computed", findings%computed, "whether the motion was " &
+                           //"computed; if not, class and period are those of the neighbours")
          call file%flags(rows, "class", found%class, class_names, "class of the motion")
          call file%flags(rows, "reason", found%reason, reason_names, "why the class is undecided")
          call put_found("time", found%time, "time until the class was certain, or the limit")
@@ -153,12 +144,10 @@ contains
                         "share of the power of "//name//" in the lines of the first two")
          do i = 1, size(findings)
             call reach(findings(i), least(i), most(i))
+            call recur(findings(i), mean_time(i), variation(i))
          end do
          call file%column(rows, "smallest_maximum", least, "smallest maximum of "//name)
          call file%column(rows, "largest_maximum", most, "largest maximum of "//name)
-         do i = 1, size(findings)
-            call recur(findings(i), mean_time(i), variation(i))
-         end do
          call file%column(rows, "recurrence_time", mean_time, &
                           "mean time between passages of the section")
          call file%column(rows, "recurrence_variation", variation, &
@@ -310,8 +299,8 @@ contains
       type(finding_type), intent(in) :: findings(:)
       integer, intent(in) :: rows
       real(wp), allocatable :: line(:, :)
-      character(len=:), allocatable :: across, up
-      integer :: dimension, i, lengths(size(findings))
+      character(len=:), allocatable :: name
+      integer :: dimension, i, lengths(size(findings)), shown(2)
 
       call file%attribute("t_path", t_path)
       lengths = 0
@@ -331,18 +320,16 @@ contains
                        lengths_along="path_point")
       ! a dimension of length zero would be an unlimited one
       if (sum(lengths) == 0) return
-      dimension = file%dimension("path_point", sum(lengths))
-      call file%column(dimension, "path_time", line(1, :), "time from the beginning of the path")
+      dimension = file%dimension("path_point", sum(lengths), prefix="path_")
+      call file%column(dimension, "time", line(1, :), "time from the beginning of the path")
       associate (observed => model%sizes%observed)
-         up = shown_name(model, observed%component)
-         if (maxval(observed%coordinates) == 0) then
-            call file%column(dimension, "path_"//up, line(3, :), up//" along the path")
-            return
-         end if
-         across = shown_name(model, maxval(observed%coordinates))
+         shown = [maxval(observed%coordinates), observed%component]
       end associate
-      call file%column(dimension, "path_"//across, line(2, :), across//" along the path")
-      call file%column(dimension, "path_"//up, line(3, :), up//" along the path")
+      do i = 1, 2
+         if (shown(i) == 0) cycle
+         name = shown_name(model, shown(i))
+         call file%column(dimension, name, line(i + 1, :), name//" along the path")
+      end do
    end subroutine put_paths
 
    !> Why no attractor was found, blank where one was.
@@ -350,15 +337,9 @@ contains
       type(output_file_type), intent(inout) :: file
       type(finding_type), intent(in) :: findings(:)
       integer, intent(in) :: rows
-      character(len=:), allocatable :: words(:)
-      integer :: i, letters
+      character(len=longest_problem) :: words(size(findings))
+      integer :: i
 
-      letters = 1
-      do i = 1, size(findings)
-         if (.not. allocated(findings(i)%problem)) cycle
-         letters = max(letters, len(findings(i)%problem%message))
-      end do
-      allocate (character(len=letters) :: words(size(findings)))
       words = ""
       do i = 1, size(findings)
          if (allocated(findings(i)%problem)) words(i) = findings(i)%problem%message

@@ -32,11 +32,9 @@ contains
 
    !> Open the models of cases. Refuse cases without a meaning; keep an earlier error.
    subroutine open_cases(path, given, cases, error)
-      !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> The cases as they are given
       type(case_settings_type), intent(in) :: given(:)
-      !> The cases
       type(case_type), allocatable, intent(out) :: cases(:)
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
@@ -54,6 +52,7 @@ contains
             call one%model%open(place, case%model, error)
             call read_history(place, case%model, pack(one%history, one%history /= ""), &
                               elements(one%values), case%history, error)
+            call check_number(error, place, "t_end", one%t_end, at_least=0.0_wp)
             call check_number(error, place, "sample_interval", one%sample_interval, &
                               at_least=one%t_end/most_samples)
          end associate

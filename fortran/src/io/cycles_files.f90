@@ -6,6 +6,7 @@ module cycles_files
    use cycle_curves, only: cycle_curve_type
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
+   use floquet_multipliers, only: multipliers_type
    use history_input, only: read_histories
    use hopf_lines, only: hopf_on_line_type
    use model_attributes, only: put_model, put_places
@@ -48,16 +49,14 @@ module cycles_files
 
    !> Multipliers written for each orbit
    integer, parameter :: multipliers = 4
-   !> Letters of the origin and of the ending of a branch
-   integer, parameter :: letters = 16
+   !> What errors of multipliers are
+   character(len=*), parameter :: trivial_error = "distance of the trivial multiplier from 1"
 
 contains
 
    !> Read and check what is computed.
    subroutine read_cycles(path, line_settings, error)
-      !> Path of the namelist file
       character(len=*), intent(in) :: path
-      !> What is computed
       type(cycle_settings_type), intent(out) :: line_settings
       !> Error if the file cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
@@ -68,8 +67,7 @@ contains
       integer :: i
       namelist /settings/ cycles
 
-      call file%open(path, error)
-      if (allocated(error)) return
+      call file%open(path)
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       ! the value of the parameter along the line is not used
       call cycles%model%put(trim(cycles%along), cycles%window(1))
@@ -81,6 +79,8 @@ contains
       if (allocated(error)) return
       call check_choice(error, path, "along", cycles%along, line%model%names)
       call check_count(error, path, "degree", cycles%degree, at_least=3)
+      call check_count(error, path, "intervals", cycles%intervals, at_least=1)
+      call check_count(error, path, "most_orbits", cycles%most_orbits, at_least=2)
       line%along = line%model%number_of(cycles%along)
       line%window = cycles%window
       line_settings = cycle_settings_type(line=line, starts=elements(cycles%starts), &
@@ -100,13 +100,10 @@ contains
    !> Write the orbits of all branches one after another, the branches, the starts left out, the
    !> special points, the Hopf points, the points of all curves one after another, and their cusps.
    subroutine write_cycles(path, settings, hopf, found, left_out, curves, error)
-      !> Path of the file
       character(len=*), intent(in) :: path
       !> What was asked
       type(cycle_settings_type), intent(in) :: settings
-      !> Hopf points
       type(hopf_on_line_type), intent(in) :: hopf(:)
-      !> Branches
       type(cycles_type), intent(in) :: found(:)
       !> Starts without a branch of their own
       type(left_out_type), intent(in) :: left_out(:)
@@ -118,7 +115,6 @@ contains
       type(description_type) :: about
       character(len=:), allocatable :: along
       integer :: i, rows
-      real(wp), allocatable :: numbers(:, :)
 
       about = settings%line%model%describe()
       along = trim(settings%line%model%names(settings%line%along))
@@ -128,18 +124,14 @@ contains
       call file%attribute("degree", int(settings%degree, int64))
       call put_orbits(file, settings%line%model, settings%line%along, along, &
                       trim(about%parameters(settings%line%along)%meaning), found)
-      rows = file%dimension("left_out", size(left_out))
-      call file%words(rows, "left_out_origin", left_out%origin, "where it starts")
-      call file%column(rows, "left_out_"//along, left_out%at, "parameter along the line")
-      call file%words(rows, "left_out_reason", left_out%reason, "why no branch was followed")
+      rows = file%dimension("left_out", size(left_out), prefix="left_out_")
+      call file%words(rows, "origin", left_out%origin, "where it starts")
+      call file%column(rows, along, left_out%at, "parameter along the line")
+      call file%words(rows, "reason", left_out%reason, "why no branch was followed")
       call put_points(file, settings%line%model, found)
-      allocate (numbers(size(settings%line%model%names), size(hopf)))
-      do i = 1, size(hopf)
-         numbers(:, i) = hopf(i)%numbers
-      end do
-      rows = file%dimension("hopf", size(hopf))
-      call put_places(file, rows, settings%line%model, numbers, "hopf_")
-      call file%column(rows, "hopf_omega", hopf%omega, "angular frequency of its pair")
+      rows = file%dimension("hopf", size(hopf), prefix="hopf_")
+      call put_places(file, rows, settings%line%model, [(hopf(i)%numbers, i=1, size(hopf))])
+      call file%column(rows, "omega", hopf%omega, "angular frequency of its pair")
       call put_curves(file, settings, curves)
       call put_cusps(file, settings%line%model, curves)
       call file%finish(error)
@@ -153,55 +145,49 @@ contains
       integer, intent(in) :: along
       character(len=*), intent(in) :: name, meaning
       type(cycles_type), intent(in) :: found(:)
-      real(wp), allocatable :: columns(:, :), imaginary(:, :), real_part(:, :)
-      integer, allocatable :: branch(:), intervals(:), unstable(:)
+      type(multipliers_type), allocatable :: mu(:)
+      type(periodic_orbit_type), allocatable :: orbits(:)
       character(len=:), allocatable :: signal
-      character(len=letters) :: words(size(found), 2)
-      integer :: all, i, j, k, row, rows, several
+      character(len=len(found%origin)) :: endings(size(found))
+      complex(wp), allocatable :: values(:, :)
+      real(wp), allocatable :: range(:, :)
+      integer, allocatable :: branch(:)
+      integer :: i, k, rows, several
 
-      all = 0
+      allocate (mu(0), orbits(0), branch(0))
       do i = 1, size(found)
-         all = all + size(found(i)%branch%orbits)
-         words(i, 1) = found(i)%origin
-         words(i, 2) = found(i)%branch%ending
+         orbits = [orbits, found(i)%branch%orbits]
+         mu = [mu, found(i)%branch%multipliers(:size(found(i)%branch%orbits))]
+         branch = [branch, spread(i, 1, size(found(i)%branch%orbits))]
+         endings(i) = found(i)%branch%ending
       end do
-      allocate (columns(all, 5), branch(all), intervals(all), unstable(all))
-      allocate (real_part(multipliers, all), imaginary(multipliers, all), source=0.0_wp)
-      row = 0
-      do i = 1, size(found)
-         do j = 1, size(found(i)%branch%orbits)
-            row = row + 1
-            associate (orbit => found(i)%branch%orbits(j), mu => found(i)%branch%multipliers(j))
-               columns(row, 1:2) = [orbit%parameters(along), orbit%period]
-               columns(row, 3:4) = signal_range(model, orbit)
-               columns(row, 5) = mu%trivial_error
-               branch(row) = i
-               intervals(row) = orbit%intervals()
-               unstable(row) = mu%unstable()
-               k = min(multipliers, size(mu%values))
-               real_part(:k, row) = real(mu%values(:k))
-               imaginary(:k, row) = aimag(mu%values(:k))
-            end associate
-         end do
+      allocate (values(multipliers, size(mu)), source=(0.0_wp, 0.0_wp))
+      allocate (range(2, size(orbits)))
+      do i = 1, size(orbits)
+         range(:, i) = signal_range(model, orbits(i))
+         k = min(multipliers, size(mu(i)%values))
+         values(:k, i) = mu(i)%values(:k)
       end do
-      rows = file%dimension("orbit", all, coordinates=name//" branch")
-      call file%column(rows, name, columns(:, 1), meaning)
-      call file%column(rows, "period", columns(:, 2), "period")
+      rows = file%dimension("orbit", size(orbits), coordinates=name//" branch")
+      call file%column(rows, name, [(orbits(i)%parameters(along), i=1, size(orbits))], meaning)
+      call file%column(rows, "period", orbits%period, "period")
       signal = signal_name(model)
-      call file%column(rows, signal//"_least", columns(:, 3), "least "//signal)
-      call file%column(rows, signal//"_most", columns(:, 4), "greatest "//signal)
-      call file%column(rows, "multiplier_error", columns(:, 5), &
-                       "distance of the trivial multiplier from 1")
+      call file%column(rows, signal//"_least", range(1, :), "least "//signal)
+      call file%column(rows, signal//"_most", range(2, :), "greatest "//signal)
+      call file%column(rows, "multiplier_error", mu%trivial_error, trivial_error)
       call file%column(rows, "branch", branch, "number of the branch, from 1")
-      call file%column(rows, "intervals", intervals, "intervals of the mesh")
-      call file%column(rows, "unstable", unstable, "multipliers outside of the unit circle")
+      call file%column(rows, "intervals", [(orbits(i)%intervals(), i=1, size(orbits))], &
+                       "intervals of the mesh")
+      call file%column(rows, "unstable", [(mu(i)%unstable(), i=1, size(mu))], &
+                       "multipliers outside of the unit circle")
       several = file%dimension("multiplier", multipliers)
-      call file%table([several, rows], "multiplier_real", real_part, &
+      call file%table([several, rows], "multiplier_real", real(values), &
                       "real part of the multipliers of greatest modulus")
-      call file%table([several, rows], "multiplier_imaginary", imaginary, "their imaginary part")
-      rows = file%dimension("branches", size(found))
-      call file%words(rows, "branch_origin", words(:, 1), "where the branch starts")
-      call file%words(rows, "branch_ending", words(:, 2), "why it ends")
+      call file%table([several, rows], "multiplier_imaginary", aimag(values), &
+                      "their imaginary part")
+      rows = file%dimension("branches", size(found), prefix="branch_")
+      call file%words(rows, "origin", found%origin, "where the branch starts")
+      call file%words(rows, "ending", endings, "why it ends")
    end subroutine put_orbits
 
    !> Least and greatest signal on an orbit.
@@ -214,120 +200,123 @@ contains
       if (model%sizes%observed%is_exponential) range = exp(range)
    end function signal_range
 
+   !> A number, NaN where it is not allocated.
+   pure real(wp) function known(number) result(value)
+      real(wp), intent(in), optional :: number
+
+      value = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (present(number)) value = number
+   end function known
+
    !> Special points.
    subroutine put_points(file, model, found)
       type(output_file_type), intent(inout) :: file
       type(model_type), intent(in) :: model
       type(cycles_type), intent(in) :: found(:)
-      character(len=kind_length), allocatable :: words(:, :)
-      real(wp), allocatable :: columns(:, :), places(:, :)
-      integer, allocatable :: numbers(:, :)
-      integer :: all, i, j, row, rows
+      type(special_point_type), allocatable :: points(:)
+      real(wp), allocatable :: amplitude(:)
+      integer, allocatable :: branch(:), resonance(:, :)
+      integer :: i, n, rows
 
-      all = sum([(size(found(i)%points), i=1, size(found))])
-      allocate (words(all, 2), columns(all, 10), numbers(all, 5), places(size(model%names), all))
-      columns = ieee_value(1.0_wp, ieee_quiet_nan)
-      row = 0
+      allocate (points(0), branch(0))
       do i = 1, size(found)
-         do j = 1, size(found(i)%points)
-            row = row + 1
-            associate (point => found(i)%points(j))
-               words(row, :) = [point%kind, point%criticality()]
-               places(:, row) = point%orbit%parameters
-               columns(row, 1) = point%orbit%period
-               columns(row, 2) = maxval(signal_range(model, point%orbit))
-               columns(row, 3:7) = [real(point%multiplier), aimag(point%multiplier), &
-                                     point%angle(), point%trivial_error, point%mesh_error]
-               if (allocated(point%coefficient)) columns(row, 8) = point%coefficient
-               if (allocated(point%coefficient_error)) columns(row, 9) = point%coefficient_error
-               if (allocated(point%coefficient) .and. allocated(point%growth)) then
-                  columns(row, 10) = point%torus_amplitude(model%sizes%observed%component)
-               end if
-               numbers(row, :) = [i, point%unstable, nearest_resonance(abs(point%angle()))]
-            end associate
-         end do
+         points = [points, found(i)%points]
+         branch = [branch, spread(i, 1, size(found(i)%points))]
       end do
-      rows = file%dimension("special", all)
-      call file%words(rows, "special_kind", words(:, 1), "kind of the special point")
-      call file%words(rows, "special_criticality", words(:, 2), "criticality of a torus point")
-      call put_places(file, rows, model, places, "special_")
-      call file%column(rows, "special_period", columns(:, 1), "its period")
-      call file%column(rows, "special_"//signal_name(model)//"_most", columns(:, 2), &
-                       "its greatest "//signal_name(model))
-      call file%column(rows, "special_multiplier_real", columns(:, 3), &
+      n = size(points)
+      allocate (amplitude(n), source=ieee_value(1.0_wp, ieee_quiet_nan))
+      allocate (resonance(2, n))
+      do i = 1, n
+         resonance(:, i) = nearest_resonance(abs(points(i)%angle()))
+         if (allocated(points(i)%coefficient) .and. allocated(points(i)%growth)) then
+            amplitude(i) = points(i)%torus_amplitude(model%sizes%observed%component)
+         end if
+      end do
+      rows = file%dimension("special", n, prefix="special_")
+      call file%words(rows, "kind", points%kind, "kind of the special point")
+      call file%words(rows, "criticality", [(points(i)%criticality(), i=1, n)], &
+                      "criticality of a torus point")
+      call put_places(file, rows, model, [(points(i)%orbit%parameters, i=1, n)])
+      call put_size(file, rows, model, points)
+      call file%column(rows, "multiplier_real", real(points%multiplier), &
                        "real part of the critical multiplier")
-      call file%column(rows, "special_multiplier_imaginary", columns(:, 4), "imaginary part of it")
-      call file%column(rows, "special_angle", columns(:, 5), "angle of it over a full turn")
-      call file%column(rows, "special_multiplier_error", columns(:, 6), &
-                       "distance of the trivial multiplier from 1")
-      call file%column(rows, "special_mesh_error", columns(:, 7), &
+      call file%column(rows, "multiplier_imaginary", aimag(points%multiplier), &
+                       "imaginary part of it")
+      call file%column(rows, "angle", [(points(i)%angle(), i=1, n)], "angle of it over a full turn")
+      call file%column(rows, "multiplier_error", points%trivial_error, trivial_error)
+      call file%column(rows, "mesh_error", points%mesh_error, &
                        "difference of the parameter on two meshes")
-      call file%column(rows, "special_coefficient", columns(:, 8), &
+      call file%column(rows, "coefficient", [(known(points(i)%coefficient), i=1, n)], &
                        "cubic coefficient of a torus point")
-      call file%column(rows, "special_coefficient_error", columns(:, 9), &
+      call file%column(rows, "coefficient_error", [(known(points(i)%coefficient_error), i=1, n)], &
                        "difference of it on two meshes")
-      call file%column(rows, "special_amplitude", columns(:, 10), &
+      call file%column(rows, "amplitude", amplitude, &
                        "half range of maxima of the signal of tori, over root of distance")
-      call file%column(rows, "special_branch", numbers(:, 1), "its branch, from 1")
-      call file%column(rows, "special_unstable_before", numbers(:, 2), &
+      call file%column(rows, "branch", branch, "its branch, from 1")
+      call file%column(rows, "unstable_before", points%unstable(1), &
                        "unstable multipliers before it")
-      call file%column(rows, "special_unstable_behind", numbers(:, 3), &
+      call file%column(rows, "unstable_behind", points%unstable(2), &
                        "unstable multipliers behind it")
-      call file%column(rows, "special_resonance_turns", numbers(:, 4), &
+      call file%column(rows, "resonance_turns", resonance(1, :), &
                        "p of the fraction p/q nearest to the angle")
-      call file%column(rows, "special_resonance_periods", numbers(:, 5), "q of it, at most 10")
+      call file%column(rows, "resonance_periods", resonance(2, :), "q of it, at most 10")
    end subroutine put_points
+
+   !> Period and greatest signal of the orbits of special points.
+   subroutine put_size(file, rows, model, points)
+      type(output_file_type), intent(inout) :: file
+      integer, intent(in) :: rows
+      type(model_type), intent(in) :: model
+      type(special_point_type), intent(in) :: points(:)
+      integer :: i
+
+      call file%column(rows, "period", points%orbit%period, "its period")
+      call file%column(rows, signal_name(model)//"_most", &
+                       [(maxval(signal_range(model, points(i)%orbit)), i=1, size(points))], &
+                       "its greatest "//signal_name(model))
+   end subroutine put_size
 
    !> Curves, each from one end to the other.
    subroutine put_curves(file, settings, curves)
       type(output_file_type), intent(inout) :: file
       type(cycle_settings_type), intent(in) :: settings
       type(cycle_curve_type), intent(in) :: curves(:)
+      type(special_point_type), allocatable :: points(:)
       character(len=:), allocatable :: name
       character(len=kind_length) :: words(size(curves), 3)
-      real(wp), allocatable :: columns(:, :)
       integer, allocatable :: number(:)
-      integer :: all, i, j, k, row, rows
+      integer :: i, k, n, rows
 
-      all = 0
+      allocate (points(0), number(0))
       do i = 1, size(curves)
-         words(i, 1) = curves(i)%parts(1)%points(1)%kind
-         do k = 1, 2
-            words(i, 1 + k) = curves(i)%parts(k)%ending
-            all = all + size(curves(i)%parts(k)%points)
-         end do
-         ! both directions have the first point
-         all = all - 1
+         associate (first => curves(i)%parts(1)%points, second => curves(i)%parts(2)%points)
+            ! both directions have the first point
+            points = [points, first(size(first):1:-1), second(2:)]
+            number = [number, spread(i, 1, size(first) + size(second) - 1)]
+            words(i, 1) = first(1)%kind
+         end associate
+         words(i, 2) = curves(i)%parts(1)%ending
+         words(i, 3) = curves(i)%parts(2)%ending
       end do
-      allocate (columns(all, 5), number(all))
-      row = 0
-      do i = 1, size(curves)
-         do j = size(curves(i)%parts(1)%points), 2 - size(curves(i)%parts(2)%points), -1
-            row = row + 1
-            number(row) = i
-            associate (point => curves(i)%parts(merge(1, 2, j > 0))%points(merge(j, 2 - j, j > 0)))
-               columns(row, :) = [point%orbit%parameters(settings%curve_along), &
-                                  point%orbit%period, abs(point%angle()), point%trivial_error]
-            end associate
-         end do
-      end do
-      rows = file%dimension("curve_point", all)
+      n = size(points)
+      rows = file%dimension("curve_point", n)
       if (allocated(settings%curve_along)) then
          do k = 1, 2
             name = trim(settings%line%model%names(settings%curve_along(k)))
-            call file%column(rows, "curve_"//name, columns(:, k), name//" of a point of a curve")
+            call file%column(rows, "curve_"//name, &
+                             [(points(i)%orbit%parameters(settings%curve_along(k)), i=1, n)], &
+                             name//" of a point of a curve")
          end do
       end if
-      call file%column(rows, "curve_period", columns(:, 3), "its period")
-      call file%column(rows, "curve_angle", columns(:, 4), &
+      call file%column(rows, "curve_period", points%orbit%period, "its period")
+      call file%column(rows, "curve_angle", [(abs(points(i)%angle()), i=1, n)], &
                        "angle of the critical multiplier over a full turn")
-      call file%column(rows, "curve_multiplier_error", columns(:, 5), &
-                       "distance of the trivial multiplier from 1")
+      call file%column(rows, "curve_multiplier_error", points%trivial_error, trivial_error)
       call file%column(rows, "curve", number, "number of the curve, from 1")
-      rows = file%dimension("curves", size(curves))
-      call file%words(rows, "curve_kind", words(:, 1), "kind of its points")
-      call file%words(rows, "curve_first_end", words(:, 2), "why it ends at its first point")
-      call file%words(rows, "curve_last_end", words(:, 3), "why it ends at its last point")
+      rows = file%dimension("curves", size(curves), prefix="curve_")
+      call file%words(rows, "kind", words(:, 1), "kind of its points")
+      call file%words(rows, "first_end", words(:, 2), "why it ends at its first point")
+      call file%words(rows, "last_end", words(:, 3), "why it ends at its last point")
    end subroutine put_curves
 
    !> Cusps of curves of folds.
@@ -335,43 +324,25 @@ contains
       type(output_file_type), intent(inout) :: file
       type(model_type), intent(in) :: model
       type(cycle_curve_type), intent(in) :: curves(:)
-      integer :: i, k, rows
+      type(special_point_type), allocatable :: cusps(:)
       integer, allocatable :: number(:)
-      real(wp), allocatable :: columns(:, :), places(:, :)
+      integer :: i, j, k, rows
 
-      i = sum([((size(curves(i)%parts(k)%cusps), k=1, 2), i=1, size(curves))])
-      allocate (columns(4, i), places(size(model%names), i), number(0))
+      allocate (cusps(0), number(0))
       do i = 1, size(curves)
          do k = 1, 2
-            call add_cusps(curves(i)%parts(k)%cusps)
-         end do
-      end do
-      rows = file%dimension("cusp", size(number))
-      call put_places(file, rows, model, places, "cusp_")
-      call file%column(rows, "cusp_period", columns(1, :), "its period")
-      call file%column(rows, "cusp_"//signal_name(model)//"_most", columns(2, :), &
-                       "its greatest "//signal_name(model))
-      call file%column(rows, "cusp_multiplier_error", columns(3, :), &
-                       "distance of the trivial multiplier from 1")
-      call file%column(rows, "cusp_mesh_error", columns(4, :), &
-                       "difference of the parameters on two meshes")
-      call file%column(rows, "cusp_curve", number, "its curve, from 1")
-
-   contains
-
-      !> Columns of more cusps.
-      subroutine add_cusps(cusps)
-         type(special_point_type), intent(in) :: cusps(:)
-         integer :: j
-
-         do j = 1, size(cusps)
-            number = [number, i]
-            associate (orbit => cusps(j)%orbit)
-               places(:, size(number)) = orbit%parameters
-               columns(:, size(number)) = [orbit%period, maxval(signal_range(model, orbit)), &
-                                           cusps(j)%trivial_error, cusps(j)%mesh_error]
+            associate (more => curves(i)%parts(k)%cusps)
+               cusps = [cusps, more]
+               number = [number, spread(i, 1, size(more))]
             end associate
          end do
-      end subroutine add_cusps
+      end do
+      rows = file%dimension("cusp", size(cusps), prefix="cusp_")
+      call put_places(file, rows, model, [(cusps(j)%orbit%parameters, j=1, size(cusps))])
+      call put_size(file, rows, model, cusps)
+      call file%column(rows, "multiplier_error", cusps%trivial_error, trivial_error)
+      call file%column(rows, "mesh_error", cusps%mesh_error, &
+                       "difference of the parameters on two meshes")
+      call file%column(rows, "curve", number, "its curve, from 1")
    end subroutine put_cusps
 end module cycles_files

@@ -7,11 +7,9 @@ module exponents_files
    use exponent_averages, only: average_growth, dimension_of, exponent_type, running_averages, &
                                 sign_of, zero
    use lyapunov_spectrum, only: growth_type
-   use model_history, only: history_type
-   use model_problem, only: model_type
    use namelist_input, only: elements, namelist_file_type
    use netcdf_output, only: output_file_type
-   use scene_input, only: open_scene, put_scene, scene_type
+   use scene_input, only: scene_settings_type, scene_type
    use value_checks, only: absent, check_count, check_number, missing, missing_count, most_samples
    implicit none (type, external)
    private
@@ -27,8 +25,8 @@ module exponents_files
       real(wp) :: t_turning = missing
       !> Longest time between two orthonormalisations
       real(wp) :: interval = missing
-      !> Number of blocks
-      integer :: blocks = missing_count
+      !> Number of batches of the time
+      integer :: batches = missing_count
       !> Greatest absolute value of a zero exponent, longest error bar of one
       real(wp) :: zero_level = missing, longest_bar = missing
       !> Tolerances at which all is measured once more
@@ -60,44 +58,30 @@ contains
    end function options_of_runs
 
    !> Read and check a scene and the settings of its exponents.
-   subroutine read_exponents(path, scene, model, history, exponents, error)
-      !> Path of the namelist file
+   subroutine read_exponents(path, opened, exponents, error)
       character(len=*), intent(in) :: path
-      !> The scene
-      type(scene_type), intent(out) :: scene
-      !> Its model with its past
-      type(model_type), intent(out) :: model
-      !> Its history
-      type(history_type), intent(out) :: history
-      !> The settings
+      type(scene_type), intent(out) :: opened
       type(exponents_settings_type), intent(out) :: exponents
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
       type(namelist_file_type) :: file
+      type(scene_settings_type) :: scene
       namelist /settings/ scene, exponents
 
-      call file%open(path, error)
-      if (allocated(error)) return
+      call file%open(path)
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
-      call open_scene(path, scene, model, history, error)
-      call check_count(error, path, "exponents%blocks", exponents%blocks, at_least=2)
+      call opened%open(path, scene, error)
+      call check_count(error, path, "exponents%batches", exponents%batches, at_least=2)
       call check_number(error, path, "exponents%interval", exponents%interval, &
                         at_least=exponents%t_end/most_samples*exponents%count)
    end subroutine read_exponents
 
    !> Write the exponents of a scene: the first run has its own settings, the others are checks.
-   subroutine write_exponents(path, scene, model, history, settings, options, measured, error)
-      !> Path of the file
+   subroutine write_exponents(path, scene, settings, options, measured, error)
       character(len=*), intent(in) :: path
-      !> The scene
       type(scene_type), intent(in) :: scene
-      !> Its model
-      type(model_type), intent(in) :: model
-      !> Its history
-      type(history_type), intent(in) :: history
-      !> How they were measured
       type(exponents_settings_type), intent(in) :: settings
       !> Tolerances and longest steps
       type(integration_options), intent(in) :: options(:)
@@ -109,21 +93,21 @@ contains
       type(output_file_type) :: file
       real(wp), dimension(settings%count, size(options)) :: bars, values
       real(wp), dimension(size(options)) :: dimension, dimension_error
-      real(wp), allocatable :: averages(:, :), blocks(:, :), time(:)
+      real(wp), allocatable :: averages(:, :), batches(:, :), time(:)
       integer :: i, ids(4), signs(settings%count, size(options))
       logical :: flow
 
-      allocate (blocks(settings%count, settings%blocks))
+      allocate (batches(settings%count, settings%batches))
       flow = size(measured(1)%growth, 1) < settings%count
       do i = size(options), 1, -1
-         exponents = average_growth(measured(i)%growth, measured(i)%length, settings%blocks, flow)
+         exponents = average_growth(measured(i)%growth, measured(i)%length, settings%batches, flow)
          values(:, i) = exponents%value
          bars(:, i) = exponents%error
          signs(:, i) = sign_of(exponents, settings%zero_level, settings%longest_bar)
          call dimension_of(exponents, settings%zero_level, dimension(i), dimension_error(i))
       end do
       do i = 1, settings%count
-         blocks(i, :) = exponents(i)%blocks
+         batches(i, :) = exponents(i)%blocks
       end do
       associate (first => measured(1))
          call running_averages(with_flow(first%growth, flow), first%length, most_times, time, &
@@ -131,7 +115,7 @@ contains
          call file%create(path, "Lyapunov exponents of a motion")
          ids = [file%dimension("exponent", settings%count), &
                 file%dimension("run", size(options), coordinates="tolerance longest_step"), &
-                file%dimension("t", size(time)), file%dimension("time_block", settings%blocks)]
+                file%dimension("t", size(time)), file%dimension("time_block", settings%batches)]
          call file%column(ids(2), "tolerance", options%relative, &
                           "tolerance, the scene's own first")
          call file%column(ids(2), "longest_step", &
@@ -146,9 +130,9 @@ contains
          call file%table(ids([1, 2]), "value", values, "exponent")
          call file%table(ids([1, 2]), "error", bars, "standard error from blocks")
          call file%table(ids([1, 2]), "sign", real(signs, wp), "sign of the exponent, 2: unclear")
-         call file%table(ids([1, 4]), "block_value", blocks, "exponent in each block")
+         call file%table(ids([1, 4]), "block_value", batches, "exponent in each block")
          call file%table(ids([1, 3]), "running_average", averages, "plain average up to a time")
-         call put_scene(file, scene, model, history)
+         call scene%put(file)
          call file%attribute("method", trim(scene%method))
          call file%attribute("t_begin", first%t_begin)
          call file%attribute("t_end", settings%t_end)

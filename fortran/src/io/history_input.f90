@@ -20,11 +20,9 @@ contains
    !> `values`, of one name after another, block after block, history after history. A model with a
    !> history of its own has none in the file.
    subroutine read_histories(path, model, history, error)
-      !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> The model with its parameters; it gets the past of the first history
       type(model_type), intent(inout) :: model
-      !> The histories
       type(history_type), intent(out) :: history
       !> First error met
       type(error_type), allocatable, intent(inout) :: error

@@ -35,9 +35,7 @@ contains
 
    !> Read and check a plane.
    subroutine read_plane(path, hopf_curves, plane, error)
-      !> Path of the namelist file
       character(len=*), intent(in) :: path
-      !> The settings
       type(hopf_settings_type), intent(out) :: hopf_curves
       !> The plane they describe
       type(curve_plane_type), intent(out) :: plane
@@ -47,8 +45,7 @@ contains
       integer :: i
       namelist /settings/ hopf_curves
 
-      call file%open(path, error)
-      if (allocated(error)) return
+      call file%open(path)
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       do i = 1, 2
          call hopf_curves%model%put(trim(hopf_curves%along(i)), hopf_curves%windows(1, i))
@@ -81,22 +78,17 @@ contains
 
    !> Write all points of all curves, piece by piece, the special points and the map.
    subroutine write_curves(path, settings, plane, points, special, pairs, error)
-      !> Path of the file
       character(len=*), intent(in) :: path
       !> The plane as the namelist gives it
       type(hopf_settings_type), intent(in) :: settings
-      !> The plane
       type(curve_plane_type), intent(in) :: plane
-      !> Points
       type(curve_point_type), intent(in) :: points(:)
-      !> Special points
       type(hopf_point_type), intent(in) :: special(:)
       !> Number of unstable pairs in cells of the window, the abscissa first
       integer, intent(in) :: pairs(:, :)
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
-      real(wp) :: numbers(size(plane%model%names), size(points))
       integer :: cells(2), i, rows
 
       call file%create(path, "Hopf curves: where a pair of characteristic roots is imaginary")
@@ -107,10 +99,7 @@ contains
       call file%attribute("abscissa", trim(settings%along(1)))
       call file%attribute("ordinate", trim(settings%along(2)))
       rows = file%dimension("point", size(points))
-      do i = 1, size(points)
-         numbers(:, i) = points(i)%numbers
-      end do
-      call put_places(file, rows, plane%model, numbers, "")
+      call put_places(file, rows, plane%model, [(points(i)%numbers, i=1, size(points))])
       call file%column(rows, "omega", points%at%omega, "angular frequency of the pair")
       call file%column(rows, "branch", points%branch, &
                        "turns that the pair makes in the longest delay: k of equation (10)")
@@ -121,8 +110,9 @@ contains
       call file%column(rows, "l1", points%l1, "first Lyapunov coefficient")
       call file%column(rows, "unstable_pairs", points%unstable_pairs, &
                        "unstable pairs beside this one")
-      call put_special(file, plane, special)
-      call put_unfoldings(file, settings, file%dimension("special", size(special)), special)
+      rows = file%dimension("special", size(special), prefix="special_")
+      call put_special(file, rows, plane, special)
+      call put_unfoldings(file, rows, settings, special)
       cells = [file%dimension("map_abscissa", size(pairs, 1)), &
                file%dimension("map_ordinate", size(pairs, 2))]
       call file%column(cells(1), "map_abscissa", middles(settings%windows(:, 1), size(pairs, 1)), &
@@ -134,37 +124,31 @@ contains
    end subroutine write_curves
 
    !> The special points.
-   subroutine put_special(file, plane, special)
+   subroutine put_special(file, rows, plane, special)
       type(output_file_type), intent(inout) :: file
+      integer, intent(in) :: rows
       type(curve_plane_type), intent(in) :: plane
       type(hopf_point_type), intent(in) :: special(:)
-      real(wp) :: numbers(size(plane%model%names), size(special))
-      integer :: i, rows
+      integer :: i
 
-      rows = file%dimension("special", size(special))
-      call file%words(rows, "special_kind", special%kind, "kind of the special point")
-      do i = 1, size(special)
-         numbers(:, i) = special(i)%numbers
-      end do
-      call put_places(file, rows, plane%model, numbers, "special_")
-      call file%column(rows, "special_unstable_pairs", special%unstable_pairs, &
+      call file%words(rows, "kind", special%kind, "kind of the special point")
+      call put_places(file, rows, plane%model, [(special(i)%numbers, i=1, size(special))])
+      call file%column(rows, "unstable_pairs", special%unstable_pairs, &
                        "unstable pairs beside those on the axis")
       do i = 1, 2
-         call file%column(rows, "special_omega_"//text(i), special%omega(i), &
+         call file%column(rows, "omega_"//text(i), special%omega(i), &
                           "frequency of pair "//text(i)//", 0 where there is none")
-         call file%column(rows, "special_branch_"//text(i), special%branch(i), &
-                          "its branch, or -1")
-         call file%column(rows, "special_l1_"//text(i), special%l1(i), &
-                          "its first Lyapunov coefficient")
+         call file%column(rows, "branch_"//text(i), special%branch(i), "its branch, or -1")
+         call file%column(rows, "l1_"//text(i), special%l1(i), "its first Lyapunov coefficient")
       end do
    end subroutine put_special
 
    !> Normal forms of special points, and the curves of folds and tori that start there; 0 or an
    !> empty word where a point has none.
-   subroutine put_unfoldings(file, settings, rows, special)
+   subroutine put_unfoldings(file, rows, settings, special)
       type(output_file_type), intent(inout) :: file
-      type(hopf_settings_type), intent(in) :: settings
       integer, intent(in) :: rows
+      type(hopf_settings_type), intent(in) :: settings
       type(hopf_point_type), intent(in) :: special(:)
       character(len=*), parameter :: name(2, 2) = reshape(["g2100", "g1110", "g1011", "g0021"], &
                                                           [2, 2])
@@ -190,43 +174,32 @@ contains
             end do
          end associate
       end do
-      call put("l2", real(special%unfolding%c2)/special%omega(1), "second Lyapunov coefficient")
+      call file%column(rows, "l2", real(special%unfolding%c2)/special%omega(1), &
+                       "second Lyapunov coefficient")
       do k = 1, 2
          do j = 1, 2
-            call put(name(j, k), real(special%unfolding%form%g(j, k)), &
-                     "real part of the coefficient "//name(j, k))
-            call put(name(j, k)//"_imaginary", aimag(special%unfolding%form%g(j, k)), &
-                     "imaginary part of the coefficient "//name(j, k))
+            call file%column(rows, name(j, k), real(special%unfolding%form%g(j, k)), &
+                             "real part of the coefficient "//name(j, k))
+            call file%column(rows, name(j, k)//"_imaginary", &
+                             aimag(special%unfolding%form%g(j, k)), &
+                             "imaginary part of the coefficient "//name(j, k))
          end do
       end do
-      call put("theta", ratios(:, 1), "Re g1011/Re g0021")
-      call put("delta", ratios(:, 2), "Re g1110/Re g2100")
-      call file%words(rows, "special_unfolding", unfolding, &
-                      "case of Guckenheimer and Holmes, table 7.5.1")
+      call file%column(rows, "theta", ratios(:, 1), "Re g1011/Re g0021")
+      call file%column(rows, "delta", ratios(:, 2), "Re g1110/Re g2100")
+      call file%words(rows, "unfolding", unfolding, "case of Guckenheimer and Holmes, table 7.5.1")
       do j = 1, 2
          do k = 1, 2
-            call put("start_"//trim(settings%along(k))//"_"//text(j), &
-                     special%unfolding%start(k, j), &
-                     "direction of curve "//text(j)//" of folds or tori, "//trim(settings%along(k)))
+            call file%column(rows, "start_"//trim(settings%along(k))//"_"//text(j), &
+                             special%unfolding%start(k, j), "direction of curve "//text(j) &
+                             //" of folds or tori, "//trim(settings%along(k)))
          end do
-         call put("angle_"//text(j), angle(:, j), &
-                  "angle of the multipliers where tori of cycle "//text(j)//" start")
-         call file%words(rows, "special_criticality_"//text(j), criticality(:, j), &
+         call file%column(rows, "angle_"//text(j), angle(:, j), &
+                          "angle of the multipliers where tori of cycle "//text(j)//" start")
+         call file%words(rows, "criticality_"//text(j), criticality(:, j), &
                          "kind of this torus bifurcation")
-         call file%words(rows, "special_torus_"//text(j), torus(:, j), &
+         call file%words(rows, "torus_"//text(j), torus(:, j), &
                          "stability of its torus on the centre manifold")
       end do
-
-   contains
-
-      !> One number of each point.
-      subroutine put(key, values, long_name)
-         !> Name without special_
-         character(len=*), intent(in) :: key
-         real(wp), intent(in) :: values(:)
-         character(len=*), intent(in) :: long_name
-
-         call file%column(rows, "special_"//key, values, long_name)
-      end subroutine put
    end subroutine put_unfoldings
 end module hopf_files

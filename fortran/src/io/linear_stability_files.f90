@@ -31,11 +31,8 @@ contains
 
    !> Read and check model and bounds.
    subroutine read_linear_stability(path, linear_stability, model, error)
-      !> Path of the namelist file
       character(len=*), intent(in) :: path
-      !> The settings
       type(linear_stability_settings_type), intent(out) :: linear_stability
-      !> The model
       type(model_type), intent(out) :: model
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
@@ -43,8 +40,7 @@ contains
       integer :: i
       namelist /settings/ linear_stability
 
-      call file%open(path, error)
-      if (allocated(error)) return
+      call file%open(path)
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
@@ -59,11 +55,9 @@ contains
 
    !> Write roots and changes of stability.
    subroutine write_linear_stability(path, settings, model, roots, pairs, changes, error)
-      !> Path of the file
       character(len=*), intent(in) :: path
       !> What was asked for
       type(linear_stability_settings_type), intent(in) :: settings
-      !> The model
       type(model_type), intent(in) :: model
       !> Roots, the rightmost first
       complex(wp), intent(in) :: roots(:)
@@ -81,9 +75,9 @@ contains
       call file%attribute("root_bound", settings%root_bound)
       call file%attribute("unstable_pairs", int(pairs(1), int64))
       call file%attribute("unstable_pairs_without_delay", int(pairs(2), int64))
-      rows = file%dimension("root", size(roots))
-      call file%column(rows, "root_real", real(roots), "real part of a characteristic root")
-      call file%column(rows, "root_imag", aimag(roots), "its imaginary part")
+      rows = file%dimension("root", size(roots), prefix="root_")
+      call file%column(rows, "real", real(roots), "real part of a characteristic root")
+      call file%column(rows, "imag", aimag(roots), "its imaginary part")
       do i = 1, size(changes)
          call put_changes(file, trim(model%names(changes(i)%along)), settings%windows(2, i), &
                           changes(i))
@@ -102,15 +96,13 @@ contains
 
       call file%attribute(name//"_most", most)
       associate (points => changes%points)
-         rows = file%dimension("change_with_"//name, size(points))
-         call file%column(rows, name//"_of_change", &
+         rows = file%dimension("change_with_"//name, size(points), prefix=name//"_")
+         call file%column(rows, "of_change", &
                           [(points(i)%numbers(changes%along), i=1, size(points))], &
                           name//" at which a pair crosses the axis")
-         call file%column(rows, name//"_change_omega", points%omega, "its frequency")
-         call file%column(rows, name//"_change_pairs_before", points%pairs_before, &
-                          "unstable pairs below")
-         call file%column(rows, name//"_change_pairs_after", points%pairs_behind, &
-                          "unstable pairs above")
+         call file%column(rows, "change_omega", points%omega, "its frequency")
+         call file%column(rows, "change_pairs_before", points%pairs_before, "unstable pairs below")
+         call file%column(rows, "change_pairs_after", points%pairs_behind, "unstable pairs above")
       end associate
    end subroutine put_changes
 end module linear_stability_files

@@ -7,15 +7,15 @@ module measure_files
    use dde_kinds, only: int64, wp
    use measured_case, only: case_type
    use measured_run, only: baseline_methods, run_type
-   use model_attributes, only: joined, put_places
+   use model_attributes, only: put_places
    use model_description, only: description_type, model_length => word_length
    use model_history, only: shown_name
    use namelist_input, only: element_length, elements, namelist_file_type
-   use netcdf_output, only: output_file_type
+   use netcdf_output, only: joined, output_file_type
    use value_checks, only: absent, check_count, missing, missing_count
    implicit none (type, external)
    private
-   public :: measure_settings_type, measured_runs_type, read_measure, write_measured_runs
+   public :: measure_settings_type, read_measure, write_measured_runs
 
    !> Most tolerances or lengths of steps.
    integer, parameter :: most = 100
@@ -38,14 +38,6 @@ module measure_files
       procedure :: runs => runs_of_methods
    end type measure_settings_type
 
-   !> A case with its runs.
-   type :: measured_runs_type
-      !> The case
-      type(case_type) :: case
-      !> Runs of the case
-      type(run_type), allocatable :: runs(:)
-   end type measured_runs_type
-
    !> Longest reason of an end.
    integer, parameter :: reason_length = 200
 
@@ -53,11 +45,8 @@ contains
 
    !> Read and check cases and settings.
    subroutine read_measure(path, measured, measure, error)
-      !> Path of the namelist file
       character(len=*), intent(in) :: path
-      !> The cases
       type(case_type), allocatable, intent(out) :: measured(:)
-      !> The settings
       type(measure_settings_type), intent(out) :: measure
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
@@ -66,8 +55,7 @@ contains
       namelist /settings/ cases, measure
 
       allocate (cases(most_cases))
-      call file%open(path, error)
-      if (allocated(error)) return
+      call file%open(path)
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       ! gfortran cannot write a namelist with an array of no elements that have derived types
       cases = cases(:max(1, count(cases%name /= "")))
@@ -94,29 +82,21 @@ contains
 
    !> Write all runs of all cases, which have one model; a case with fewer samples than another is
    !> filled up with NaN.
-   subroutine write_measured_runs(path, measured, error)
-      !> Path of the file
+   subroutine write_measured_runs(path, cases, runs, error)
       character(len=*), intent(in) :: path
-      !> Cases and their runs
-      type(measured_runs_type), intent(in) :: measured(:)
+      type(case_type), intent(in) :: cases(:)
+      !> Runs of the cases, of each as many
+      type(run_type), intent(in) :: runs(:)
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
-      type(case_type), allocatable :: cases(:)
-      type(run_type), allocatable :: runs(:)
       real(wp), allocatable :: table(:, :)
-      character(len=reason_length), allocatable :: reasons(:)
-      integer :: i, j, most_samples, run, sample, samples
+      character(len=reason_length) :: reasons(size(runs))
+      integer :: i, j, most_samples, of(size(runs)), run, sample
       character(len=:), allocatable :: name
-      real(wp), allocatable :: numbers(:, :), past(:, :)
 
-      allocate (cases(0), runs(0))
-      do i = 1, size(measured)
-         cases = [cases, [(measured(i)%case, j=1, size(measured(i)%runs))]]
-         runs = [runs, measured(i)%runs]
-      end do
-      allocate (reasons(size(runs)))
       do i = 1, size(runs)
+         of(i) = 1 + (i - 1)/(size(runs)/size(cases))
          reasons(i) = runs(i)%reason
       end do
       most_samples = maxval([(size(runs(i)%samples, 2), i=1, size(runs))])
@@ -124,27 +104,24 @@ contains
       call file%create(path, "Measured runs of a model")
       run = file%dimension("run", size(runs), coordinates="case method setting")
       sample = file%dimension("sample", most_samples, coordinates="time")
-      call file%words(run, "case", cases%name, "name of the case")
+      call file%words(run, "case", cases(of)%name, "name of the case")
       call file%words(run, "method", runs%method, "method")
       call file%words(run, "status", runs%status, "ok, or why the run ended before t_end")
       call file%words(run, "reason", reasons, "the same in the solver's words")
       call file%column(run, "setting", runs%setting, &
                        "tolerance, or length of the steps of rk4 methods")
-      call file%words(run, "model", [(model_name(cases(i)), i=1, size(cases))], "name of the model")
+      call file%words(run, "model", [(model_name(cases(of(i))), i=1, size(runs))], &
+                      "name of the model")
       associate (model => cases(1)%model, history => cases(1)%history)
-         allocate (numbers(size(model%names), size(cases)), past(size(history%names), size(cases)))
-         do i = 1, size(cases)
-            numbers(:, i) = cases(i)%model%numbers
-            past(:, i) = cases(i)%history%values(:, 1, 1)
-         end do
          call file%attribute("parameters", joined(model%names))
-         call put_places(file, run, model, numbers, "")
-         do i = 1, size(history%names)
-            call file%column(run, "history_"//trim(history%names(i)), past(i, :), &
-                             trim(history%names(i))//" for t <= 0")
+         call put_places(file, run, model, [(cases(of(i))%model%numbers, i=1, size(runs))])
+         do j = 1, size(history%names)
+            call file%column(run, "history_"//trim(history%names(j)), &
+                             [(cases(of(i))%history%values(j, 1, 1), i=1, size(runs))], &
+                             trim(history%names(j))//" for t <= 0")
          end do
       end associate
-      call file%column(run, "t_end", cases%t_end, "last time asked for")
+      call file%column(run, "t_end", cases(of)%t_end, "last time asked for")
       call file%column(run, "t_reached", runs%outcome%t, "last time reached")
       call file%column(run, "steps_accepted", real(runs%outcome%accepted, wp), "steps accepted")
       call file%column(run, "steps_rejected", real(runs%outcome%rejected, wp), "steps rejected")
@@ -167,12 +144,15 @@ contains
       allocate (table(most_samples, size(runs)))
       table = ieee_value(1.0_wp, ieee_quiet_nan)
       do i = 1, size(runs)
-         samples = size(runs(i)%samples, 2)
-         table(:samples, i) = cases(i)%sample_times()
+         table(:size(runs(i)%samples, 2), i) = cases(of(i))%sample_times()
       end do
       call file%table([sample, run], "time", table, "time of the sample")
       do j = 1, size(runs(1)%samples, 1)
-         call put_samples(shown_name(cases(1)%model, j), j)
+         do i = 1, size(runs)
+            table(:size(runs(i)%samples, 2), i) = runs(i)%samples(j, :)
+         end do
+         name = shown_name(cases(1)%model, j)
+         call file%table([sample, run], name, table, name//" of the sample")
       end do
       call file%finish(error)
 
@@ -187,17 +167,5 @@ contains
          about = case%model%describe()
          word = about%name
       end function model_name
-
-      !> Samples of one component of each run.
-      subroutine put_samples(name, component)
-         character(len=*), intent(in) :: name
-         integer, intent(in) :: component
-
-         table = ieee_value(1.0_wp, ieee_quiet_nan)
-         do i = 1, size(runs)
-            table(:size(runs(i)%samples, 2), i) = runs(i)%samples(component, :)
-         end do
-         call file%table([sample, run], name, table, name//" of the sample")
-      end subroutine put_samples
    end subroutine write_measured_runs
 end module measure_files

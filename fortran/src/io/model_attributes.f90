@@ -5,18 +5,16 @@ module model_attributes
    use model_description, only: description_type
    use model_history, only: history_type, signal_name
    use model_problem, only: model_type
-   use netcdf_output, only: output_file_type
+   use netcdf_output, only: joined, output_file_type
    implicit none (type, external)
    private
-   public :: joined, put_history, put_model, put_places
+   public :: put_history, put_model, put_places
 
 contains
 
    !> Write name, source, equations and parameters of a model as attributes.
    subroutine put_model(file, model, but)
-      !> The file
       type(output_file_type), intent(inout) :: file
-      !> The model
       class(model_type), intent(in) :: model
       !> Names of parameters that are left out, if any
       character(len=*), intent(in), optional :: but(:)
@@ -47,9 +45,7 @@ contains
 
    !> Write a history as attributes, that of a chain as variables over its blocks.
    subroutine put_history(file, model, history)
-      !> The file
       type(output_file_type), intent(inout) :: file
-      !> The model
       class(model_type), intent(in) :: model
       !> The history, the first of these
       type(history_type), intent(in) :: history
@@ -71,38 +67,20 @@ contains
    end subroutine put_history
 
    !> Write a column for each parameter.
-   subroutine put_places(file, rows, model, numbers, prefix)
-      !> The file
+   subroutine put_places(file, rows, model, numbers)
       type(output_file_type), intent(inout) :: file
       !> Dimension of the rows
       integer, intent(in) :: rows
-      !> The model
       class(model_type), intent(in) :: model
-      !> Parameters, shape (parameters, rows)
-      real(wp), intent(in) :: numbers(:, :)
-      !> What stands before their names
-      character(len=*), intent(in) :: prefix
+      !> Parameters of all rows, one row after another
+      real(wp), intent(in) :: numbers(:)
       type(description_type) :: about
       integer :: i
 
       about = model%describe()
       do i = 1, size(model%names)
-         call file%column(rows, prefix//trim(model%names(i)), numbers(i, :), &
+         call file%column(rows, trim(model%names(i)), numbers(i::size(model%names)), &
                           trim(about%parameters(i)%meaning))
       end do
    end subroutine put_places
-
-   !> Names with blanks between them.
-   pure function joined(names) result(line)
-      !> The names
-      character(len=*), intent(in) :: names(:)
-      character(len=:), allocatable :: line
-      integer :: i
-
-      line = ""
-      do i = 1, size(names)
-         line = line//" "//trim(names(i))
-      end do
-      line = line(2:)
-   end function joined
 end module model_attributes

@@ -33,6 +33,8 @@ module namelist_input
       !> I/O status and message of the read
       integer :: status = 0
       character(len=256) :: reason = ""
+      !> Why it is not open, if it is not
+      type(error_type), allocatable, private :: failure
       !> All keys with the values read
       character(len=line_length), allocatable :: copy(:)
    contains
@@ -42,35 +44,36 @@ module namelist_input
 contains
 
    !> Open a namelist file for reading the group.
-   subroutine open_file(self, path, error)
+   subroutine open_file(self, path)
       class(namelist_file_type), intent(out) :: self
       character(len=*), intent(in) :: path
-      type(error_type), allocatable, intent(out) :: error
 
       self%path = path
       allocate (self%copy(most_lines))
       if (path == help) then
          open (newunit=self%unit, status="scratch", action="readwrite", iostat=self%status, &
                iomsg=self%reason)
-         if (self%status /= 0) call raise(error, "a file for a while: "//trim(self%reason))
-         if (allocated(error)) return
-         write (self%unit, "(3a)") "&", group, " /"
-         rewind (self%unit)
-         return
+         if (self%status == 0) write (self%unit, "(3a)") "&", group, " /"
+         if (self%status == 0) rewind (self%unit)
+      else
+         open (newunit=self%unit, file=path, status="old", action="read", iostat=self%status, &
+               iomsg=self%reason)
       end if
-      open (newunit=self%unit, file=path, status="old", action="read", iostat=self%status, &
-            iomsg=self%reason)
-      if (self%status /= 0) call raise(error, path//": "//trim(self%reason))
+      if (self%status /= 0) call raise(self%failure, path//": "//trim(self%reason))
    end subroutine open_file
 
    !> Close the file after reading the group.
    subroutine close_file(self, error)
       class(namelist_file_type), intent(in) :: self
-      !> Error if the group could not be read, or a number is missing or not finite
+      !> The file or the group could not be read, or a number is missing or not finite
       type(error_type), allocatable, intent(out) :: error
       character(len=256) :: reason
       integer :: status
 
+      if (allocated(self%failure)) then
+         allocate (error, source=self%failure)
+         return
+      end if
       close (self%unit, iostat=status, iomsg=reason)
       if (self%status < 0) then
          call raise(error, self%path//": namelist group &"//group//": not in the file, a value " &
@@ -95,8 +98,7 @@ contains
       character(len=:), allocatable :: key
       integer :: at, i
 
-      do i = 2, size(lines)
-         if (lines(i) == " /") return
+      do i = 2, findloc(lines, " /", dim=1) - 1
          at = index(lines(i), "=")
          if (at > 0) key = in_small_letters(trim(adjustl(lines(i) (:at - 1))))
          associate (values => lines(i) (at + 1:))
@@ -122,8 +124,7 @@ contains
       character(len=:), allocatable :: value
       integer :: at, i
 
-      do i = 2, size(lines)
-         if (lines(i) == " /") exit
+      do i = 2, findloc(lines, " /", dim=1) - 1
          at = index(lines(i), "=")
          value = lines(i) (at + 1:)
          if (index(value, "NaN") > 0 .or. index(value, text(missing_count)) > 0) then

@@ -5,14 +5,14 @@ module netcdf_output
    use dde_errors, only: error_type, raise
    use dde_kinds, only: int64, wp
    use netcdf, only: nf90_char, nf90_close, nf90_create, nf90_def_dim, nf90_def_var, nf90_double, &
-                     nf90_global, nf90_int, nf90_netcdf4, nf90_noerr, nf90_put_att, &
-                     nf90_put_var, nf90_strerror
+                     nf90_global, nf90_inq_dimid, nf90_int, nf90_netcdf4, nf90_noerr, &
+                     nf90_put_att, nf90_put_var, nf90_strerror
    use program_arguments, only: command_name
    use unfinished_file, only: unfinished_type
    use version, only: project_version
    implicit none (type, external)
    private
-   public :: output_file_type
+   public :: joined, output_file_type
 
    !> Level of compression: higher levels take longer and save at most 1 % more
    integer, parameter :: level = 4
@@ -25,10 +25,10 @@ module netcdf_output
    type :: axis_type
       !> Name of the dimension
       character(len=64) :: name = ""
-      !> Length of the dimension
-      integer :: length = 0
       !> Names of variables that say where along it a value belongs, with blanks between
       character(len=64) :: coordinates = ""
+      !> What the names of variables begin with that have it as their slowest dimension
+      character(len=64) :: prefix = ""
    end type axis_type
 
    !> A file in the making; after the first error all further calls do nothing. A variable has a
@@ -45,8 +45,8 @@ module netcdf_output
       type(error_type), allocatable, public :: error
    contains
       generic :: column => column_of_reals, column_of_integers
-      procedure :: create, dimension, real_variable, real_table, put, put_rows, words, flags, &
-         table, attribute, finish, discard
+      procedure :: create, dimension, real_variable, put, words, flags, answers, table, attribute, &
+         finish, discard
       procedure, private :: note, variable, column_of_reals, column_of_integers
    end type output_file_type
 
@@ -85,25 +85,27 @@ contains
    end subroutine note
 
    !> Define a dimension, if there is none of this name.
-   integer function dimension(self, name, length, coordinates) result(id)
+   integer function dimension(self, name, length, coordinates, prefix) result(id)
       class(output_file_type), intent(inout) :: self
       character(len=*), intent(in) :: name
       integer, intent(in) :: length
       !> Names of variables that say where along it a value belongs, with blanks between
       character(len=*), intent(in), optional :: coordinates
-      integer :: i
+      !> What the names of variables begin with that have it as their slowest dimension
+      character(len=*), intent(in), optional :: prefix
 
       id = -1
       if (allocated(self%error)) return
-      id = findloc([(self%axes(i)%name == name, i=1, size(self%axes))], .true., dim=1)
-      if (id > 0) return
+      if (nf90_inq_dimid(self%id, name, id) == nf90_noerr) return
       call self%note(nf90_def_dim(self%id, name, length, id))
-      self%axes = [self%axes, axis_type(name, length)]
+      self%axes = [self%axes, axis_type(name)]
       if (present(coordinates)) self%axes(size(self%axes))%coordinates = coordinates
+      if (present(prefix)) self%axes(size(self%axes))%prefix = prefix
    end function dimension
 
-   !> Define a variable, compressed and with a checksum, so that readers refuse damaged values.
-   integer function variable(self, name, kind, dimensions, long_name) result(id)
+   !> Define a variable, compressed and with a checksum, so that readers refuse damaged values. NaN
+   !> is a missing value of real numbers.
+   integer function variable(self, name, kind, dimensions, long_name, units) result(id)
       class(output_file_type), intent(inout) :: self
       character(len=*), intent(in) :: name
       !> NetCDF's number of its type
@@ -111,12 +113,14 @@ contains
       !> Dimensions of the variable, the fastest first
       integer, intent(in) :: dimensions(:)
       character(len=*), intent(in) :: long_name
-      character(len=:), allocatable :: coordinates
+      character(len=*), intent(in), optional :: units
+      character(len=:), allocatable :: coordinates, whole
       integer :: i
 
       id = -1
       if (allocated(self%error)) return
-      call self%note(nf90_def_var(self%id, name, kind, dimensions, id, deflate_level=level, &
+      whole = trim(self%axes(dimensions(size(dimensions)))%prefix)//name
+      call self%note(nf90_def_var(self%id, whole, kind, dimensions, id, deflate_level=level, &
                                   shuffle=.true., fletcher32=.true.))
       call self%attribute("long_name", long_name, id)
       coordinates = ""
@@ -124,16 +128,22 @@ contains
          coordinates = trim(coordinates//" "//self%axes(dimensions(i))%coordinates)
       end do
       ! those variables themselves have none
-      if (coordinates /= "" .and. index(coordinates//" ", " "//name//" ") == 0) then
+      if (coordinates /= "" .and. index(coordinates//" ", " "//whole//" ") == 0) then
          call self%attribute("coordinates", coordinates(2:), id)
+      end if
+      if (present(units)) call self%attribute("units", units, id)
+      ! values along an axis cannot be missing
+      if (kind == nf90_double .and. whole /= self%axes(dimensions(1))%name) then
+         call self%attribute("_FillValue", ieee_value(1.0_wp, ieee_quiet_nan), id)
       end if
    end function variable
 
-   !> Define a variable of real numbers over one dimension; NaN is a missing value.
-   integer function real_variable(self, name, dimension, long_name, units) result(id)
+   !> Define a variable of real numbers.
+   integer function real_variable(self, name, dimensions, long_name, units) result(id)
       class(output_file_type), intent(inout) :: self
       character(len=*), intent(in) :: name
-      integer, intent(in) :: dimension
+      !> Dimensions of the variable, the fastest first
+      integer, intent(in) :: dimensions(:)
       character(len=*), intent(in) :: long_name
       !> Unit of the variable, if it is not nondimensional
       character(len=*), intent(in), optional :: units
@@ -141,13 +151,7 @@ contains
 
       unit = "1"
       if (present(units)) unit = units
-      id = self%variable(name, nf90_double, [dimension], long_name)
-      call self%attribute("units", unit, id)
-      if (allocated(self%error)) return
-      ! values along an axis cannot be missing
-      if (name /= self%axes(dimension)%name) then
-         call self%attribute("_FillValue", ieee_value(1.0_wp, ieee_quiet_nan), id)
-      end if
+      id = self%variable(name, nf90_double, dimensions, long_name, unit)
    end function real_variable
 
    !> Define and write a variable of real numbers over one dimension.
@@ -155,13 +159,12 @@ contains
       class(output_file_type), intent(inout) :: self
       integer, intent(in) :: dimension
       character(len=*), intent(in) :: name
-      !> Values of the variable; NaN is a missing one
       real(wp), intent(in) :: values(:)
       character(len=*), intent(in) :: long_name
       !> Unit of the variable, if it is not nondimensional
       character(len=*), intent(in), optional :: units
 
-      call self%put(self%real_variable(name, dimension, long_name, units), values)
+      call self%put(self%real_variable(name, [dimension], long_name, units), values)
    end subroutine column_of_reals
 
    !> Define and write a variable of integers over one dimension.
@@ -175,8 +178,7 @@ contains
       character(len=*), intent(in), optional :: lengths_along
       integer :: id
 
-      id = self%variable(name, nf90_int, [dimension], long_name)
-      call self%attribute("units", "1", id)
+      id = self%variable(name, nf90_int, [dimension], long_name, "1")
       if (present(lengths_along)) call self%attribute("sample_dimension", lengths_along, id)
       call self%note(nf90_put_var(self%id, id, values))
    end subroutine column_of_integers
@@ -194,7 +196,8 @@ contains
       do i = 1, size(values)
          ended(i) = trim(values(i))//repeat(achar(0), len(ended) - len_trim(values(i)))
       end do
-      letters = self%dimension(name//"_letters", len(ended))
+      if (allocated(self%error)) return
+      letters = self%dimension(trim(self%axes(dimension)%prefix)//name//"_letters", len(ended))
       id = self%variable(name, nf90_char, [letters, dimension], long_name)
       call self%attribute("_Encoding", "utf-8", id)
       call self%note(nf90_put_var(self%id, id, ended))
@@ -221,6 +224,16 @@ contains
       call self%note(nf90_put_var(self%id, id, values))
    end subroutine flags
 
+   !> Define and write a variable of yes and no.
+   subroutine answers(self, dimension, name, values, long_name)
+      class(output_file_type), intent(inout) :: self
+      integer, intent(in) :: dimension
+      character(len=*), intent(in) :: name, long_name
+      logical, intent(in) :: values(:)
+
+      call self%flags(dimension, name, merge(1, 0, values), ["no ", "yes"], long_name)
+   end subroutine answers
+
    !> Words in one line, with underscores for blanks within them.
    pure function joined(words) result(line)
       character(len=*), intent(in) :: words(:)
@@ -236,7 +249,7 @@ contains
       end do
    end function joined
 
-   !> Define and write nondimensional real numbers over two dimensions; NaN is a missing value.
+   !> Define and write nondimensional real numbers over two dimensions.
    subroutine table(self, dimensions, name, values, long_name)
       class(output_file_type), intent(inout) :: self
       !> Dimensions of the variable, the faster first
@@ -245,35 +258,9 @@ contains
       real(wp), intent(in) :: values(:, :)
       character(len=*), intent(in) :: long_name
 
-      call self%put_rows(self%real_table(name, dimensions, long_name), values)
+      call self%put(self%real_variable(name, dimensions, long_name), [values], &
+                    count=shape(values))
    end subroutine table
-
-   !> Define a variable of nondimensional real numbers over two dimensions; NaN is a missing value.
-   integer function real_table(self, name, dimensions, long_name) result(id)
-      class(output_file_type), intent(inout) :: self
-      character(len=*), intent(in) :: name
-      !> Dimensions of the variable, the faster first
-      integer, intent(in) :: dimensions(2)
-      character(len=*), intent(in) :: long_name
-
-      id = self%variable(name, nf90_double, dimensions, long_name)
-      call self%attribute("units", "1", id)
-      call self%attribute("_FillValue", ieee_value(1.0_wp, ieee_quiet_nan), id)
-   end function real_table
-
-   !> Write values of a variable over two dimensions.
-   subroutine put_rows(self, variable, values, first)
-      class(output_file_type), intent(inout) :: self
-      integer, intent(in) :: variable
-      real(wp), intent(in) :: values(:, :)
-      !> Index of the first along the slower dimension, 1 if it is left out
-      integer, intent(in), optional :: first
-      integer :: start(2)
-
-      start = 1
-      if (present(first)) start(2) = first
-      call self%note(nf90_put_var(self%id, variable, values, start=start))
-   end subroutine put_rows
 
    !> Set an attribute of the file or of a variable.
    subroutine attribute(self, name, value, variable)
@@ -305,14 +292,14 @@ contains
    end subroutine attribute
 
    !> Write values of a variable of real numbers.
-   subroutine put(self, variable, values, first)
+   subroutine put(self, variable, values, start, count)
       class(output_file_type), intent(inout) :: self
       integer, intent(in) :: variable
       real(wp), intent(in) :: values(:)
-      !> Index of the first, 1 if it is left out
-      integer, intent(in), optional :: first(1)
+      !> Indices of the first value, 1 if they are left out, and numbers of values along dimensions
+      integer, intent(in), optional :: start(:), count(:)
 
-      call self%note(nf90_put_var(self%id, variable, values, start=first))
+      call self%note(nf90_put_var(self%id, variable, values, start=start, count=count))
    end subroutine put
 
    !> Close the file and give it its name; on an error nothing is left behind.

@@ -9,7 +9,7 @@ module points_input
    use model_problem, only: model_type
    use model_settings, only: model_settings_type
    use namelist_input, only: word_length
-   use value_checks, only: check_choice, missing_count
+   use value_checks, only: check_choice, check_count, missing_count
    implicit none (type, external)
    private
    public :: points_settings_type
@@ -54,7 +54,6 @@ contains
       class(points_settings_type), intent(in) :: self
       !> File and section, for messages
       character(len=*), intent(in) :: place
-      !> The model
       type(model_type), intent(out) :: model
       type(error_type), allocatable, intent(inout) :: error
       type(model_settings_type) :: corner
@@ -67,6 +66,8 @@ contains
          end do
          if (.not. allocated(error)) call corner%open(place, model, error)
       end do
+      call check_count(error, place, "refinements", self%refinements, at_least=0)
+      call check_count(error, place, "kept", self%kept, at_least=0)
       call check_choice(error, place, "sweep", self%sweep, ["none", "up  ", "down"])
    end subroutine open_points
 
@@ -81,9 +82,7 @@ contains
    !> sweep in its order.
    function list_points(self, model, history) result(points)
       class(points_settings_type), intent(in) :: self
-      !> The model
       type(model_type), intent(in) :: model
-      !> Histories
       type(history_type), intent(in) :: history
       type(point_type), allocatable :: points(:)
       real(wp), allocatable :: x(:), y(:)

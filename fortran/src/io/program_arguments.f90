@@ -12,9 +12,13 @@ module program_arguments
 
    abstract interface
       !> Reads the namelist, computes, writes.
-      subroutine run_with_paths(namelist_path, output_path)
+      subroutine run_with_paths(namelist_path, output_path, error)
+         import :: error_type
          implicit none (type, external)
+         !> Paths of the file to read and of the file to write
          character(len=*), intent(in) :: namelist_path, output_path
+         !> Why there is no output
+         type(error_type), allocatable, intent(out) :: error
       end subroutine run_with_paths
    end interface
 
@@ -48,12 +52,12 @@ contains
       else if (argument(2) == help) then
          write (output_unit, "(a)") trim(commands(at)%about), "", "Keys of its namelist group " &
             //"&settings, with their values where these are not given:"
-         call commands(at)%run(help, help)
+         call commands(at)%run(help, help, error)
       else
          call check_paths(argument(2), argument(3), error)
          call stop_on(error)
          call check_input(argument(2), argument(3))
-         call commands(at)%run(argument(2), argument(3))
+         call commands(at)%run(argument(2), argument(3), error)
       end if
       call stop_on(error)
    end subroutine run_command

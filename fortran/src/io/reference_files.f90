@@ -2,7 +2,7 @@
 !> tables of text with 20 digits, more than a number in double precision holds.
 module reference_files
    use cases_input, only: case_settings_type, most_cases, open_cases
-   use dde_errors, only: error_type
+   use dde_errors, only: error_type, text
    use dde_kinds, only: int64, wp
    use measured_case, only: case_type
    use measured_run, only: run_type
@@ -48,11 +48,8 @@ contains
 
    !> Read and check cases and settings.
    subroutine read_reference(path, measured, reference, error)
-      !> Path of the namelist file
       character(len=*), intent(in) :: path
-      !> The cases
       type(case_type), allocatable, intent(out) :: measured(:)
-      !> The settings
       type(reference_settings_type), intent(out) :: reference
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
@@ -61,8 +58,7 @@ contains
       namelist /settings/ cases, reference
 
       allocate (cases(most_cases))
-      call file%open(path, error)
-      if (allocated(error)) return
+      call file%open(path)
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       ! gfortran cannot write a namelist with an array of no elements that have derived types
       cases = cases(:max(1, count(cases%name /= "")))
@@ -106,43 +102,24 @@ contains
       type(run_type), intent(in) :: disturbed
       real(wp) :: time(size(best%samples, 2))
       character(len=row_length) :: row
-      character(len=:), allocatable :: rows
+      character(len=:), allocatable :: form, rows
       integer :: i, j, used
 
       time = case%sample_times()
       allocate (character(len=row_length*size(time)) :: rows)
       used = 0
+      ! 20 digits of time and state, 4 of the others
+      form = "(4a,"//text(1 + size(best%samples, 1))//"(es0.19e4,a),2(es0.3e4,a))"
       do i = 1, size(time)
-         write (row, "(4a,*(g0))") trim(case%name), tab, trim(best%status), tab, &
-            digits_of(time(i)), tab, &
-            (digits_of(best%samples(j, i)), tab, j=1, size(best%samples, 1)), &
-            short_of(distance(checking%samples(:, i), best%samples(:, i))), tab, &
-            short_of(distance(disturbed%samples(:, i), best%samples(:, i))/disturbance), line_end
+         write (row, form) trim(case%name), tab, trim(best%status), tab, time(i), tab, &
+            (best%samples(j, i), tab, j=1, size(best%samples, 1)), &
+            distance(checking%samples(:, i), best%samples(:, i)), tab, &
+            distance(disturbed%samples(:, i), best%samples(:, i))/disturbance, line_end
          rows(used + 1:used + len_trim(row)) = trim(row)
          used = used + len_trim(row)
       end do
       self%content = self%content//rows(:used)
    end subroutine put
-
-   !> A number with 20 digits.
-   pure function digits_of(number) result(text)
-      real(wp), intent(in) :: number
-      character(len=:), allocatable :: text
-      character(len=40) :: digits
-
-      write (digits, "(es0.19e4)") number
-      text = trim(digits)
-   end function digits_of
-
-   !> A number with 4 digits.
-   pure function short_of(number) result(text)
-      real(wp), intent(in) :: number
-      character(len=:), allocatable :: text
-      character(len=40) :: digits
-
-      write (digits, "(es0.3e4)") number
-      text = trim(digits)
-   end function short_of
 
    !> Largest difference of a component, relative to the component where that is above 1.
    pure real(wp) function distance(state, from) result(value)

@@ -13,10 +13,10 @@ module scene_input
    use value_checks, only: absent, check_number, missing, most_samples
    implicit none (type, external)
    private
-   public :: open_scene, put_scene, read_scene, scene_type
+   public :: read_scene, scene_settings_type, scene_type
 
    !> Settings of a scene; all nondimensional.
-   type :: scene_type
+   type :: scene_settings_type
       !> Name of the scene
       character(len=word_length) :: name = ""
       !> The model with its parameters
@@ -35,70 +35,64 @@ module scene_input
       character(len=element_length) :: variables(32) = ""
       !> Thresholds of events; that of the definition if none is given
       real(wp) :: thresholds(4) = absent
+   end type scene_settings_type
+
+   !> A scene that can be run.
+   type, extends(scene_settings_type) :: scene_type
+      !> The model, with the past of the history
+      type(model_type) :: problem
+      !> The history
+      type(history_type) :: history
    contains
+      procedure :: open => open_scene
+      procedure :: put => put_scene
       procedure :: options => options_of_scene
    end type scene_type
 
 contains
 
    !> Read and check a scene.
-   subroutine read_scene(path, scene, model, history, error)
-      !> Path of the namelist
+   subroutine read_scene(path, opened, error)
       character(len=*), intent(in) :: path
-      !> The scene
-      type(scene_type), intent(out) :: scene
-      !> Its model, with the past of the history
-      type(model_type), intent(out) :: model
-      !> Its history
-      type(history_type), intent(out) :: history
-      !> Error if the file cannot be read, or a value is out of range
+      type(scene_type), intent(out) :: opened
+      !> The file cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
       type(namelist_file_type) :: file
+      type(scene_settings_type) :: scene
       namelist /settings/ scene
 
-      call file%open(path, error)
-      if (allocated(error)) return
+      call file%open(path)
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
-      call open_scene(path, scene, model, history, error)
+      call opened%open(path, scene, error)
       call check_number(error, path//": scene '"//trim(scene%name)//"'", "sample_interval", &
                         scene%sample_interval, &
                         at_least=scene%t_end/most_samples*scene%model%blocks)
    end subroutine read_scene
 
    !> Open the model of a scene and read its history; keep an earlier error.
-   subroutine open_scene(path, scene, model, history, error)
-      !> Path of the namelist file
+   subroutine open_scene(self, path, settings, error)
+      class(scene_type), intent(inout) :: self
       character(len=*), intent(in) :: path
-      !> The scene
-      type(scene_type), intent(in) :: scene
-      !> Its model, with the past of the history
-      type(model_type), intent(out) :: model
-      !> Its history
-      type(history_type), intent(out) :: history
+      type(scene_settings_type), intent(in) :: settings
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
 
       if (allocated(error)) return
-      call scene%model%open(path//": scene '"//trim(scene%name)//"'", model, error)
-      call read_histories(path, model, history, error)
+      self%scene_settings_type = settings
+      call self%model%open(path//": scene '"//trim(self%name)//"'", self%problem, error)
+      call read_histories(path, self%problem, self%history, error)
    end subroutine open_scene
 
    !> Write name, model and history of a scene.
-   subroutine put_scene(file, scene, model, history)
-      !> The file
+   subroutine put_scene(self, file)
+      class(scene_type), intent(in) :: self
       type(output_file_type), intent(inout) :: file
-      !> The scene
-      type(scene_type), intent(in) :: scene
-      !> Its model
-      type(model_type), intent(in) :: model
-      !> Its history
-      type(history_type), intent(in) :: history
 
-      call file%attribute("scene", trim(scene%name))
-      call put_model(file, model)
-      call put_history(file, model, history)
+      call file%attribute("scene", trim(self%name))
+      call put_model(file, self%problem)
+      call put_history(file, self%problem, self%history)
    end subroutine put_scene
 
    !> Method and tolerances for the solver.

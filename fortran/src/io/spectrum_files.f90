@@ -69,7 +69,6 @@ contains
 
    !> Read and check source and method of a spectrum.
    subroutine read_spectrum_settings(path, trajectory_path, spectrum, error)
-      !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> Trajectory file to read
       character(len=:), allocatable, intent(out) :: trajectory_path
@@ -83,8 +82,7 @@ contains
       namelist /without_path/ spectrum
 
       trajectory = ""
-      call file%open(path, error)
-      if (allocated(error)) return
+      call file%open(path)
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       write (file%copy, nml=without_path, delim="quote")
       call file%close(error)
@@ -96,7 +94,6 @@ contains
 
    !> Read times and signal, and its integral where the times are uneven.
    subroutine read_trajectory(path, block, trajectory, error)
-      !> Path of the file
       character(len=*), intent(in) :: path
       !> Number of the block of a chain
       integer, intent(in) :: block
@@ -110,27 +107,25 @@ contains
       call check(nf90_open(path, nf90_nowrite, file), &
                  "cannot be opened (remove it; the next run makes it again)")
       if (allocated(error)) return
-      call check(nf90_get_att(file, nf90_global, "scene", trajectory%scene), &
-                 "attribute 'scene'"//unread)
+      call check(nf90_get_att(file, nf90_global, "scene", trajectory%scene), "attribute 'scene'")
       call check(nf90_get_att(file, nf90_global, "sample_interval", trajectory%sample_interval), &
-                 "attribute 'sample_interval'"//unread)
+                 "attribute 'sample_interval'")
       call check(nf90_get_att(file, nf90_global, "t_transient", trajectory%t_transient), &
-                 "attribute 't_transient'"//unread)
-      call check(nf90_inq_dimid(file, "t", dimension), "dimension 't'"//unread)
+                 "attribute 't_transient'")
+      call check(nf90_inq_dimid(file, "t", dimension), "dimension 't'")
       if (.not. allocated(error)) then
-         call check(nf90_inquire_dimension(file, dimension, len=length), "dimension 't'"//unread)
+         call check(nf90_inquire_dimension(file, dimension, len=length), "dimension 't'")
       end if
-      call check(nf90_get_att(file, nf90_global, "signal", trajectory%signal), &
-                 "attribute 'signal'"//unread)
+      call check(nf90_get_att(file, nf90_global, "signal", trajectory%signal), "attribute 'signal'")
       call read_variable(trim(trajectory%signal), trajectory%v)
       call read_variable("t", trajectory%t)
       if (.not. allocated(error)) then
          if ((length - 1.5_wp)*trajectory%sample_interval > trajectory%t(length)) then
             integral = ""
             call check(nf90_get_att(file, nf90_global, "integral", integral), &
-                       "attribute 'integral'"//unread)
+                       "attribute 'integral'")
             call check(nf90_get_att(file, nf90_global, "integral_slope", &
-                                    trajectory%slope_at_rest), "attribute 'integral_slope'"//unread)
+                                    trajectory%slope_at_rest), "attribute 'integral_slope'")
             if (.not. allocated(error)) call read_variable(trim(integral), trajectory%u)
          end if
       end if
@@ -148,14 +143,13 @@ contains
                     //"' (add it to the variables of its scene)")
          if (allocated(error)) return
          allocate (values(length))
-         call check(nf90_inquire_variable(file, id, ndims=dimensions), &
-                    "variable '"//name//"'"//unread)
+         call check(nf90_inquire_variable(file, id, ndims=dimensions), "variable '"//name//"'")
          if (allocated(error)) return
          if (dimensions == 1) then
-            call check(nf90_get_var(file, id, values), "variable '"//name//"'"//unread)
+            call check(nf90_get_var(file, id, values), "variable '"//name//"'")
          else
             call check(nf90_get_var(file, id, values, start=[block, 1], count=[1, length]), &
-                       "block "//text(block)//" of variable '"//name//"'"//unread)
+                       "block "//text(block)//" of variable '"//name//"'")
          end if
          if (allocated(error)) return
          if (.not. all(ieee_is_finite(values))) then
@@ -163,34 +157,33 @@ contains
          end if
       end subroutine read_variable
 
-      !> Keep the first error.
+      !> Keep the first error: what failed, and what to do where that does not say it.
       subroutine check(outcome, what)
          integer, intent(in) :: outcome
          character(len=*), intent(in) :: what
+         character(len=:), allocatable :: words
 
          if (outcome == nf90_noerr .or. allocated(error)) return
-         call raise(error, path//": "//what//": "//trim(nf90_strerror(outcome)))
+         words = what
+         if (index(what, "(") == 0) words = what//unread
+         call raise(error, path//": "//words//": "//trim(nf90_strerror(outcome)))
       end subroutine check
    end subroutine read_trajectory
 
    !> Write a spectrum with its labelled peaks and what it is.
    subroutine write_spectrum(path, scene, signal, settings, frequency, power, variance, peaks, &
                              bases, error)
-      !> Path of the file
       character(len=*), intent(in) :: path
       !> Name of the scene
       character(len=*), intent(in) :: scene
       !> Name of the signal
       character(len=*), intent(in) :: signal
-      !> How it was made
       type(spectrum_settings_type), intent(in) :: settings
-      !> Frequencies
       real(wp), intent(in) :: frequency(:)
       !> Power spectral density
       real(wp), intent(in) :: power(:)
       !> Variance of the signal
       real(wp), intent(in) :: variance
-      !> Labelled peaks
       type(peak_type), intent(in) :: peaks(:)
       !> Fundamental frequencies of the spectrum
       type(bases_type), intent(in) :: bases
@@ -201,16 +194,15 @@ contains
 
       call file%create(path, "Power spectrum of "//signal)
       bins = file%dimension("frequency", size(frequency))
-      rows = file%dimension("peak", size(peaks), coordinates="peak_frequency")
+      rows = file%dimension("peak", size(peaks), "peak_frequency", "peak_")
       call file%column(bins, "frequency", frequency, "frequency, cycles per unit of time")
       call file%column(bins, "power", power, "one-sided power spectral density of "//signal)
-      call file%column(rows, "peak_frequency", peaks%frequency, &
-                       "interpolated frequency of the peak")
-      call file%column(rows, "peak_power", peaks%power, "interpolated height of the peak")
-      call file%flags(rows, "peak_kind", peaks%kind, kind_names, "what the peak is", kinds)
-      call file%column(rows, "peak_multiple", peaks%multiple(1), &
+      call file%column(rows, "frequency", peaks%frequency, "interpolated frequency of the peak")
+      call file%column(rows, "power", peaks%power, "interpolated height of the peak")
+      call file%flags(rows, "kind", peaks%kind, kind_names, "what the peak is", kinds)
+      call file%column(rows, "multiple", peaks%multiple(1), &
                        "multiple of the first fundamental frequency")
-      call file%column(rows, "peak_second_multiple", peaks%multiple(2), &
+      call file%column(rows, "second_multiple", peaks%multiple(2), &
                        "multiple of the second fundamental frequency, added to the first's")
       base = file%dimension("base", count(bases%frequency > 0.0_wp))
       call file%column(base, "base_frequency", pack(bases%frequency, bases%frequency > 0.0_wp), &

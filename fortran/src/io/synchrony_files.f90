@@ -3,11 +3,9 @@
 module synchrony_files
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use model_history, only: history_type
-   use model_problem, only: model_type
    use namelist_input, only: namelist_file_type
    use netcdf_output, only: output_file_type
-   use scene_input, only: open_scene, put_scene, scene_type
+   use scene_input, only: scene_settings_type, scene_type
    use transverse_growth, only: transverse_growth_type, zero_type
    use transverse_multipliers, only: transverse_cycle_type
    use value_checks, only: check_count, check_number, missing, missing_count
@@ -27,8 +25,8 @@ module synchrony_files
       real(wp) :: t_turning = missing
       !> Longest time between two orthonormalisations
       real(wp) :: interval = missing
-      !> Number of parts for the standard error
-      integer :: blocks = missing_count
+      !> Number of batches of the time
+      integer :: batches = missing_count
    contains
       !> The values of s, and those between
       procedure :: values
@@ -50,52 +48,39 @@ contains
    end function values
 
    !> Read and check a scene and what is measured.
-   subroutine read_synchrony(path, scene, model, history, synchrony, error)
-      !> Path of the namelist file
+   subroutine read_synchrony(path, opened, synchrony, error)
       character(len=*), intent(in) :: path
       !> The scene, a chain of one block with kappa = 1
-      type(scene_type), intent(out) :: scene
-      !> Its model with its past
-      type(model_type), intent(out) :: model
-      !> Its history
-      type(history_type), intent(out) :: history
-      !> The settings
+      type(scene_type), intent(out) :: opened
       type(synchrony_settings_type), intent(out) :: synchrony
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
       type(namelist_file_type) :: file
+      type(scene_settings_type) :: scene
       namelist /settings/ scene, synchrony
 
-      call file%open(path, error)
-      if (allocated(error)) return
+      call file%open(path)
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
-      call open_scene(path, scene, model, history, error)
+      call opened%open(path, scene, error)
       associate (window => synchrony%s_window)
          call check_number(error, path, "synchrony%s_window(1)", window(1), at_least=1.0_wp)
          call check_number(error, path, "synchrony%s_window(2)", window(2), above=window(1))
       end associate
       call check_count(error, path, "synchrony%count", synchrony%count, at_least=2)
-      call check_count(error, path, "synchrony%blocks", synchrony%blocks, at_least=2)
+      call check_count(error, path, "synchrony%batches", synchrony%batches, at_least=2)
       if (allocated(error)) return
-      if (model%shape%blocks > 1 .or. .not. model%is_chain()) then
-         call raise(error, path//": blocks = "//text(model%shape%blocks) &
+      if (scene%model%blocks > 1 .or. .not. opened%problem%is_chain()) then
+         call raise(error, path//": blocks = "//text(scene%model%blocks) &
                     //"; expected a chain of 1 block: chains that move as one block are tried")
       end if
    end subroutine read_synchrony
 
    !> Write the exponents.
-   subroutine write_synchrony(path, scene, model, history, settings, growth, zeros, on_cycle, error)
-      !> Path of the file
+   subroutine write_synchrony(path, scene, settings, growth, zeros, on_cycle, error)
       character(len=*), intent(in) :: path
-      !> The scene
       type(scene_type), intent(in) :: scene
-      !> Its model
-      type(model_type), intent(in) :: model
-      !> Its history
-      type(history_type), intent(in) :: history
-      !> How they were measured
       type(synchrony_settings_type), intent(in) :: settings
       !> Exponents by s
       type(transverse_growth_type), intent(in) :: growth(:)
@@ -109,7 +94,7 @@ contains
       integer :: rows
 
       call file%create(path, "Growth of disturbances of chains that move as one block")
-      call put_scene(file, scene, model, history)
+      call scene%put(file)
       call file%attribute("t_transient", scene%t_transient)
       call file%attribute("t_end", settings%t_end)
       call file%attribute("t_turning", settings%t_turning)
@@ -125,24 +110,21 @@ contains
       call file%column(rows, "s", growth%s, "1 + kappa times the eigenvalue of the mode")
       call file%column(rows, "exponent", growth%value, "largest exponent of its disturbances")
       call file%column(rows, "error", growth%error, "its standard error")
-      rows = file%dimension("zero", size(zeros), coordinates="zero_s")
-      call file%column(rows, "zero_s", zeros%s, "s at which the exponent is zero")
-      call file%column(rows, "zero_error", zeros%error, "its standard error")
-      call file%flags(rows, "zero_rises", merge(1, 0, zeros%rises), ["no ", "yes"], &
-                      "whether the exponent grows with s")
-      rows = file%dimension("floquet_s", size(on_cycle%growth))
-      call file%column(rows, "floquet_s", on_cycle%growth%s, "s, where multipliers were found")
-      call file%column(rows, "floquet_exponent", on_cycle%growth%value, &
+      rows = file%dimension("zero", size(zeros), "zero_s", "zero_")
+      call file%column(rows, "s", zeros%s, "s at which the exponent is zero")
+      call file%column(rows, "error", zeros%error, "its standard error")
+      call file%answers(rows, "rises", zeros%rises, "whether the exponent grows with s")
+      rows = file%dimension("floquet_s", size(on_cycle%growth), prefix="floquet_")
+      call file%column(rows, "s", on_cycle%growth%s, "s, where multipliers were found")
+      call file%column(rows, "exponent", on_cycle%growth%value, &
                        "largest exponent by Floquet multipliers of the cycle")
-      call file%column(rows, "floquet_error", on_cycle%growth%error, &
-                       "its difference between two meshes")
-      rows = file%dimension("floquet_zero", size(on_cycle%zeros), coordinates="floquet_zero_s")
-      call file%column(rows, "floquet_zero_s", on_cycle%zeros%s, &
+      call file%column(rows, "error", on_cycle%growth%error, "its difference between two meshes")
+      rows = file%dimension("floquet_zero", size(on_cycle%zeros), "floquet_zero_s", "floquet_zero_")
+      call file%column(rows, "s", on_cycle%zeros%s, &
                        "s at which the exponent by multipliers is zero")
-      call file%column(rows, "floquet_zero_error", on_cycle%zeros%error, &
-                       "its difference between two meshes")
-      call file%flags(rows, "floquet_zero_rises", merge(1, 0, on_cycle%zeros%rises), &
-                      ["no ", "yes"], "whether the exponent by multipliers grows with s")
+      call file%column(rows, "error", on_cycle%zeros%error, "its difference between two meshes")
+      call file%answers(rows, "rises", on_cycle%zeros%rises, &
+                        "whether the exponent by multipliers grows with s")
       call file%finish(error)
    end subroutine write_synchrony
 end module synchrony_files

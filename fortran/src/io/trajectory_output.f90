@@ -8,12 +8,11 @@ module trajectory_output
    use dde_kinds, only: int64, wp
    use model_chain, only: blocks_in_order
    use model_description, only: description_type
-   use model_history, only: display_names, history_type, shown_name
-   use model_problem, only: model_type
+   use model_history, only: display_names, shown_name
    use netcdf_output, only: output_file_type
    use program_arguments, only: stop_on
    use progress, only: progress_type
-   use scene_input, only: put_scene, scene_type
+   use scene_input, only: scene_type
    use value_checks, only: check_choice
    implicit none (type, external)
    private
@@ -35,9 +34,6 @@ module trajectory_output
       type(progress_type) :: progress
       !> The scene
       type(scene_type) :: scene
-      !> Its model and its history
-      type(model_type) :: model
-      type(history_type) :: history
       !> Which variables are exponentials of their components
       logical, allocatable :: exponential(:)
       !> Ids of time and of the variables
@@ -62,22 +58,18 @@ module trajectory_output
 contains
 
    !> Begin the file of a scene.
-   function new_writer(path, scene, model, history) result(writer)
+   function new_writer(path, scene) result(writer)
       character(len=*), intent(in) :: path
       type(scene_type), intent(in) :: scene
-      !> Its model and its history
-      type(model_type), intent(in) :: model
-      type(history_type), intent(in) :: history
       type(trajectory_writer_type) :: writer
       type(description_type) :: about
+      character(len=:), allocatable :: meaning
       integer, allocatable :: components(:), dimensions(:), places(:)
       integer :: block, dimension, i, length, variables
       logical :: refined
 
       writer%scene = scene
-      writer%model = model
-      writer%history = history
-      about = model%describe()
+      about = scene%problem%describe()
       if (all(scene%variables == "")) then
          writer%scene%variables(:size(about%states)) = display_names(about)
       end if
@@ -85,7 +77,7 @@ contains
       call find_components(path, about, writer%scene%variables(:variables), components, &
                            writer%exponential, writer%file%error)
       if (allocated(writer%file%error)) return
-      associate (blocks => model%shape%blocks)
+      associate (blocks => scene%model%blocks, model => scene%problem)
          ! the quotient may be one rounding below a whole number
          writer%times = floor(scene%t_end/scene%sample_interval*(1.0_wp + epsilon(1.0_wp))) + 1
          refined = blocks == 1 .and. model%sizes%observed%integral > 0
@@ -98,12 +90,14 @@ contains
          call writer%file%create(path, "Trajectory of a model")
          ! length 0 is NetCDF's unlimited dimension
          dimension = writer%file%dimension("t", merge(0, writer%times, refined))
-         writer%ids(0) = writer%file%real_variable("t", dimension, "time")
          dimensions = [dimension]
+         writer%ids(0) = writer%file%real_variable("t", dimensions, "time")
          if (blocks > 1) dimensions = [writer%file%dimension("block", blocks), dimension]
          do i = 1, variables
-            writer%ids(i) = new_variable(writer%file, trim(writer%scene%variables(i)), dimensions, &
-                                         meaning_of(about, components(i), writer%exponential(i)))
+            meaning = trim(about%meanings(components(i)))
+            if (writer%exponential(i)) meaning = "exp("//trim(about%states(components(i)))//")"
+            writer%ids(i) = writer%file%real_variable(trim(writer%scene%variables(i)), dimensions, &
+                                                      meaning)
          end do
          places(blocks_in_order(blocks, trim(model%ends))) = [(block, block=1, blocks)]
          writer%wanted = [((model%states()*(places(block) - 1) + components(i), &
@@ -135,37 +129,10 @@ contains
          if (allocated(error)) return
          components(i) = findloc(about%states, variables(i), dim=1)
          exponential(i) = components(i) == 0
-         if (.not. exponential(i)) cycle
          number = findloc(about%auxiliaries%name, variables(i), dim=1)
-         components(i) = about%auxiliaries(number)%state
+         if (exponential(i)) components(i) = about%auxiliaries(number)%state
       end do
    end subroutine find_components
-
-   !> What a variable is.
-   function meaning_of(about, component, exponential) result(meaning)
-      type(description_type), intent(in) :: about
-      integer, intent(in) :: component
-      logical, intent(in) :: exponential
-      character(len=:), allocatable :: meaning
-
-      meaning = trim(about%meanings(component))
-      if (exponential) meaning = "exp("//trim(about%states(component))//")"
-   end function meaning_of
-
-   !> Define a variable over time, or over time and block.
-   integer function new_variable(file, name, dimensions, long_name) result(id)
-      type(output_file_type), intent(inout) :: file
-      character(len=*), intent(in) :: name
-      !> Dimensions, the faster first
-      integer, intent(in) :: dimensions(:)
-      character(len=*), intent(in) :: long_name
-
-      if (size(dimensions) == 1) then
-         id = file%real_variable(name, dimensions(1), long_name)
-      else
-         id = file%real_table(name, dimensions, long_name)
-      end if
-   end function new_variable
 
    !> Take one sample; the next one is at the next even time, unless the solver brings it forward.
    subroutine take(self, y)
@@ -203,14 +170,12 @@ contains
       class(trajectory_writer_type), intent(inout) :: self
       integer :: i
 
-      associate (first => self%written + 1, held => self%held)
-         call self%file%put(self%ids(0), self%time(:held), first=[first])
+      associate (first => self%written + 1, held => self%held, blocks => self%scene%model%blocks)
+         call self%file%put(self%ids(0), self%time(:held), [first])
          do i = 1, ubound(self%ids, 1)
-            if (self%model%shape%blocks > 1) then
-               call self%file%put_rows(self%ids(i), self%values(:, i, :held), first=first)
-            else
-               call self%file%put(self%ids(i), self%values(1, i, :held), first=[first])
-            end if
+            call self%file%put(self%ids(i), [self%values(:, i, :held)], &
+                               pack([1, first], [blocks > 1, .true.]), &
+                               pack([blocks, held], [blocks > 1, .true.]))
          end do
       end associate
       self%written = self%written + self%held
@@ -225,10 +190,10 @@ contains
 
       call self%flush()
       associate (file => self%file, scene => self%scene)
-         call put_scene(file, scene, self%model, self%history)
-         associate (observed => self%model%sizes%observed)
+         call scene%put(file)
+         associate (observed => scene%problem%sizes%observed)
             if (observed%integral > 0) then
-               call file%attribute("integral", shown_name(self%model, observed%integral))
+               call file%attribute("integral", shown_name(scene%problem, observed%integral))
                call file%attribute("integral_slope", merge(1.0_wp, 0.0_wp, observed%with_time))
             end if
          end associate

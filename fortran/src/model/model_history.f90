@@ -40,7 +40,6 @@ contains
 
    !> Name of the signal.
    function signal_name(model) result(name)
-      !> The model
       class(model_type), intent(in) :: model
       character(len=:), allocatable :: name
       character(len=word_length), allocatable :: names(:)
@@ -54,7 +53,6 @@ contains
 
    !> Name of a component of the state: of one whose exponential has a name the logarithm of this.
    function shown_name(model, component) result(name)
-      !> The model
       class(model_type), intent(in) :: model
       !> Number of the component
       integer, intent(in) :: component
@@ -100,12 +98,11 @@ contains
       character(len=*), intent(in) :: names(:)
       !> Values of one name after another, block after block, history after history
       real(wp), intent(in) :: values(:)
-      !> The histories
       type(history_type), intent(out) :: history
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
       type(description_type) :: about
-      real(wp), allocatable :: given(:, :, :)
+      real(wp), allocatable :: given(:, :, :), least
       integer :: i, j, number, state
 
       if (allocated(error)) return
@@ -132,24 +129,20 @@ contains
                call raise(error, place//": history of "//trim(shown) &
                           //" is missing; expected a finite number")
             end if
+            if (allocated(error)) return
+            if (allocated(least)) deallocate (least)
+            if (shown /= own .and. number > 0) least = 0.0_wp
             do j = 1, size(given, 3)
                do i = 1, size(given, 2)
-                  if (allocated(error)) return
-                  associate (value => given(abs(number), i, j))
-                     if (shown == own .or. number < 0) then
-                        call check_number(error, place, "history of "//trim(own), value)
-                        history%states(state, i, j) = value
-                        history%values(state, i, j) = value
-                        if (shown /= own) history%values(state, i, j) = exp(value)
-                     else
-                        call check_number(error, place, "history of "//trim(shown), value, &
-                                          above=0.0_wp)
-                        history%values(state, i, j) = value
-                        if (.not. allocated(error)) history%states(state, i, j) = log(value)
-                     end if
-                  end associate
+                  call check_number(error, place, "history of "//trim(names(abs(number))), &
+                                    given(abs(number), i, j), above=least)
                end do
             end do
+            if (allocated(error)) return
+            history%values(state, :, :) = given(abs(number), :, :)
+            history%states(state, :, :) = given(abs(number), :, :)
+            if (number < 0) history%values(state, :, :) = exp(given(-number, :, :))
+            if (allocated(least)) history%states(state, :, :) = log(given(number, :, :))
          end associate
       end do
    end subroutine read_history

@@ -36,7 +36,6 @@ contains
       class(model_settings_type), intent(inout) :: self
       !> Name of the parameter
       character(len=*), intent(in) :: name
-      !> Its value
       real(wp), intent(in) :: value
       integer :: number
 
@@ -54,7 +53,6 @@ contains
       class(model_settings_type), intent(in) :: self
       !> File and what it describes, for messages
       character(len=*), intent(in) :: place
-      !> The model
       type(model_type), intent(out) :: model
       !> First error met
       type(error_type), allocatable, intent(inout) :: error

@@ -44,11 +44,9 @@ contains
    !> changes no result.
    subroutine find_attractors(model, points, settings, options, findings, progress, columns, &
                               refinements)
-      !> The model
       type(model_type), intent(in) :: model
       !> Points; of a grid line by line
       type(point_type), intent(in) :: points(:)
-      !> How attractors are found
       type(attractor_settings_type), intent(in) :: settings
       !> Method, tolerances and limits
       type(integration_options), intent(in) :: options
@@ -111,11 +109,9 @@ contains
    !> Find the attractors of points in turn. The first point starts from its history. After a point
    !> whose run fails, the next starts from where that one did.
    subroutine sweep_attractors(model, points, settings, options, findings, progress)
-      !> The model
       type(model_type), intent(in) :: model
       !> Points, in the order of the sweep
       type(point_type), intent(in) :: points(:)
-      !> How attractors are found
       type(attractor_settings_type), intent(in) :: settings
       !> Method, tolerances and limits
       type(integration_options), intent(in) :: options

@@ -18,7 +18,7 @@ module attractor_verdict
    use value_checks, only: missing, missing_count
    implicit none (type, external)
    private
-   public :: attractor_settings_type, attractor_type, judge, on_cycle
+   public :: attractor_settings_type, attractor_type, judge, on_cycle, settle
 
    !> A motion is at rest whose signal changes by less than this share.
    real(wp), parameter :: least_range = 1.0e-9_wp
@@ -92,7 +92,6 @@ contains
       type(growth_type), intent(in) :: measured
       !> Whether this is the last judgement
       logical, intent(in) :: last
-      !> The attractor
       type(attractor_type), intent(inout) :: attractor
       !> Too few samples
       type(error_type), allocatable, intent(out) :: error
@@ -112,6 +111,8 @@ contains
       if (attractor%by_exponents == undecided .and. .not. last) return
       if (attractor%by_exponents == cycle_motion .and. is_at_rest(attractor%motion)) then
          call settle(attractor)
+         ! at rest the flow has no direction, and so no exponent
+         attractor%exponents = pack(attractor%exponents, abs(attractor%exponents%value) > 0.0_wp)
          return
       end if
       associate (motion => attractor%motion)
@@ -150,7 +151,7 @@ contains
                          <= least_range*max(1.0_wp, abs(signal(1)))
    end function is_at_rest
 
-   !> Give a motion the class of a fixed point. There the flow has no direction, and so no exponent.
+   !> Give a motion the class of a fixed point.
    subroutine settle(attractor)
       type(attractor_type), intent(inout) :: attractor
 
@@ -160,7 +161,6 @@ contains
       attractor%by_spectrum = fixed_point
       attractor%reason = none
       attractor%period = 0
-      attractor%exponents = pack(attractor%exponents, abs(attractor%exponents%value) > 0.0_wp)
    end subroutine settle
 
    !> The class by the lines in the spectrum of the signal.
@@ -213,7 +213,6 @@ contains
 
    !> Whether the last points of the section are those of a cycle.
    pure logical function on_cycle(motion) result(value)
-      !> The motion
       type(observed_motion_type), intent(in) :: motion
 
       value = period_of_tail(motion%section, motion%scale(), .false.) > 0

@@ -4,7 +4,7 @@
 !> Then the motion is observed and its exponents are measured, for longer and longer times, until
 !> the class is certain or a limit is reached.
 module attractors
-   use attractor_verdict, only: attractor_settings_type, attractor_type, judge, on_cycle
+   use attractor_verdict, only: attractor_settings_type, attractor_type, judge, on_cycle, settle
    use dde, only: continuation_type, integrate, integration_options, integration_result
    use dde_errors, only: error_type
    use dde_kinds, only: wp
@@ -13,7 +13,7 @@ module attractors
    use model_levels, only: rest_level
    use model_problem, only: model_type
    use motion_classes, only: chaos, contradicted, cycle_motion, fixed_point, leaves_cycle, &
-                             none, not_stationary, three_torus, torus, undecided, unstable_rest
+                             not_stationary, three_torus, torus, undecided, unstable_rest
    use motion_path, only: follow_path
    use observed_motion, only: observed_motion_type
    use rest, only: exponents_at_rest, settles
@@ -54,7 +54,6 @@ contains
       type(attractor_settings_type), intent(in) :: settings
       !> Method and tolerances
       type(integration_options), intent(in) :: options
-      !> The attractor
       type(attractor_type), intent(out) :: attractor
       !> The run ended before its time, or exponents cannot be measured
       type(error_type), allocatable, intent(out) :: error
@@ -165,11 +164,7 @@ contains
       if (allocated(error)) return
       if (.not. all(exponents%value < 0.0_wp)) return
       attractor%exponents = exponents
-      attractor%class = fixed_point
-      attractor%reason = none
-      attractor%by_exponents = fixed_point
-      attractor%by_section = fixed_point
-      attractor%by_spectrum = fixed_point
+      call settle(attractor)
    end subroutine judge_rest
 
    !> A motion: observe it until its class is certain.

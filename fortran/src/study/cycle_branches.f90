@@ -2,7 +2,7 @@
 !> trajectories, with their special points.
 module cycle_branches
    use branch_ends, only: follow_settings_type
-   use collocation_basis, only: collocation_basis_type, radau_points
+   use collocation_basis, only: collocation_basis_type
    use dde, only: continuation_type, integrate, integration_options, integration_result
    use dde_errors, only: error_type
    use dde_kinds, only: wp
@@ -87,11 +87,8 @@ contains
 
    !> All branches along a line that the settings lead to.
    subroutine find_cycles(settings, hopf, found, left_out, error, progress)
-      !> What is computed
       type(cycle_settings_type), intent(in) :: settings
-      !> Hopf points on the line
       type(hopf_on_line_type), allocatable, intent(out) :: hopf(:)
-      !> The branches
       type(cycles_type), allocatable, intent(out) :: found(:)
       !> Starts without a branch of their own
       type(left_out_type), allocatable, intent(out) :: left_out(:)
@@ -118,7 +115,7 @@ contains
          how%longest_period = settings%longest_period
          how%most_points = settings%most_orbits
          how%least_amplitude = first_amplitude
-         basis = collocation_basis_type(settings%degree, radau_points)
+         basis = collocation_basis_type(settings%degree)
       end associate
       allocate (found(0), left_out(0))
       do i = 1, size(hopf)
@@ -229,7 +226,6 @@ contains
       type(collocation_basis_type), intent(in) :: basis
       !> Intervals of the orbit
       integer, intent(in) :: intervals
-      !> The orbit
       type(periodic_orbit_type), intent(out) :: orbit
       !> Error if the trajectory leads to no cycle
       type(error_type), allocatable, intent(out) :: error

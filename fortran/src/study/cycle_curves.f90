@@ -36,11 +36,8 @@ contains
 
    !> Follow the curves of all special points on the branches of a line, each once.
    subroutine find_curves(settings, found, curves, error, progress)
-      !> What is computed
       type(cycle_settings_type), intent(in) :: settings
-      !> Branches with their points
       type(cycles_type), intent(in) :: found(:)
-      !> The curves
       type(cycle_curve_type), allocatable, intent(out) :: curves(:)
       !> A point has no curve
       type(error_type), allocatable, intent(out) :: error

@@ -30,7 +30,6 @@ contains
    !> Integrate from t = 0 to t_end in steps of length `h`, at most the shortest delay, or of the
    !> length nearest to it that divides t_end.
    subroutine integrate_rk4(problem, t_end, h, cubic, outcome, error, sampler)
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Final time
       real(wp), intent(in) :: t_end

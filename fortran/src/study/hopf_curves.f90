@@ -7,7 +7,7 @@ module hopf_curves
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use hopf_lines, only: find_hopf_on_line, hopf_on_line_type
-   use hopf_planes, only: axis_point_type, curve_plane_type, turn
+   use hopf_planes, only: axis_point_type, chord_of, curve_plane_type, side, turn
    implicit none (type, external)
    private
    public :: curve_point_type, trace_curves
@@ -60,26 +60,23 @@ contains
       real(wp), intent(in) :: x(:), y(:)
       !> Number of unstable pairs there
       integer, intent(in) :: pairs(:, :)
-      !> Points
       type(curve_point_type), allocatable, intent(out) :: points(:)
       !> A point was not found
       type(error_type), allocatable, intent(out) :: error
       type(piece_type), allocatable :: pieces(:)
-      integer :: i, j
+      integer :: axis, beside(2), i, j
 
       allocate (pieces(0))
       do j = 1, size(y)
          do i = 1, size(x)
-            if (i < size(x)) then
-               call explain(plane, [x(i), y(j)], [x(i + 1), y(j)], pairs(i, j), pairs(i + 1, j), &
-                            pieces, error)
-            end if
-            if (allocated(error)) return
-            if (j < size(y)) then
-               call explain(plane, [x(i), y(j)], [x(i), y(j + 1)], pairs(i, j), pairs(i, j + 1), &
-                            pieces, error)
-            end if
-            if (allocated(error)) return
+            do axis = 1, 2
+               beside = [i, j]
+               beside(axis) = beside(axis) + 1
+               if (any(beside > shape(pairs))) cycle
+               call explain(plane, [x(i), y(j)], [x(beside(1)), y(beside(2))], pairs(i, j), &
+                            pairs(beside(1), beside(2)), pieces, error)
+               if (allocated(error)) return
+            end do
          end do
       end do
       points = points_of(plane, pieces)
@@ -135,13 +132,6 @@ contains
          end do
       end associate
    end function crossings
-
-   !> On which side of a line a place is.
-   pure real(wp) function side(from, to, place) result(value)
-      real(wp), intent(in) :: from(2), to(2), place(2)
-
-      value = (to(1) - from(1))*(place(2) - from(2)) - (to(2) - from(2))*(place(1) - from(1))
-   end function side
 
    !> Whether a point is on a known piece.
    pure logical function is_known(pieces, point) result(value)
@@ -215,9 +205,8 @@ contains
       length = first_step
       do number = 1, most_points
          do
-            next = moved(here, tangent, length)
-            call plane%correct(next, tangent, dot_product(tangent, [here%place, log(here%omega)]) &
-                               + length, found, turned)
+            next = here%moved(tangent, length)
+            call plane%correct(next, tangent, here%along(tangent) + length, found, turned)
             if (found) found = is_smooth(here, next, tangent, turned)
             if (found) exit
             length = 0.5_wp*length
@@ -252,15 +241,6 @@ contains
       value = c%curvature_bound(s)*point%omega**2 < least_share*c%largest_term(s)
    end function is_at_double_zero
 
-   !> A point further along a direction.
-   pure type(axis_point_type) function moved(point, direction, length) result(there)
-      type(axis_point_type), intent(in) :: point
-      real(wp), intent(in) :: direction(3), length
-
-      there%place = point%place + length*direction(:2)
-      there%omega = point%omega*exp(length*direction(3))
-   end function moved
-
    !> Whether the chord between two points is short and looks like the curve in the plane.
    pure logical function is_smooth(here, next, tangent, turned) result(value)
       type(axis_point_type), intent(in) :: here, next
@@ -290,8 +270,8 @@ contains
       type(axis_point_type), intent(in) :: here, next, start
       real(wp) :: chord(3), share, way(3)
 
-      chord = [next%place - here%place, log(next%omega/here%omega)]
-      way = [start%place - here%place, log(start%omega/here%omega)]
+      chord = chord_of(here, next)
+      way = chord_of(here, start)
       share = dot_product(way, chord)/dot_product(chord, chord)
       value = share > 0.0_wp .and. share <= 1.0_wp .and. norm2(way - share*chord) <= near
    end function passes
@@ -302,27 +282,24 @@ contains
       type(axis_point_type), intent(in) :: here, next
       type(axis_point_type), allocatable, intent(inout) :: points(:)
       type(axis_point_type) :: last
-      real(wp) :: direction(3), edge, share, shares(2)
+      real(wp) :: direction(3), edges(2), share, shares(2)
       integer :: axis
       logical :: found
 
+      edges = merge(0.0_wp, 1.0_wp, next%place < 0.0_wp)
       shares = huge(share)
-      do axis = 1, 2
-         edge = merge(0.0_wp, 1.0_wp, next%place(axis) < 0.0_wp)
-         if (next%place(axis) < 0.0_wp .or. next%place(axis) > 1.0_wp) then
-            shares(axis) = (edge - here%place(axis))/(next%place(axis) - here%place(axis))
-         end if
-      end do
+      where (next%place < 0.0_wp .or. next%place > 1.0_wp)
+         shares = (edges - here%place)/(next%place - here%place)
+      end where
       axis = minloc(shares, dim=1)
       share = shares(axis)
-      edge = merge(0.0_wp, 1.0_wp, next%place(axis) < 0.0_wp)
       last = axis_point_type(here%place + share*(next%place - here%place), &
                              here%omega*(next%omega/here%omega)**share)
       direction = 0.0_wp
       direction(axis) = 1.0_wp
-      call plane%correct(last, direction, edge, found)
+      call plane%correct(last, direction, edges(axis), found)
       if (.not. found) return
-      last%place(axis) = edge
+      last%place(axis) = edges(axis)
       ! a curve that starts at the edge leaves the window at once
       if (norm2(last%place - here%place) > least_step) points = [points, last]
    end subroutine add_end

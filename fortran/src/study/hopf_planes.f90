@@ -7,7 +7,7 @@ module hopf_planes
    use root_counts, only: roots_right_of
    implicit none (type, external)
    private
-   public :: axis_point_type, curve_plane_type, middles, turn
+   public :: axis_point_type, chord_of, curve_plane_type, middles, side, turn
 
    !> One turn.
    real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
@@ -36,9 +36,44 @@ module hopf_planes
       real(wp) :: place(2) = 0.0_wp
       !> Frequency of the pair
       real(wp) :: omega = 0.0_wp
+   contains
+      procedure :: moved, along
    end type axis_point_type
 
 contains
+
+   !> A point further along a direction in (place, ln omega).
+   pure type(axis_point_type) function moved(self, direction, length) result(there)
+      class(axis_point_type), intent(in) :: self
+      real(wp), intent(in) :: direction(3), length
+
+      there%place = self%place + length*direction(:2)
+      there%omega = self%omega*exp(length*direction(3))
+   end function moved
+
+   !> How far a point is along a direction in (place, ln omega).
+   pure real(wp) function along(self, direction) result(value)
+      class(axis_point_type), intent(in) :: self
+      real(wp), intent(in) :: direction(3)
+
+      value = dot_product(direction, [self%place, log(self%omega)])
+   end function along
+
+   !> The way from one point to another in (place, ln omega).
+   pure function chord_of(from, to) result(chord)
+      type(axis_point_type), intent(in) :: from, to
+      real(wp) :: chord(3)
+
+      chord = [to%place - from%place, log(to%omega/from%omega)]
+   end function chord_of
+
+   !> On which side of a line a place is.
+   pure real(wp) function side(from, to, place) result(value)
+      !> Two places of the line, and the place
+      real(wp), intent(in) :: from(2), to(2), place(2)
+
+      value = (to(1) - from(1))*(place(2) - from(2)) - (to(2) - from(2))*(place(1) - from(1))
+   end function side
 
    !> All parameters at a place.
    pure function numbers_at(self, place) result(numbers)
@@ -119,7 +154,6 @@ contains
    pure function middles(window, cells) result(x)
       !> The interval
       real(wp), intent(in) :: window(2)
-      !> Cells
       integer, intent(in) :: cells
       real(wp) :: x(cells)
       integer :: i
@@ -140,7 +174,7 @@ contains
       real(wp), intent(out), optional :: tangent(3)
       type(characteristic_type) :: c
       complex(wp) :: delta, slopes(3), s
-      real(wp) :: along(3), before, matrix(3, 3), step(3)
+      real(wp) :: before, curve(3), matrix(3, 3), step(3)
       integer :: i, k
 
       found = .false.
@@ -157,15 +191,14 @@ contains
          associate (scale => maxval(abs(slopes)))
             matrix = reshape([real(slopes)/scale, aimag(slopes)/scale, direction], [3, 3], &
                              order=[2, 1])
-            along = cross(matrix(1, :), matrix(2, :))
+            curve = cross(matrix(1, :), matrix(2, :))
             if (found) exit
-            if (abs(dot_product(along, direction)) <= least_cosine*norm2(along)) return
-            step = solution(matrix, [-[real(delta), aimag(delta)]/scale, value &
-                                     - dot_product(direction, [point%place, log(point%omega)])])
+            if (abs(dot_product(curve, direction)) <= least_cosine*norm2(curve)) return
+            step = solution(matrix, [-[real(delta), aimag(delta)]/scale, &
+                                     value - point%along(direction)])
          end associate
          if (.not. all(abs(step) < 1.0_wp)) return
-         point%place = point%place + step(:2)
-         point%omega = point%omega*exp(step(3))
+         point = point%moved(step, 1.0_wp)
          associate (size_of_step => maxval(abs(step)))
             found = size_of_step <= last_step .or. &
                     (size_of_step <= small_step .and. size_of_step > 0.5_wp*before)
@@ -174,7 +207,7 @@ contains
       end do
       found = found .or. before <= small_step
       if (.not. present(tangent) .or. .not. found) return
-      tangent = sign(1.0_wp, dot_product(along, direction))*along/norm2(along)
+      tangent = sign(1.0_wp, dot_product(curve, direction))*curve/norm2(curve)
    end subroutine correct
 
    !> Solution of three equations, by Cramer's rule.

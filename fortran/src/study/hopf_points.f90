@@ -6,7 +6,7 @@ module hopf_points
    use dde_kinds, only: wp
    use gsl_roots, only: find_root, scalar_function_type
    use hopf_curves, only: curve_point_type
-   use hopf_planes, only: axis_point_type, curve_plane_type, turn
+   use hopf_planes, only: axis_point_type, chord_of, curve_plane_type, side, turn
    use hopf_unfoldings, only: unfold_double_hopf, unfold_generalised_hopf, unfolding_type
    use model_problem, only: model_type
    use normal_form, only: first_lyapunov_coefficient
@@ -58,9 +58,7 @@ contains
 
    !> First Lyapunov coefficients and numbers of unstable pairs of points on curves.
    subroutine judge_points(plane, points, error)
-      !> The plane
       type(curve_plane_type), intent(in) :: plane
-      !> The points
       type(curve_point_type), intent(inout) :: points(:)
       !> No coefficient: another root at 2 i omega
       type(error_type), allocatable, intent(out) :: error
@@ -79,9 +77,7 @@ contains
 
    !> All special points on curves that have been judged.
    subroutine find_hopf_points(plane, points, found, error)
-      !> The plane
       type(curve_plane_type), intent(in) :: plane
-      !> Points of its curves
       type(curve_point_type), intent(in) :: points(:)
       !> Special points
       type(hopf_point_type), allocatable, intent(out) :: found(:)
@@ -111,7 +107,7 @@ contains
             if (abs(coefficient%value(share)) <= small_coefficient) then
                at = point_between(plane, coefficient%ends, share)
                call add_point(found, "generalised_hopf", plane, at, [at%omega], error, &
-                              chord_of(coefficient%ends))
+                              direction_of(coefficient%ends))
                if (allocated(error)) return
             end if
          end if
@@ -145,20 +141,20 @@ contains
       real(wp) :: chord(3)
       logical :: found
 
-      chord = chord_of(ends)
+      chord = direction_of(ends)
       point%place = (1.0_wp - share)*ends(1)%place + share*ends(2)%place
       point%omega = ends(1)%omega**(1.0_wp - share)*ends(2)%omega**share
-      call plane%correct(point, chord, dot_product(chord, [point%place, log(point%omega)]), found)
+      call plane%correct(point, chord, point%along(chord), found)
    end function point_between
 
    !> The direction from one point to another in (place, ln omega), of length 1.
-   pure function chord_of(ends) result(chord)
+   pure function direction_of(ends) result(direction)
       type(axis_point_type), intent(in) :: ends(2)
-      real(wp) :: chord(3)
+      real(wp) :: direction(3)
 
-      chord = [ends(2)%place - ends(1)%place, log(ends(2)%omega/ends(1)%omega)]
-      chord = chord/norm2(chord)
-   end function chord_of
+      direction = chord_of(ends(1), ends(2))
+      direction = direction/norm2(direction)
+   end function direction_of
 
    !> The coefficient at a share of the way between the points.
    real(wp) function coefficient_between(self, x) result(value)
@@ -177,23 +173,10 @@ contains
    pure logical function cross(one, other) result(value)
       type(axis_point_type), intent(in) :: one(2), other(2)
 
-      value = .false.
-      if (max(one(1)%place(1), one(2)%place(1)) < min(other(1)%place(1), other(2)%place(1))) return
-      if (min(one(1)%place(1), one(2)%place(1)) > max(other(1)%place(1), other(2)%place(1))) return
-      if (max(one(1)%place(2), one(2)%place(2)) < min(other(1)%place(2), other(2)%place(2))) return
-      if (min(one(1)%place(2), one(2)%place(2)) > max(other(1)%place(2), other(2)%place(2))) return
-      value = side(one, other(1))*side(one, other(2)) <= 0.0_wp .and. &
-              side(other, one(1))*side(other, one(2)) < 0.0_wp
-   end function cross
-
-   !> On which side of a chord a point is.
-   pure real(wp) function side(chord, point) result(value)
-      type(axis_point_type), intent(in) :: chord(2), point
-
-      associate (way => chord(2)%place - chord(1)%place, from => point%place - chord(1)%place)
-         value = way(1)*from(2) - way(2)*from(1)
+      associate (a => one(1)%place, b => one(2)%place, c => other(1)%place, d => other(2)%place)
+         value = side(a, b, c)*side(a, b, d) <= 0.0_wp .and. side(c, d, a)*side(c, d, b) < 0.0_wp
       end associate
-   end function side
+   end function cross
 
    !> Where two curves meet, near where their chords do: the points on both go along the tangents
    !> until they are at the same place.
@@ -208,8 +191,8 @@ contains
 
       at = one(1)
       there = other(1)
-      tangents(:, 1) = chord_of(one)
-      tangents(:, 2) = chord_of(other)
+      tangents(:, 1) = direction_of(one)
+      tangents(:, 2) = direction_of(other)
       do i = 1, most_steps
          way = there%place - at%place
          if (i > 1 .and. maxval(abs(way)) <= last_distance) exit
@@ -233,9 +216,8 @@ contains
          real(wp) :: before(3), value
 
          before = tangent
-         value = dot_product(before, [point%place, log(point%omega)]) + length
-         point = axis_point_type(point%place + length*before(:2), &
-                                 point%omega*exp(length*before(3)))
+         value = point%along(before) + length
+         point = point%moved(before, length)
          call plane%correct(point, before, value, found, tangent)
       end subroutine advance
    end subroutine find_meeting

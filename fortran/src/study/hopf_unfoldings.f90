@@ -31,9 +31,7 @@ contains
    !> derivative, folds have Re(c1) = -2 Re(c2) r and mu = Re(c2) r^2: their curve touches the Hopf
    !> curve and leaves towards the part where l1 and l2 differ in sign.
    subroutine unfold_generalised_hopf(plane, at, direction, unfolding, error)
-      !> The plane
       type(curve_plane_type), intent(in) :: plane
-      !> The point
       type(axis_point_type), intent(in) :: at
       !> About the direction of the curve in (place, ln omega), of any sign
       real(wp), intent(in) :: direction(3)
@@ -48,15 +46,11 @@ contains
       logical :: found
 
       beside = at
-      call plane%correct(beside, direction, dot_product(direction, [at%place, log(at%omega)]), &
-                         found, along)
+      call plane%correct(beside, direction, at%along(direction), found, along)
       do i = -2, 2
          if (.not. found) exit
-         associate (way => i*slope_step*along)
-            beside = axis_point_type(at%place + way(:2), at%omega*exp(way(3)))
-            call plane%correct(beside, along, dot_product(along, [at%place, log(at%omega)] + way), &
-                               found)
-         end associate
+         beside = at%moved(along, i*slope_step)
+         call plane%correct(beside, along, at%along(along) + i*slope_step, found)
          if (.not. found) exit
          call normal_form_coefficient(plane%model_at(plane%numbers_at(beside%place)), &
                                       [beside%omega], [2, 1], c1(i), error)
@@ -77,7 +71,6 @@ contains
 
    !> The coefficients, and the directions by mu_j = sum over parameters of Re(d root_j).
    subroutine unfold_double_hopf(plane, numbers, omega, unfolding, error)
-      !> The plane
       type(curve_plane_type), intent(in) :: plane
       !> All parameters of the point, frequencies of the pairs
       real(wp), intent(in) :: numbers(:), omega(2)
@@ -98,7 +91,6 @@ contains
 
    !> The step (abscissa, ordinate) from a double Hopf point to given growth rates.
    function way_to_growth(plane, numbers, omega, mu) result(way)
-      !> The plane
       type(curve_plane_type), intent(in) :: plane
       !> All parameters of the point, frequencies and growth rates of the pairs
       real(wp), intent(in) :: numbers(:), omega(2), mu(2)

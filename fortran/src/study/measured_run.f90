@@ -73,7 +73,6 @@ contains
 
    !> Run a case once, with samples.
    subroutine measure_run(case, disturbance, most_steps, run, progress)
-      !> The case
       type(case_type), intent(in) :: case
       !> Change of the values before the initial time, relative where they are exponentials of
       !> states
@@ -114,7 +113,6 @@ contains
    !> take turns, so that a machine that is busy for a while hits all alike. A long run, and one
    !> that did not reach the end, keeps the time of its first.
    subroutine time_runs(case, most_steps, repeats, least_seconds, runs, progress)
-      !> The case
       type(case_type), intent(in) :: case
       !> Most steps of the solver
       integer(int64), intent(in) :: most_steps

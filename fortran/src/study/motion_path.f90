@@ -36,11 +36,9 @@ contains
    !> time. There is no path if the run ends before its time: that of the class of the motion was
    !> another.
    subroutine follow_path(model, from, time, closeness, options, path)
-      !> The model
       class(model_type), intent(in) :: model
       !> Where the motion is
       type(continuation_type), intent(in) :: from
-      !> How long
       real(wp), intent(in) :: time
       !> How close the line is to the motion, as a share of its extent in the signal and the
       !> coordinate. In time it is half of that: plots over time are wide.

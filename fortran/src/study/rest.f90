@@ -66,7 +66,6 @@ contains
 
    !> The real parts of the rightmost roots; fewer where there are no more to be found.
    subroutine exponents_at_rest(model, wanted, exponents, error)
-      !> The model
       class(model_type), intent(in) :: model
       !> How many
       integer, intent(in) :: wanted

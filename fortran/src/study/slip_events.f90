@@ -1,7 +1,7 @@
 !> Events are the times in which the signal of a block is above a threshold. Of the spring block
 !> they are slips: with v > 1 it is faster than the plate, and its spring unloads.
 module slip_events
-   use dde, only: event_watcher_type, instant, integrate, integration_options, &
+   use dde, only: event_table, event_watcher_type, instant, integrate, integration_options, &
                   integration_result
    use dde_errors, only: error_type
    use dde_kinds, only: wp
@@ -36,18 +36,18 @@ module slip_events
       real(wp) :: least_velocity = huge(1.0_wp)
    end type slip_event_type
 
-   !> The events of all blocks in the order of their onsets. The functions of a block are the
-   !> component of the signal less that of each threshold, whose zeros begin and end events, and its
-   !> slope.
+   !> The events of all blocks in the order of their onsets.
    type, extends(event_watcher_type) :: slip_watcher_type
       !> Events that begin before this time are left out
       real(wp) :: t_transient = 0.0_wp
       !> What is observed, and the number of states of a block
       type(observed_type) :: observed
       integer :: states = 0
-      !> Thresholds, the component at them, and the number of functions of a block
-      real(wp), allocatable :: thresholds(:), levels(:)
-      integer :: functions = 0
+      !> Thresholds
+      real(wp), allocatable :: thresholds(:)
+      !> The functions of each block in turn: the component of the signal less that of each
+      !> threshold, whose zeros begin and end events, and its slope
+      type(event_table) :: passages
       !> Events, the first `begun` of them
       type(slip_event_type), allocatable :: events(:)
       integer :: begun = 0
@@ -56,12 +56,9 @@ module slip_events
       integer, allocatable :: last(:, :)
       real(wp), allocatable :: integral(:, :)
    contains
-      procedure :: reads => places_of_signal
-      procedure :: reads_for => place_of_signal
+      procedure :: reads, reads_for, never_zero, values
+      procedure :: value => one_value
       procedure :: takes => places_of_event
-      procedure :: never_zero => keep_from_zero
-      procedure :: values => signal_and_slope
-      procedure :: value => signal_or_slope
       procedure :: take => take_passage
    end type slip_watcher_type
 
@@ -80,30 +77,38 @@ contains
       real(wp), intent(in) :: t_end
       !> Method and tolerances
       type(integration_options), intent(in) :: options
-      !> The events
       type(slip_event_type), allocatable, intent(out) :: events(:)
       !> The run ended before its time
       type(error_type), allocatable, intent(out) :: error
       type(integration_result) :: outcome
       type(slip_watcher_type) :: watcher
-      integer :: blocks
+      real(wp), allocatable :: levels(:)
+      integer :: block, blocks, k, n
 
       blocks = model%shape%blocks
       watcher%observed = model%sizes%observed
       watcher%states = model%states()
       watcher%t_transient = t_transient
-      watcher%levels = thresholds
-      if (watcher%observed%is_exponential) watcher%levels = log(thresholds)
-      if (size(thresholds) == 0) watcher%levels = [event_level(model)]
-      watcher%thresholds = watcher%levels
-      if (watcher%observed%is_exponential) watcher%thresholds = exp(watcher%levels)
-      if (size(thresholds) > 0) watcher%thresholds = thresholds
-      watcher%functions = size(watcher%levels) + 1
-      allocate (watcher%direction(watcher%functions*blocks), source=0)
-      allocate (watcher%terminal(watcher%functions*blocks), source=.false.)
+      watcher%thresholds = thresholds
+      levels = thresholds
+      if (watcher%observed%is_exponential) levels = log(thresholds)
+      if (size(thresholds) == 0) then
+         levels = [event_level(model)]
+         watcher%thresholds = levels
+         if (watcher%observed%is_exponential) watcher%thresholds = exp(levels)
+      end if
+      n = size(levels)
+      watcher%passages = event_table( &
+                         [((watcher%states*(block - 1) + watcher%observed%component, k=0, n), &
+                           block=1, blocks)], &
+                         level=[([levels, 0.0_wp], block=1, blocks)], &
+                         direction=[((0, k=0, n), block=1, blocks)], &
+                         of_slope=[([(.false., k=1, n), .true.], block=1, blocks)])
+      watcher%direction = watcher%passages%direction
+      watcher%terminal = watcher%passages%terminal
       allocate (watcher%events(first_rows))
-      allocate (watcher%last(size(watcher%levels), blocks), source=0)
-      allocate (watcher%integral(size(watcher%levels), blocks), source=0.0_wp)
+      allocate (watcher%last(n, blocks), source=0)
+      allocate (watcher%integral(n, blocks), source=0.0_wp)
       call integrate(model, 0.0_wp, t_end, options, outcome, error, watcher=watcher)
       if (allocated(error)) return
       associate (begun => watcher%events(:watcher%begun))
@@ -112,24 +117,22 @@ contains
    end subroutine find_slip_events
 
    !> The places of the signal of all blocks.
-   pure function places_of_signal(self, n) result(components)
+   pure function reads(self, n) result(components)
       class(slip_watcher_type), intent(in) :: self
       integer, intent(in) :: n
       integer, allocatable :: components(:)
-      integer :: place
 
-      components = [(self%states*(place - 1) + self%observed%component, &
-                     place=1, size(self%last, 2))]
-   end function places_of_signal
+      components = self%passages%reads(n)
+   end function reads
 
    !> The place of the signal of the block of a function.
-   pure function place_of_signal(self, which, n) result(components)
+   pure function reads_for(self, which, n) result(components)
       class(slip_watcher_type), intent(in) :: self
       integer, intent(in) :: which, n
       integer, allocatable :: components(:)
 
-      components = [first_place(self, which) + self%observed%component]
-   end function place_of_signal
+      components = self%passages%reads_for(which, n)
+   end function reads_for
 
    !> The places of the integral and of the signal of the block of a function.
    pure function places_of_event(self, which, n) result(components)
@@ -138,62 +141,37 @@ contains
       integer, allocatable :: components(:)
 
       associate (observed => self%observed)
-         components = first_place(self, which) + pack([observed%integral, observed%component], &
-                                                      [observed%integral > 0, .true.])
+         components = self%passages%component(which) - observed%component &
+                      + pack([observed%integral, observed%component], &
+                             [observed%integral > 0, .true.])
       end associate
    end function places_of_event
 
-   !> The place before those of the block of a function.
-   pure integer function first_place(self, which) result(place)
-      class(slip_watcher_type), intent(in) :: self
-      integer, intent(in) :: which
-
-      place = self%states*((which - 1)/self%functions)
-   end function first_place
-
    !> Whether the signal of all blocks keeps from the thresholds, and its slope from zero.
-   pure logical function keep_from_zero(self, least, most, least_slope, most_slope) result(value)
+   pure logical function never_zero(self, least, most, least_slope, most_slope) result(value)
       class(slip_watcher_type), intent(in) :: self
       real(wp), intent(in) :: least(:), most(:), least_slope(:), most_slope(:)
 
-      integer :: k
-
-      associate (signal => self%reads(size(least)), levels => self%levels)
-         value = all(least_slope(signal) > 0.0_wp .or. most_slope(signal) < 0.0_wp)
-         do k = 1, size(levels)
-            value = value .and. all(least(signal) > levels(k) .or. most(signal) < levels(k))
-         end do
-      end associate
-   end function keep_from_zero
+      value = self%passages%never_zero(least, most, least_slope, most_slope)
+   end function never_zero
 
    !> All functions.
-   pure subroutine signal_and_slope(self, t, y, slope, g)
+   pure subroutine values(self, t, y, slope, g)
       class(slip_watcher_type), intent(in) :: self
       real(wp), intent(in) :: t, y(:), slope(:)
       real(wp), intent(out) :: g(:)
-      integer :: k
 
-      do k = 1, size(self%thresholds)
-         g(k::self%functions) = y(self%observed%component::self%states) - self%levels(k)
-      end do
-      g(self%functions::self%functions) = slope(self%observed%component::self%states)
-   end subroutine signal_and_slope
+      call self%passages%values(t, y, slope, g)
+   end subroutine values
 
    !> One of these functions.
-   pure real(wp) function signal_or_slope(self, which, t, y, slope) result(value)
+   pure real(wp) function one_value(self, which, t, y, slope) result(value)
       class(slip_watcher_type), intent(in) :: self
       integer, intent(in) :: which
       real(wp), intent(in) :: t, y(:), slope(:)
 
-      associate (signal => first_place(self, which) + self%observed%component, &
-                 k => modulo(which, self%functions))
-         if (k == 0) then
-            value = slope(signal)
-         else
-            value = y(signal) - self%levels(k)
-         end if
-      end associate
-   end function signal_or_slope
+      value = self%passages%value(which, t, y, slope)
+   end function one_value
 
    !> Begin or end an event of a block, or note an extreme of its signal.
    subroutine take_passage(self, which, t, y, slope)
@@ -201,16 +179,19 @@ contains
       integer, intent(in) :: which
       type(instant), intent(in) :: t
       real(wp), intent(in) :: y(:), slope(:)
-      integer :: first, i, k, place
+      integer :: functions, i, k, place, signal
       real(wp) :: integral, v
 
-      place = (which + self%functions - 1)/self%functions
-      k = modulo(which, self%functions)
-      first = first_place(self, which)
-      v = y(first + self%observed%component)
+      functions = size(self%thresholds) + 1
+      place = (which + functions - 1)/functions
+      k = modulo(which, functions)
+      signal = self%passages%component(which)
+      v = y(signal)
       if (self%observed%is_exponential) v = exp(v)
       integral = 0.0_wp
-      if (self%observed%integral > 0) integral = y(first + self%observed%integral)
+      associate (observed => self%observed)
+         if (observed%integral > 0) integral = y(signal - observed%component + observed%integral)
+      end associate
       if (k == 0) then
          do i = 1, size(self%thresholds)
             if (self%last(i, place) == 0) cycle
@@ -219,7 +200,7 @@ contains
                event%least_velocity = min(event%least_velocity, v)
             end associate
          end do
-      else if (slope(first + self%observed%component) > 0.0_wp) then
+      else if (slope(signal) > 0.0_wp) then
          if (self%last(k, place) > 0) then
             associate (event => self%events(self%last(k, place)))
                event%recurrence_time = t%hi - event%onset

@@ -26,7 +26,6 @@ contains
 
    !> Changes of stability of all modes along a parameter, ascending.
    subroutine find_changes(model, window, changes, error)
-      !> The model
       type(model_type), intent(in) :: model
       !> Window on the parameter
       real(wp), intent(in) :: window(2)
@@ -58,7 +57,6 @@ contains
 
    !> Number of unstable roots without delays, of all modes.
    integer function roots_without_delay(model) result(number)
-      !> The model
       type(model_type), intent(in) :: model
       type(characteristic_type) :: c
       integer :: i

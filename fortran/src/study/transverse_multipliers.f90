@@ -3,18 +3,21 @@
 !> `transverse_growth`. All is found on two meshes, the second finer.
 module transverse_multipliers
    use branch_ends, only: refinement_type
-   use collocation_basis, only: collocation_basis_type, radau_points
+   use collocation_basis, only: collocation_basis_type
    use cycle_branches, only: find_reached_orbit
    use dde, only: integration_options
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use floquet_multipliers, only: find_largest_multiplier, find_multipliers, multipliers_type
+   use floquet_multipliers, only: find_multipliers, multipliers_type
    use gsl_roots, only: find_root, scalar_function_type
    use model_family, only: family_type, fixed_model
    use model_problem, only: model_type
+   use orbit_branch, only: make_accurate
    use orbit_change, only: orbit_change_type
    use orbit_equations, only: correct_orbit, newton_type
+   use orbit_linearisation, only: linearise_orbit
    use orbit_mesh, only: adapted_mesh
+   use orbit_passes, only: orbit_passes_type
    use periodic_orbit, only: periodic_orbit_type
    use transverse_growth, only: of_mode, transverse_growth_type, zero_type
    implicit none (type, external)
@@ -68,7 +71,6 @@ contains
       type(integration_options), intent(in) :: options
       !> Stiffness of the modes over that of one block, >= 1, ascending
       real(wp), intent(in) :: s(:)
-      !> What was found
       type(transverse_cycle_type), intent(out) :: on_cycle
       type(error_type), allocatable :: error
       type(periodic_orbit_type) :: orbits(2)
@@ -99,7 +101,7 @@ contains
       real(wp) :: distance
 
       call find_reached_orbit(model, t_end, options, &
-                              collocation_basis_type(degree, radau_points), first_intervals, &
+                              collocation_basis_type(degree), first_intervals, &
                               reached, error)
       if (allocated(error)) return
       if (reached%amplitude() < least_amplitude) then
@@ -107,7 +109,7 @@ contains
          return
       end if
       family = fixed_model(kept(model))
-      call make_accurate(family, reached, orbits(1), multipliers, problem)
+      call correct_cycle(family, reached, orbits(1), multipliers, problem)
       if (allocated(problem)) then
          call raise(error, "no cycle was found at the end of the motion: "//problem%message)
          return
@@ -122,13 +124,13 @@ contains
       end if
       if (allocated(error)) return
       associate (intervals => nint(finer*orbits(1)%intervals()))
-         call make_accurate(family, orbits(1)%on_mesh(adapted_mesh(orbits(1), intervals)), &
+         call correct_cycle(family, orbits(1)%on_mesh(adapted_mesh(orbits(1), intervals)), &
                             orbits(2), multipliers, error)
       end associate
    end subroutine find_cycle
 
-   !> Correct a cycle on adapted meshes until its trivial multiplier is accurate.
-   subroutine make_accurate(family, start, orbit, multipliers, error)
+   !> Correct a cycle, on adapted meshes until its trivial multiplier is accurate.
+   subroutine correct_cycle(family, start, orbit, multipliers, error)
       type(family_type), intent(in) :: family
       type(periodic_orbit_type), intent(in) :: start
       type(periodic_orbit_type), intent(out) :: orbit
@@ -136,29 +138,18 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(newton_type) :: newton
       type(orbit_change_type) :: no_direction(0)
-      type(periodic_orbit_type) :: reference
-      type(refinement_type) :: refinement
-      integer :: intervals, round
+      type(refinement_type), parameter :: refinement = refinement_type(most_rounds=most_rounds)
 
       orbit = start
-      intervals = start%intervals()
-      do round = 1, most_rounds
-         reference = orbit
-         call correct_orbit(family, reference, no_direction, [real(wp) ::], orbit, newton, error)
-         if (allocated(error)) return
-         call find_multipliers(family, orbit, refinement%multipliers, multipliers, error, &
-                               linear=newton%linear)
-         if (allocated(error)) return
-         if (round > 1) then
-            if (multipliers%trivial_error <= refinement%accuracy) return
-            intervals = refinement%next_intervals(intervals)
-         end if
-         if (round < most_rounds) orbit = orbit%on_mesh(adapted_mesh(orbit, intervals))
-      end do
+      call correct_orbit(family, start, no_direction, [real(wp) ::], orbit, newton, error)
+      if (allocated(error)) return
+      call make_accurate(family, refinement, orbit, no_direction, newton, multipliers, .true., &
+                         error)
+      if (allocated(error) .or. multipliers%trivial_error <= refinement%accuracy) return
       call raise(error, "cycle: the trivial multiplier differs from 1 by " &
                  //text(multipliers%trivial_error)//"; at most "//text(refinement%accuracy) &
                  //" expected")
-   end subroutine make_accurate
+   end subroutine correct_cycle
 
    !> The largest difference of a component at the nodes of the first orbit, over its range.
    pure real(wp) function distance_of(first, second) result(distance)
@@ -219,12 +210,15 @@ contains
       real(wp), intent(in) :: s
       real(wp), intent(out) :: exponent
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: modulus
+      type(multipliers_type) :: found
+      type(orbit_passes_type) :: linear
 
       exponent = -huge(1.0_wp)
-      call find_largest_multiplier(fixed_model(of_mode(self%model, s)), self%orbit, modulus, error)
+      call linearise_orbit(fixed_model(of_mode(self%model, s)), self%orbit, linear, error)
       if (allocated(error)) return
-      exponent = log(modulus)/self%orbit%period
+      call find_multipliers(linear, 0, found, error)
+      if (allocated(error)) return
+      exponent = log(found%greatest)/self%orbit%period
    end subroutine find_exponent
 
    !> The exponent as GSL asks for it; very negative if it was not found.

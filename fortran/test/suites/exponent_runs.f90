@@ -1,14 +1,16 @@
-!> Lyapunov exponents of a problem, in one call.
+!> Growth of tangent vectors and Lyapunov exponents of a problem, in one call.
 module exponent_runs
    use dde, only: continuation_type, dde_problem_type, integration_options
    use dde_errors, only: failure_type => error_type
    use expectations, only: expect, expect_success
    use exponent_averages, only: average_growth, exponent_type
-   use lyapunov_spectrum, only: growth_settings_type, growth_type, measure_growth
+   use lyapunov_spectrum, only: growth_settings_type, growth_type, interval_observer_type, &
+                                measure_growth
    use mctc_env_testing, only: error_type
+   use progress_receiver, only: progress_receiver_type
    implicit none (type, external)
    private
-   public :: find_exponents
+   public :: find_exponents, measure
 
 contains
 
@@ -21,16 +23,31 @@ contains
       type(error_type), allocatable, intent(inout) :: error
       type(growth_type), intent(out), optional :: measured
       type(continuation_type), intent(in), optional :: arrived
-      type(failure_type), allocatable :: failure
       type(growth_type) :: found
 
       allocate (exponents(0))
-      if (allocated(error)) return
-      call measure_growth(problem, settings, options, found, failure, arrived)
-      call expect_success(error, failure)
+      call measure(error, problem, settings, options, found, arrived)
       if (allocated(error)) return
       exponents = average_growth(found%growth, found%length, settings%blocks, settings%across_flow)
       call expect(error, size(exponents) == settings%exponents, "as many exponents as asked for")
       if (present(measured)) measured = found
    end subroutine find_exponents
+
+   !> Growth that must be measured.
+   subroutine measure(error, problem, settings, options, measured, arrived, progress, observer)
+      type(error_type), allocatable, intent(inout) :: error
+      class(dde_problem_type), intent(in) :: problem
+      type(growth_settings_type), intent(in) :: settings
+      type(integration_options), intent(in) :: options
+      type(growth_type), intent(out) :: measured
+      type(continuation_type), intent(in), optional :: arrived
+      class(progress_receiver_type), intent(inout), optional :: progress
+      class(interval_observer_type), intent(inout), optional :: observer
+      type(failure_type), allocatable :: failure
+
+      if (allocated(error)) return
+      call measure_growth(problem, settings, options, measured, failure, arrived, progress, &
+                          observer)
+      call expect_success(error, failure)
+   end subroutine measure
 end module exponent_runs

@@ -40,8 +40,6 @@ module known_models
    type, extends(analytic_model) :: known_model
       !> The equation
       integer :: equation = 0
-      !> Counts how often the model is given parameters, where it is associated
-      integer, pointer :: made => null()
    contains
       procedure :: put => put_known
       procedure :: slope => known_slope
@@ -108,7 +106,6 @@ contains
       class(known_model), intent(inout) :: self
       real(wp), intent(in) :: parameters(:)
 
-      if (associated(self%made)) self%made = self%made + 1
       self%numbers = parameters
       associate (p => parameters)
          select case (self%equation)

@@ -2,7 +2,7 @@
 module orbit_runs
    use block_builder, only: index_of_ln_v
    use branch_ends, only: follow_settings_type
-   use collocation_basis, only: collocation_basis_type, gauss_points
+   use collocation_basis, only: collocation_basis_type
    use dde, only: continuation_type, dde_problem_type, event_table, integrate, integration_result
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
@@ -15,7 +15,9 @@ module orbit_runs
    use orbit_branch, only: branch_type, follow_branch
    use orbit_change, only: orbit_change_type
    use orbit_equations, only: correct_orbit, newton_type
+   use orbit_linearisation, only: linearise_orbit
    use orbit_mesh, only: adapted_mesh, uniform_mesh
+   use orbit_passes, only: orbit_passes_type
    use orbit_points, only: find_special_points
    use orbit_start, only: orbit_at_hopf_point, orbit_of_trajectory
    use periodic_orbit, only: periodic_orbit_type
@@ -23,18 +25,18 @@ module orbit_runs
    use special_points, only: special_point_type
    implicit none (type, external)
    private
-   public :: advance, branch_from, branch_from_hopf, correct, cycle_of_block, new_orbit, &
-             orbit_of_block
+   public :: advance, branch_from, branch_from_hopf, correct, cycle_of_block, multipliers_of, &
+             new_orbit, orbit_of_block
 
 contains
 
    !> An orbit on a uniform mesh, without its nodes.
-   pure type(periodic_orbit_type) function new_orbit(degree, points, intervals, period, &
-                                                     parameters) result(orbit)
-      integer, intent(in) :: degree, points, intervals
+   pure type(periodic_orbit_type) function new_orbit(degree, intervals, period, parameters) &
+      result(orbit)
+      integer, intent(in) :: degree, intervals
       real(wp), intent(in) :: period, parameters(:)
 
-      orbit%basis = collocation_basis_type(degree, points)
+      orbit%basis = collocation_basis_type(degree)
       orbit%mesh = uniform_mesh(intervals)
       orbit%period = period
       orbit%parameters = parameters
@@ -82,10 +84,10 @@ contains
    end subroutine advance
 
    !> The orbit of a block that a trajectory has reached, before its correction.
-   subroutine orbit_of_block(block, t_end, degree, points, intervals, orbit, error)
+   subroutine orbit_of_block(block, t_end, degree, intervals, orbit, error)
       type(model_type), intent(in) :: block
       real(wp), intent(in) :: t_end
-      integer, intent(in) :: degree, points, intervals
+      integer, intent(in) :: degree, intervals
       type(periodic_orbit_type), intent(out) :: orbit
       type(error_type), allocatable, intent(inout) :: error
       type(continuation_type) :: arrived
@@ -96,17 +98,16 @@ contains
                continuation=arrived)
       if (allocated(error)) return
       call orbit_of_trajectory(block, at_tolerance(1.0e-9_wp, "auto"), arrived, index_of_ln_v, &
-                               100.0_wp, collocation_basis_type(degree, points), intervals, orbit, &
-                               failure)
+                               100.0_wp, collocation_basis_type(degree), intervals, orbit, failure)
       call expect_success(error, failure)
       orbit%parameters = block%numbers
    end subroutine orbit_of_block
 
    !> The orbit of a block that a trajectory has reached, corrected, with its multipliers.
-   subroutine cycle_of_block(block, t_end, degree, points, intervals, orbit, multipliers, error)
+   subroutine cycle_of_block(block, t_end, degree, intervals, orbit, multipliers, error)
       type(model_type), intent(in) :: block
       real(wp), intent(in) :: t_end
-      integer, intent(in) :: degree, points, intervals
+      integer, intent(in) :: degree, intervals
       type(periodic_orbit_type), intent(out) :: orbit
       type(multipliers_type), intent(out) :: multipliers
       type(error_type), allocatable, intent(inout) :: error
@@ -114,17 +115,33 @@ contains
       type(newton_type) :: newton
       integer :: i
 
-      call orbit_of_block(block, t_end, degree, points, intervals, orbit, error)
+      call orbit_of_block(block, t_end, degree, intervals, orbit, error)
       do i = 1, 2
          if (allocated(error)) return
          call correct(mode_of(block, 1), orbit, newton, failure)
          call expect_success(error, failure)
          if (i == 1) orbit = orbit%on_mesh(adapted_mesh(orbit, intervals))
       end do
-      if (allocated(error)) return
-      call find_multipliers(fixed_model(mode_of(block, 1)), orbit, 6, multipliers, failure)
-      call expect_success(error, failure)
+      call multipliers_of(mode_of(block, 1), orbit, 6, multipliers, error)
    end subroutine cycle_of_block
+
+   !> Multipliers of an orbit of a model.
+   subroutine multipliers_of(model, orbit, wanted, multipliers, error)
+      class(model_type), intent(in) :: model
+      type(periodic_orbit_type), intent(in) :: orbit
+      integer, intent(in) :: wanted
+      type(multipliers_type), intent(out) :: multipliers
+      type(error_type), allocatable, intent(inout) :: error
+      type(failure_type), allocatable :: failure
+      type(orbit_passes_type) :: linear
+
+      if (allocated(error)) return
+      call linearise_orbit(fixed_model(model), orbit, linear, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call find_multipliers(linear, wanted, multipliers, failure)
+      call expect_success(error, failure)
+   end subroutine multipliers_of
 
    !> A branch from an orbit, and its special points.
    subroutine branch_from(orbit, settings, direction, branch, special, error, tangent)
@@ -157,7 +174,7 @@ contains
       type(periodic_orbit_type) :: orbit
 
       call orbit_at_hopf_point(settings%family, parameters, omega, amplitude, &
-                               collocation_basis_type(5, gauss_points), 20, orbit, tangent, failure)
+                               collocation_basis_type(5), 20, orbit, tangent, failure)
       call expect_success(error, failure)
       call branch_from(orbit, settings, 1, branch, special, error, tangent)
    end subroutine branch_from_hopf

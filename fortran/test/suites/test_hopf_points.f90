@@ -3,7 +3,6 @@
 module test_hopf_points
    use block_builder, only: block_at, by_epsilon, by_tau, index_of_ln_v
    use centre_manifold, only: normal_form_coefficient
-   use characteristic_roots, only: find_roots
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close, expect_success
@@ -14,6 +13,7 @@ module test_hopf_points
    use hopf_unfoldings, only: way_to_growth
    use linear_system, only: linear_part
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use model_roots, only: find_model_roots
    use normal_form, only: critical_vectors, first_lyapunov_coefficient
    use paper_equations, only: relative_residual
    use traced_planes, only: find_points, known_numbers, plane_number, planes
@@ -149,7 +149,7 @@ contains
       do pair = 1, 2
          numbers = point%numbers
          numbers(plane%along) = numbers(plane%along) + step*point%unfolding%start(:, pair)
-         call find_roots(linear_part(block_at(numbers)), -0.05_wp, roots, failure)
+         call find_model_roots(block_at(numbers), -0.05_wp, roots, failure)
          call expect_success(error, failure)
          if (allocated(error)) return
          do j = 1, 2

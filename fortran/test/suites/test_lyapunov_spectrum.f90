@@ -5,6 +5,7 @@ module test_lyapunov_spectrum
    use dde, only: continuation_type, dde_problem_type, integrate, integration_options, &
                   integration_result, table_sampler
    use dde_errors, only: failure_type => error_type
+   use exponent_runs, only: measure
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use dde_kinds, only: wp
    use lyapunov_spectrum, only: extend_growth, growth_settings_type, growth_type, &
@@ -75,15 +76,13 @@ contains
 
       settings = growth_settings_type(exponents=4, t_begin=150.0_wp, t_end=250.0_wp, &
                                       t_turning=50.0_wp, interval=6.0_wp, blocks=2)
-      call measure_growth(oscillation(), settings, at_tolerance(1.0e-8_wp), halves, failure)
-      call expect_success(error, failure)
+      call measure(error, oscillation(), settings, at_tolerance(1.0e-8_wp), halves)
       if (allocated(error)) return
       call expect(error, all(shape(halves%growth) == [4, 18]), "18 intervals")
       call extend_growth(oscillation(), settings, at_tolerance(1.0e-8_wp), halves, failure)
       call expect_success(error, failure)
       settings%t_end = 350.0_wp
-      call measure_growth(oscillation(), settings, at_tolerance(1.0e-8_wp), whole, failure)
-      call expect_success(error, failure)
+      call measure(error, oscillation(), settings, at_tolerance(1.0e-8_wp), whole)
       if (allocated(error)) return
       call expect(error, all(shape(halves%growth) == [4, 36]), "36 intervals")
       call expect_close(error, halves%interval, 100.0_wp/18, 1.0e-12_wp, "interval")
@@ -117,17 +116,13 @@ contains
       real(wp), intent(in) :: tolerance
       type(error_type), allocatable, intent(inout) :: error
       type(continuation_type) :: arrived
-      type(failure_type), allocatable :: failure
       type(growth_type) :: one_go, two_goes
       type(integration_result) :: outcome
 
-      call measure_growth(oscillation(), alone, at_tolerance(1.0e-8_wp), one_go, failure)
-      call expect_success(error, failure)
+      call measure(error, oscillation(), alone, at_tolerance(1.0e-8_wp), one_go)
       call run(error, oscillation(), 0.0_wp, t_arrived, at_tolerance(1.0e-8_wp), outcome, &
                continuation=arrived)
-      call measure_growth(oscillation(), continued, at_tolerance(1.0e-8_wp), two_goes, failure, &
-                          arrived)
-      call expect_success(error, failure)
+      call measure(error, oscillation(), continued, at_tolerance(1.0e-8_wp), two_goes, arrived)
       if (allocated(error)) return
       call expect_close(error, two_goes%t_begin, alone%t_begin, 0.0_wp, "beginning")
       call expect_close(error, pack(two_goes%growth, .true.), pack(one_go%growth, .true.), &
@@ -139,14 +134,12 @@ contains
    !> is halved eleven times.
    subroutine test_fast(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       type(growth_type) :: measured
 
-      call measure_growth(build_block(tau=0.0_wp, epsilon=0.3_wp, xi=0.5_wp, gamma=1000.0_wp), &
-                          growth_settings_type(exponents=3, t_begin=1.0_wp, t_end=1.02_wp, &
-                                               interval=0.01_wp, blocks=2), &
-                          at_tolerance(1.0e-8_wp, "radau9"), measured, failure)
-      call expect_success(error, failure)
+      call measure(error, build_block(tau=0.0_wp, epsilon=0.3_wp, xi=0.5_wp, gamma=1000.0_wp), &
+                   growth_settings_type(exponents=3, t_begin=1.0_wp, t_end=1.02_wp, &
+                                        interval=0.01_wp, blocks=2), &
+                   at_tolerance(1.0e-8_wp, "radau9"), measured)
       if (allocated(error)) return
       call expect_close(error, sum(measured%growth(3, :))/0.02_wp, -2.0e6_wp, 2.0e3_wp, &
                         "the third exponent")
@@ -157,7 +150,6 @@ contains
    subroutine test_slips(error)
       type(error_type), allocatable, intent(out) :: error
       character(len=6), parameter :: methods(2) = ["auto  ", "radau9"]
-      type(failure_type), allocatable :: failure
       type(growth_type) :: measured(2)
       type(model_type) :: block
       integer :: i
@@ -165,12 +157,10 @@ contains
       block = build_block(tau=4.5_wp, epsilon=1.5_wp, xi=0.5_wp, gamma=1.0e8_wp, v=1.5_wp, &
                           law="slip_delayed_velocity")
       do i = 1, 2
-         call measure_growth(block, growth_settings_type( &
-                             exponents=3, t_begin=40.0_wp, t_end=120.0_wp, interval=20.0_wp, &
-                             bounds=.true., across_flow=.true.), &
-                             at_tolerance(1.0e-8_wp, methods(i)), measured(i), failure)
-         call expect_success(error, failure)
-         if (allocated(error)) return
+         call measure(error, block, growth_settings_type( &
+                      exponents=3, t_begin=40.0_wp, t_end=120.0_wp, interval=20.0_wp, &
+                      bounds=.true., across_flow=.true.), &
+                      at_tolerance(1.0e-8_wp, methods(i)), measured(i))
       end do
       call expect(error, measured(1)%steps < measured(2)%steps, "more steps than radau9")
    end subroutine test_slips
@@ -179,16 +169,13 @@ contains
    !> infinite. What is left has the size of the others and is orthogonal to them.
    subroutine test_noise(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       type(growth_type) :: measured
 
-      call measure_growth(build_block(tau=0.0_wp, epsilon=0.8_wp, xi=0.5_wp, gamma=1.0e4_wp, &
-                                      v=1.1_wp), &
-                          growth_settings_type(exponents=3, t_begin=1000.0_wp, t_end=1100.0_wp, &
-                                               interval=20.0_wp, bounds=.true., &
-                                               across_flow=.true.), &
-                          at_tolerance(1.0e-8_wp, "auto"), measured, failure)
-      call expect_success(error, failure)
+      call measure(error, &
+                   build_block(tau=0.0_wp, epsilon=0.8_wp, xi=0.5_wp, gamma=1.0e4_wp, v=1.1_wp), &
+                   growth_settings_type(exponents=3, t_begin=1000.0_wp, t_end=1100.0_wp, &
+                                        interval=20.0_wp, bounds=.true., across_flow=.true.), &
+                   at_tolerance(1.0e-8_wp, "auto"), measured)
       if (allocated(error)) return
       associate (vectors => reshape(measured%continuation%y(4:), [3, 2]))
          call expect(error, all(norm2(vectors, dim=1) < 1.0_wp), "a vector is large")
@@ -205,11 +192,10 @@ contains
       type(witness_type) :: witness
 
       settings = four_intervals(0.02_wp)
-      call measure_growth(stiff(0.0_wp), settings, at_tolerance(1.0e-8_wp, "radau9"), alone, &
-                          failure)
-      call expect_success(error, failure)
-      call measure_growth(stiff(0.0_wp), settings, at_tolerance(1.0e-8_wp, "radau9"), observed, &
-                          failure, observer=witness)
+      call measure(error, stiff(0.0_wp), settings, at_tolerance(1.0e-8_wp, "radau9"), alone)
+      call measure(error, stiff(0.0_wp), settings, at_tolerance(1.0e-8_wp, "radau9"), observed, &
+                   observer=witness)
+      if (allocated(error)) return
       call extend_growth(stiff(0.0_wp), settings, at_tolerance(1.0e-8_wp, "radau9"), observed, &
                          failure, witness)
       call expect_success(error, failure)
@@ -252,7 +238,6 @@ contains
    !> the divergence, -v - (gamma^2/xi)/v - dw/dt in (theta, u, w = ln v).
    subroutine test_divergence(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       type(growth_settings_type) :: settings
       type(growth_type) :: measured
       type(integration_result) :: outcome
@@ -262,9 +247,7 @@ contains
       integer :: i
 
       settings = four_intervals(0.02_wp)
-      call measure_growth(stiff(-1.0_wp), settings, at_tolerance(1.0e-8_wp, "radau9"), measured, &
-                          failure)
-      call expect_success(error, failure)
+      call measure(error, stiff(-1.0_wp), settings, at_tolerance(1.0e-8_wp, "radau9"), measured)
       samples = table_sampler([index_of_ln_v], &
                               [((1.0_wp - real(i, wp)/n)*settings%t_begin &
                                 + real(i, wp)/n*settings%t_end, i=0, n)])
@@ -296,9 +279,7 @@ contains
       call expect_failure(error, failure, &
                           "is left of a tangent vector without those before it; expected > 1.0")
       settings%bounds = .true.
-      call measure_growth(stiff(0.0_wp), settings, at_tolerance(1.0e-4_wp, "radau5"), measured, &
-                          failure)
-      call expect_success(error, failure)
+      call measure(error, stiff(0.0_wp), settings, at_tolerance(1.0e-4_wp, "radau5"), measured)
       if (allocated(error)) return
       call expect(error, all(measured%growth(3, :) < -log(1.0e1_wp)), "the third is lost")
       call expect_between(error, sum(measured%growth(:2, :))/2, -0.3_wp, 0.1_wp, &
@@ -344,7 +325,6 @@ contains
    !> 10 intervals in which vectors turn, 40 that are measured.
    subroutine test_progress(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       type(growth_settings_type) :: settings
       type(growth_type) :: watched
       type(linear) :: problem
@@ -353,9 +333,7 @@ contains
       problem = linear()
       settings = growth_settings_type(exponents=2, t_begin=6.0_wp, t_end=26.0_wp, &
                                       t_turning=5.0_wp, interval=0.5_wp, blocks=4)
-      call measure_growth(problem, settings, at_tolerance(1.0e-6_wp), watched, failure, &
-                          progress=receiver)
-      call expect_success(error, failure)
+      call measure(error, problem, settings, at_tolerance(1.0e-6_wp), watched, progress=receiver)
       if (allocated(error)) return
       call expect_counted(error, receiver, 50)
    end subroutine test_progress

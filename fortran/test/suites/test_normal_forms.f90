@@ -257,22 +257,26 @@ contains
       end do
    end subroutine test_block
 
-   !> The coefficients have a limit for large gamma, with a difference of order 1/gamma^2.
+   !> l1 and c2 have limits for large gamma, with differences of order 1/gamma^2.
    subroutine test_large_gamma(error)
       type(error_type), allocatable, intent(out) :: error
-      real(wp), parameter :: gamma(2) = [1.0e6_wp, 1.0e12_wp]
-      complex(wp) :: c2(2)
-      real(wp) :: omega
+      type(failure_type), allocatable :: failure
+      complex(wp) :: c2(4)
+      real(wp) :: l1(4), omega, p(4)
       integer :: i, j
 
-      do i = 1, 10
+      do i = 1, 12
          omega = 0.15_wp*i
-         do j = 1, 2
-            c2(j) = coefficient(block_at(block_with_pair(omega, 0.5_wp, gamma(j), 2)), &
-                                [omega], [3, 2], error)
+         do j = 1, 4
+            p = block_with_pair(omega, 0.5_wp, 10.0_wp**(3*j), 2)
+            c2(j) = coefficient(block_at(p), [omega], [3, 2], error)
+            call first_lyapunov_coefficient(block_at(p), omega, l1(j), failure)
+            call expect_success(error, failure)
          end do
-         call expect_close(error, abs(c2(2)/c2(1) - 1.0_wp), 0.0_wp, 1.0e-8_wp, &
+         call expect_close(error, abs(c2(4)/c2(2) - 1.0_wp), 0.0_wp, 1.0e-8_wp, &
                            "relative change of c2 at omega = "//text(omega))
+         call expect_close(error, l1(1), l1(4), 1.0e-5_wp, "l1 at 1e3")
+         call expect_close(error, l1(2:3), spread(l1(4), 1, 2), 1.0e-11_wp, "l1 at 1e6 and 1e9")
       end do
    end subroutine test_large_gamma
 end module test_normal_forms

@@ -3,7 +3,6 @@
 module test_orbit_branches
    use block_builder, only: block_at, build_block, by_epsilon, by_tau, index_of_ln_v
    use branch_ends, only: follow_settings_type
-   use collocation_basis, only: gauss_points, radau_points
    use dde, only: continuation_type, dde_problem_type
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
@@ -42,18 +41,17 @@ contains
 
    !> The branch of a block at xi = gamma = 0.8 through the cycle that a trajectory has reached, and
    !> its points.
-   subroutine branch_of_block(tau, epsilon, settings, degree, points, direction, branch, special, &
-                              error)
+   subroutine branch_of_block(tau, epsilon, settings, degree, direction, branch, special, error)
       real(wp), intent(in) :: tau, epsilon
       type(follow_settings_type), intent(in) :: settings
-      integer, intent(in) :: degree, points, direction
+      integer, intent(in) :: degree, direction
       type(branch_type), intent(out) :: branch
       type(special_point_type), allocatable, intent(out) :: special(:)
       type(error_type), allocatable, intent(inout) :: error
       type(periodic_orbit_type) :: orbit
 
       call orbit_of_block(build_block(tau, epsilon, 0.8_wp, 0.8_wp, v=1.1_wp), 1000.0_wp, degree, &
-                          points, 30, orbit, error)
+                          30, orbit, error)
       call branch_from(orbit, settings, direction, branch, special, error)
    end subroutine branch_of_block
 
@@ -77,7 +75,7 @@ contains
       call advance(problem, place%time(1), t + duration, place, error, component, maxima)
    end subroutine last_maxima
 
-   !> The special point of a branch, and on a mesh of another degree and kind of points.
+   !> The special point of a branch, and on a mesh of another degree.
    subroutine find_point_twice(settings, kind, point, other, branch, error)
       type(follow_settings_type), intent(in) :: settings
       character(len=*), intent(in) :: kind
@@ -86,12 +84,12 @@ contains
       type(error_type), allocatable, intent(inout) :: error
       type(special_point_type), allocatable :: special(:)
 
-      call branch_of_block(10.0_wp, 0.5_wp, settings, 5, radau_points, 1, branch, special, error)
+      call branch_of_block(10.0_wp, 0.5_wp, settings, 5, 1, branch, special, error)
       if (allocated(error)) return
-      call expect(error, size(special) == 1, "one special point at the points of Radau")
+      call expect(error, size(special) == 1, "one special point of degree 5")
       if (allocated(error)) return
       other = special(1)
-      call branch_of_block(10.0_wp, 0.5_wp, settings, 6, gauss_points, 1, branch, special, error)
+      call branch_of_block(10.0_wp, 0.5_wp, settings, 6, 1, branch, special, error)
       if (allocated(error)) return
       call expect(error, size(special) == 1, "one special point")
       if (allocated(error)) return
@@ -236,18 +234,18 @@ contains
       settings%family = family_type(block_at(place_of_cycle), [by_epsilon], [1.0_wp])
       settings%window(:, 1) = [0.0_wp, 1.0_wp]
       settings%least_amplitude = 0.05_wp
-      call branch_of_block(10.0_wp, 0.35_wp, settings, 5, gauss_points, -1, branch, special, error)
+      call branch_of_block(10.0_wp, 0.35_wp, settings, 5, -1, branch, special, error)
       if (allocated(error)) return
       call expect(error, branch%ending == "amplitude", "a small amplitude")
       call expect_between(error, branch%orbits(size(branch%orbits))%amplitude(), 1.0e-4_wp, &
                           0.05_wp, "the last amplitude")
       settings%longest_period = 10.4_wp
-      call branch_of_block(10.0_wp, 0.5_wp, settings, 5, gauss_points, 1, branch, special, error)
+      call branch_of_block(10.0_wp, 0.5_wp, settings, 5, 1, branch, special, error)
       if (allocated(error)) return
       call expect(error, branch%ending == "period", "a long period")
       settings%longest_period = 20.0_wp
       settings%most_points = 3
-      call branch_of_block(10.0_wp, 0.5_wp, settings, 5, gauss_points, 1, branch, special, error)
+      call branch_of_block(10.0_wp, 0.5_wp, settings, 5, 1, branch, special, error)
       if (allocated(error)) return
       call expect(error, branch%ending == "orbits" .and. size(branch%orbits) == 3, "three orbits")
    end subroutine test_ends

@@ -1,7 +1,6 @@
 !> Curves of special points of periodic orbits, against published values.
 module test_orbit_curves
    use branch_ends, only: follow_settings_type
-   use collocation_basis, only: gauss_points
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
    use expectations, only: expect, expect_close, expect_success
@@ -114,7 +113,7 @@ contains
       type(special_point_type) :: start
 
       associate (orbit => start%orbit)
-         orbit = new_orbit(5, gauss_points, 20, 2.0_wp*pi, [-2.0_wp*first**3, 3.0_wp*first**2])
+         orbit = new_orbit(5, 20, 2.0_wp*pi, [-2.0_wp*first**3, 3.0_wp*first**2])
          orbit%nodes = reshape(sqrt(1.0_wp + first)*sin(2.0_wp*pi*orbit%node_times()), [1, 101])
       end associate
       start%kind = fold

@@ -1,7 +1,7 @@
 !> Single periodic orbits, against exact solutions and other discretisations.
 module test_periodic_orbits
    use block_builder, only: build_block, index_of_ln_v
-   use collocation_basis, only: collocation_basis_type, gauss_points, radau_points
+   use collocation_basis, only: collocation_basis_type
    use dde, only: continuation_type
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
@@ -36,29 +36,27 @@ contains
                    new_unittest("refusals", test_refusals)]
    end subroutine collect_periodic_orbits
 
-   !> Gauss points integrate polynomials up to degree 2m - 1 exactly, those of Radau to 2m - 2; the
-   !> Lagrange polynomials reproduce polynomials and their slopes.
+   !> The points integrate polynomials up to degree 2m - 2 exactly. The Lagrange polynomials
+   !> reproduce polynomials and their slopes.
    subroutine test_points(error)
       type(error_type), allocatable, intent(out) :: error
       type(collocation_basis_type) :: basis
-      integer :: kind, m, power
+      integer :: m, power
 
-      do kind = gauss_points, radau_points
-         do m = 2, 9
-            basis = collocation_basis_type(m, kind)
-            do power = 0, 2*m - 1 - kind
-               call expect_close(error, sum(basis%weight*basis%point**power), &
-                                 1.0_wp/(power + 1), 1.0e-14_wp, "integral of s^"//text(power))
-            end do
-            call expect(error, abs(sum(basis%weight*basis%point**(2*m - kind)) &
-                                   - 1.0_wp/(2*m - kind + 1)) > 1.0e-12_wp, "no higher degree")
-            call expect_close(error, dot_product(basis%node**m, basis%values_at(0.3_wp)), &
-                              0.3_wp**m, 1.0e-14_wp, "value")
-            call expect_close(error, dot_product(basis%node**m, basis%slopes_at(0.3_wp)), &
-                              m*0.3_wp**(m - 1), 1.0e-12_wp, "slope")
-            call expect_close(error, dot_product(basis%node**m, basis%leading), 1.0_wp, 1.0e-8_wp, &
-                              "leading coefficient of degree "//text(m))
+      do m = 2, 9
+         basis = collocation_basis_type(m)
+         do power = 0, 2*m - 2
+            call expect_close(error, sum(basis%weight*basis%point**power), 1.0_wp/(power + 1), &
+                              1.0e-14_wp, "integral of s^"//text(power))
          end do
+         call expect(error, abs(sum(basis%weight*basis%point**(2*m - 1)) - 0.5_wp/m) > 1.0e-12_wp, &
+                     "no higher degree")
+         call expect_close(error, dot_product(basis%node**m, basis%values_at(0.3_wp)), 0.3_wp**m, &
+                           1.0e-14_wp, "value")
+         call expect_close(error, dot_product(basis%node**m, basis%slopes_at(0.3_wp)), &
+                           m*0.3_wp**(m - 1), 1.0e-12_wp, "slope")
+         call expect_close(error, dot_product(basis%node**m, basis%leading), 1.0_wp, 1.0e-8_wp, &
+                           "leading coefficient of degree "//text(m))
       end do
    end subroutine test_points
 
@@ -71,28 +69,26 @@ contains
       type(periodic_orbit_type) :: orbit
       real(wp) :: off(2), period_off(2)
       integer, parameter :: intervals(2) = [9, 19]
-      integer :: i, kind, m
+      integer :: i, m
 
-      do kind = gauss_points, radau_points
-         do m = 3, 5
-            do i = 1, 2
-               orbit = new_orbit(m, kind, intervals(i), 6.3_wp, [0.25_wp])
-               orbit%nodes = reshape(0.51_wp*sin(2.0_wp*pi*orbit%node_times()), &
-                                     [1, intervals(i)*m + 1])
-               call correct(known_model(delayed_sine, orbit%parameters), orbit, newton, failure)
-               call expect_success(error, failure)
-               if (allocated(error)) return
-               call expect(error, newton%iterations <= 5, "Newton's method is fast")
-               period_off(i) = abs(orbit%period - 2.0_wp*pi)
-               ! the phase is that of the nearest sine
-               off(i) = maxval(abs(orbit%nodes(1, :) - 0.5_wp*sin( &
-                                   2.0_wp*pi*orbit%node_times() + phase_of(orbit))))
-            end do
-            call expect_between(error, log(off(1)/off(2))/log(19.0_wp/9), m + 0.6_wp, m + 2.0_wp, &
-                                "order of the state, degree "//text(m))
-            call expect_between(error, log(period_off(1)/period_off(2))/log(19.0_wp/9), &
-                                m + 0.6_wp, 2*m + 1.5_wp, "order of the period, degree "//text(m))
+      do m = 3, 5
+         do i = 1, 2
+            orbit = new_orbit(m, intervals(i), 6.3_wp, [0.25_wp])
+            orbit%nodes = reshape(0.51_wp*sin(2.0_wp*pi*orbit%node_times()), &
+                                  [1, intervals(i)*m + 1])
+            call correct(known_model(delayed_sine, orbit%parameters), orbit, newton, failure)
+            call expect_success(error, failure)
+            if (allocated(error)) return
+            call expect(error, newton%iterations <= 5, "Newton's method is fast")
+            period_off(i) = abs(orbit%period - 2.0_wp*pi)
+            ! the phase is that of the nearest sine
+            off(i) = maxval(abs(orbit%nodes(1, :) - 0.5_wp*sin( &
+                                2.0_wp*pi*orbit%node_times() + phase_of(orbit))))
          end do
+         call expect_between(error, log(off(1)/off(2))/log(19.0_wp/9), m + 0.6_wp, m + 2.0_wp, &
+                             "order of the state, degree "//text(m))
+         call expect_between(error, log(period_off(1)/period_off(2))/log(19.0_wp/9), &
+                             m + 0.6_wp, 2*m + 1.5_wp, "order of the period, degree "//text(m))
       end do
    end subroutine test_order
 
@@ -121,7 +117,7 @@ contains
       integer :: i, k, l
 
       block = build_block(tau=0.0_wp, epsilon=0.6_wp, xi=0.5_wp, gamma=0.8_wp, v=1.1_wp)
-      call cycle_of_block(block, 500.0_wp, 6, gauss_points, 40, orbit, multipliers, error)
+      call cycle_of_block(block, 500.0_wp, 6, 40, orbit, multipliers, error)
       if (allocated(error)) return
       call expect(error, size(multipliers%values) == 2, "two multipliers beside the trivial one")
       divergence = 0.0_wp
@@ -140,7 +136,7 @@ contains
    end subroutine test_no_delay
 
    !> A relaxation cycle with v over four decades, and the gamma of stiff faults, where a component
-   !> is in balance: Radau points and an odd number of Gauss points give the same cycle.
+   !> is in balance: two meshes of different degrees give the same cycle.
    subroutine test_two_meshes(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: range(2)
@@ -156,7 +152,7 @@ contains
 
    contains
 
-      !> Periods at Radau and at Gauss points.
+      !> Periods on both meshes.
       subroutine check(block, t_end, intervals, trivial_error, within)
          type(model_type), intent(in) :: block
          real(wp), intent(in) :: t_end, trivial_error, within
@@ -164,11 +160,11 @@ contains
          type(multipliers_type) :: multipliers
          type(periodic_orbit_type) :: other
 
-         call cycle_of_block(block, t_end, 6, radau_points, intervals(1), orbit, multipliers, error)
+         call cycle_of_block(block, t_end, 6, intervals(1), orbit, multipliers, error)
          if (allocated(error)) return
          call expect_close(error, multipliers%trivial_error, 0.0_wp, trivial_error, &
                            "trivial multiplier")
-         call cycle_of_block(block, t_end, 7, gauss_points, intervals(2), other, multipliers, error)
+         call cycle_of_block(block, t_end, 7, intervals(2), other, multipliers, error)
          call expect_close(error, orbit%period, other%period, within, "period")
       end subroutine check
    end subroutine test_two_meshes
@@ -180,7 +176,7 @@ contains
       real(wp) :: mesh(31), place, state(1)
       integer :: interval
 
-      orbit = new_orbit(5, gauss_points, 200, 1.0_wp, [0.0_wp])
+      orbit = new_orbit(5, 200, 1.0_wp, [0.0_wp])
       orbit%nodes = reshape(tanh(100.0_wp*(orbit%node_times() - 0.3_wp)) &
                             - tanh(100.0_wp*(orbit%node_times() - 0.7_wp)), [1, 1001])
       mesh = adapted_mesh(orbit, 30)
@@ -220,7 +216,7 @@ contains
       !> The part of the whole period, and its shift
       real(wp), intent(in) :: a, shift
 
-      orbit = new_orbit(5, gauss_points, 30, 1.0_wp, [0.0_wp])
+      orbit = new_orbit(5, 30, 1.0_wp, [0.0_wp])
       associate (s => orbit%node_times())
          orbit%nodes = reshape(cos(6.0_wp*pi*s) + a*cos(2.0_wp*pi*(s + shift)), [1, size(s)])
       end associate
@@ -235,7 +231,7 @@ contains
       type(periodic_orbit_type) :: orbit
       type(model_type) :: block
 
-      orbit = new_orbit(4, gauss_points, 10, 6.0_wp, [-0.5_wp])
+      orbit = new_orbit(4, 10, 6.0_wp, [-0.5_wp])
       orbit%nodes = reshape(sin(2.0_wp*pi*orbit%node_times()), [1, 41])
       newton%most_iterations = 4
       call correct(known_model(delayed_sine, orbit%parameters), orbit, newton, failure)
@@ -243,7 +239,7 @@ contains
       block = build_block(tau=0.0_wp, epsilon=0.1_wp, xi=0.5_wp, gamma=0.8_wp, v=1.1_wp)
       call advance(block, 0.0_wp, 10.0_wp, arrived, error)
       call orbit_of_trajectory(block, at_tolerance(1.0e-9_wp), arrived, index_of_ln_v, 1.0_wp, &
-                               collocation_basis_type(4, gauss_points), 10, orbit, failure)
+                               collocation_basis_type(4), 10, orbit, failure)
       call expect_failure(error, failure, "maxima")
    end subroutine test_refusals
 end module test_periodic_orbits

@@ -2,17 +2,15 @@
 !> characteristic roots, and against exponents along the motion.
 module test_transverse_multipliers
    use block_builder, only: block_at, build_block, paper_law
-   use collocation_basis, only: radau_points
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
    use expectations, only: expect, expect_close, expect_success
-   use floquet_multipliers, only: find_largest_multiplier, find_multipliers, multipliers_type
+   use floquet_multipliers, only: multipliers_type
    use lyapunov_spectrum, only: growth_settings_type
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use model_family, only: fixed_model
    use model_problem, only: model_type
    use model_roots, only: find_model_roots
-   use orbit_runs, only: cycle_of_block, new_orbit
+   use orbit_runs, only: cycle_of_block, multipliers_of, new_orbit
    use periodic_orbit, only: periodic_orbit_type
    use solving, only: at_tolerance
    use transverse_growth, only: find_zeros, measure_transverse_growth, of_mode, &
@@ -50,19 +48,17 @@ contains
    !> At s = 1 the multipliers are those of the block, whose Jacobian is no band.
    subroutine test_block(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       type(multipliers_type) :: found, own
       type(periodic_orbit_type) :: orbit
       integer :: i
 
       associate (p => cycle_place)
-         call cycle_of_block(build_block(p(1), p(2), p(3), p(4), v=1.1_wp), 1500.0_wp, 5, &
-                             radau_points, 40, orbit, own, error)
+         call cycle_of_block(build_block(p(1), p(2), p(3), p(4), v=1.1_wp), 1500.0_wp, 5, 40, &
+                             orbit, own, error)
       end associate
       if (allocated(error)) return
       orbit%parameters = [orbit%parameters, 1.0_wp]
-      call find_multipliers(fixed_model(chain_at(cycle_place)), orbit, 6, found, failure)
-      call expect_success(error, failure)
+      call multipliers_of(chain_at(cycle_place), orbit, 6, found, error)
       if (allocated(error)) return
       call expect_close(error, abs(found%values - own%values), [(0.0_wp, i=1, size(own%values))], &
                         1.0e-11_wp, "multipliers")
@@ -74,27 +70,27 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
       type(model_type) :: chain
+      type(multipliers_type) :: found
       type(periodic_orbit_type) :: orbit
       complex(wp), allocatable :: roots(:)
       real(wp), parameter :: delays(3) = [7.0_wp, 2.0_wp, 0.0_wp], &
                              stiffness(3) = [1.0_wp, 1.3_wp, 5.0_wp], period = 6.0_wp
-      real(wp) :: modulus
       integer :: i, j
 
       do i = 1, size(delays)
          chain = chain_at([delays(i), chaos_place(2:)], keep_delays=.true.)
-         orbit = new_orbit(6, radau_points, 30, period, chain%numbers)
+         orbit = new_orbit(6, 30, period, chain%numbers)
          allocate (orbit%nodes(3, 30*6 + 1), source=0.0_wp)
          do j = 1, size(stiffness)
             associate (s => stiffness(j), p => chain%numbers)
-               call find_largest_multiplier(fixed_model(of_mode(chain, s)), orbit, modulus, failure)
-               call expect_success(error, failure)
+               call multipliers_of(of_mode(chain, s), orbit, 0, found, error)
                if (allocated(error)) return
                call find_model_roots(block_at([p(1), p(2), s*p(3), sqrt(s)*p(4)]), -0.5_wp, roots, &
                                      failure)
                call expect_success(error, failure)
                if (allocated(error)) return
-               call expect_close(error, log(modulus)/period, real(roots(1)), 1.0e-9_wp, "exponent")
+               call expect_close(error, log(found%greatest)/period, real(roots(1)), 1.0e-9_wp, &
+                                 "exponent")
             end associate
          end do
       end do

@@ -10,8 +10,8 @@ module model_border
    implicit none (type, external)
    private
    public :: copy_line, lanes, line_length, reciprocal, shape_type
-   public :: describe_line, expand, expand_past, expand_tangents, find_delayed, find_forms, &
-             find_jacobian, find_past, find_rate, find_rhs, find_state, list_terms
+   public :: describe_line, expand, expand_tangents, find_delayed, find_forms, find_jacobian, &
+             find_rate, find_rhs, find_state, list_terms
 
    !> Disturbances computed at a time.
    integer, parameter :: lanes = 4
@@ -150,26 +150,6 @@ module model_border
          real(wp), intent(in) :: parameters(*), t, y(self%n)
          real(wp), intent(out) :: rate
       end subroutine find_rate
-
-      !> A component up to the initial time.
-      pure subroutine find_past(parameters, t, component, value) bind(c)
-         import :: c_int, wp
-         implicit none (type, external)
-         real(wp), intent(in) :: parameters(*), t
-         integer(c_int), intent(in) :: component
-         real(wp), intent(out) :: value
-      end subroutine find_past
-
-      !> Its Taylor coefficients.
-      pure subroutine expand_past(parameters, t, component, unit, degree, y) bind(c)
-         import :: c_int, wp
-         implicit none (type, external)
-         real(wp), intent(in) :: parameters(*), t
-         integer(c_int), intent(in) :: component
-         real(wp), intent(in) :: unit
-         integer(c_int), intent(in) :: degree
-         real(wp), intent(out) :: y(0:degree)
-      end subroutine expand_past
    end interface
 
 contains

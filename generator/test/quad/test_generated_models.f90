@@ -27,12 +27,10 @@ contains
       testsuite = [new_unittest("two delays, powers, time", test_zoo), &
                    new_unittest("functions", test_functions), &
                    new_unittest("a fast state", test_fast), &
-                   new_unittest("histories", test_histories), &
                    new_unittest("Mackey-Glass", test_mackey_glass), &
                    new_unittest("a steady state that is computed", test_rest), &
                    new_unittest("two neurons, three delays", test_neurons), &
-                   new_unittest("infection", test_infection), &
-                   new_unittest("enzyme kinetics", test_enzyme), &
+                   new_unittest("infection and enzyme kinetics", test_runs), &
                    new_unittest("laws of friction", test_laws), &
                    new_unittest("chains", test_chains), &
                    new_unittest("a chain with time", test_row), &
@@ -85,28 +83,6 @@ contains
                           uniform(i + 1, size(model%lag), 0.1_wp, 0.9_wp), "fast state")
       end do
    end subroutine test_fast
-
-   !> An expression of t, its value and its series.
-   subroutine test_histories(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(model_type) :: zoo
-      real(wp), parameter :: t = -0.6_wp, s = 1.0e-3_wp
-      real(wp) :: series(0:12)
-      integer :: component, k
-
-      call open_there(error, "made_zoo", zoo)
-      if (allocated(error)) return
-      call zoo%set([1.3_wp, 0.9_wp], [0.0_wp, 0.0_wp, 0.0_wp])
-      call expect_close(error, zoo%history(t, 1), 1.0_wp + t/3.0_wp, 1.0e-33_wp, "1 + t/3")
-      call expect_close(error, zoo%history(t, 2), exp(t/5.0_wp)*cos(t), 1.0e-32_wp, &
-                        "exp(t/5) cos(t)")
-      call expect_close(error, zoo%history(t, 3), sin(t)**2, 1.0e-33_wp, "sin(t)**2")
-      do component = 1, 3
-         call zoo%past_series(t, component, 0.5_wp, series)
-         call expect_close(error, sum([(series(k)*s**k, k=0, 12)]), &
-                           zoo%history(t + 0.5_wp*s, component), 1.0e-32_wp, "series of history")
-      end do
-   end subroutine test_histories
 
    !> Series and series of disturbances of the model written by hand; itself with and without delay.
    subroutine test_mackey_glass(error)
@@ -216,29 +192,22 @@ contains
       end function history_of
    end subroutine test_neurons
 
-   !> Whole runs of the model written by hand.
-   subroutine test_infection(error)
+   !> Whole runs of models written by hand; that of the enzyme has no series.
+   subroutine test_runs(error)
       type(error_type), allocatable, intent(out) :: error
       type(model_type) :: made
 
       call open_there(error, "made_infection", made)
       if (allocated(error)) return
-      call made%set([real(wp) ::], [0.0_wp, 0.0_wp, 0.0_wp])
+      call made%set([real(wp) ::], [5.0_wp, 0.1_wp, 1.0_wp])
       call compare_runs(error, made, infection(), 15.0_wp, "taylor")
       call check_model(error, made, [2.0_wp, 0.3_wp, 1.0_wp], [0.4_wp, 0.2_wp], "infection")
-   end subroutine test_infection
-
-   !> Whole runs of the model written by hand, which has no series.
-   subroutine test_enzyme(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(model_type) :: made
-
       call open_there(error, "made_enzyme", made)
       if (allocated(error)) return
-      call made%set([real(wp) ::], [0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp])
+      call made%set([real(wp) ::], [60.0_wp, 10.0_wp, 10.0_wp, 20.0_wp])
       call compare_runs(error, made, enzyme(), 6.0_wp, "dop853")
       call check_model(error, made, [50.0_wp, 12.0_wp, 9.0_wp, 15.0_wp], [14.0_wp], "enzyme")
-   end subroutine test_enzyme
+   end subroutine test_runs
 
    !> Solutions of a made model by Taylor steps and of the model by hand by another method.
    subroutine compare_runs(error, made, hand, t_end, method)

@@ -33,8 +33,10 @@ contains
       if (allocated(error)) return
       call check_jacobian(error, model, y, z, name)
       call check_series(error, model, y, z, name)
-      call check_tangents(error, model, y, z, name)
-      if (model%relaxation_rate(now, y) > 0.0_wp) call check_slow(error, model, y, z, name)
+      call check_tangents(error, model, y, z, name, slow=.false.)
+      if (model%relaxation_rate(now, y) > 0.0_wp) then
+         call check_tangents(error, model, y, z, name, slow=.true.)
+      end if
    end subroutine check_model
 
    !> Derivatives by states and delayed values.
@@ -122,13 +124,16 @@ contains
       end associate
    end subroutine check_series
 
-   !> Series of disturbances, by differences of series.
-   subroutine check_tangents(error, model, y, z, name)
+   !> Series of disturbances, by differences of series. Those of the slow solution, too: on it w is
+   !> its balance less w'/rate, and an iteration gives the series back, but for the last powers, of
+   !> which w' is not known. Of disturbances it gives those of neighbouring iterations.
+   subroutine check_tangents(error, model, y, z, name, slow)
       type(error_type), allocatable, intent(inout) :: error
       class(model_type), intent(in) :: model
       real(wp), intent(in) :: y(:), z(:)
       character(len=*), intent(in) :: name
-      real(wp), dimension(0:degree, size(y)) :: after, before, of_y
+      logical, intent(in) :: slow
+      real(wp), dimension(0:degree, size(y)) :: better, of_y
       real(wp) :: unit
       real(wp) :: of_z(0:degree, size(z)), dz(0:degree, size(z), vectors), &
                   dy(0:degree, size(y), vectors)
@@ -144,56 +149,31 @@ contains
          dz(:, :, i) = reshape(uniform(600 + i, size(of_z), -1.0_wp, 1.0_wp), shape(of_z))
       end do
       call model%tangent_series(now, unit, degree, of_z, of_y, vectors, dz, dy)
+      if (slow) then
+         better = of_y
+         call model%slow_series(now, unit, degree, of_z, better)
+         call compare(error, [better(:degree - 1, :)], [of_y(:degree - 1, :)], 1.0e-28_wp, &
+                      name//", slow series")
+         call model%slow_tangent_series(now, unit, degree, of_z, of_y, better, vectors, dz, dy)
+      end if
       do i = 1, vectors
-         after(0, :) = y + h*dy(0, :, i)
-         before(0, :) = y - h*dy(0, :, i)
-         call model%series(now, unit, degree, of_z + h*dz(:, :, i), after)
-         call model%series(now, unit, degree, of_z - h*dz(:, :, i), before)
-         call compare(error, [dy(:, :, i)], [(after - before)/(2.0_wp*h)], good, &
-                      name//", series of disturbance "//text(i))
+         call compare(error, [dy(:, :, i)], [(moved(i, h) - moved(i, -h))/(2.0_wp*h)], good, &
+                      name//", "//merge("slow ", "     ", slow)//"series of disturbance "//text(i))
       end do
+
+   contains
+
+      !> The series with a part of a disturbance.
+      function moved(number, part) result(series)
+         integer, intent(in) :: number
+         real(wp), intent(in) :: part
+         real(wp) :: series(0:degree, size(y))
+
+         series(0, :) = y + part*uniform(500 + number, size(y), -1.0_wp, 1.0_wp)
+         call model%series(now, unit, degree, of_z + part*dz(:, :, number), series)
+         if (slow) call model%slow_series(now, unit, degree, of_z + part*dz(:, :, number), series)
+      end function moved
    end subroutine check_tangents
-
-   !> On a solution w is its balance less w'/rate: an iteration gives the series back, but for the
-   !> last powers, of which w' is not known. Of disturbances it gives those of neighbouring
-   !> iterations.
-   subroutine check_slow(error, model, y, z, name)
-      type(error_type), allocatable, intent(inout) :: error
-      class(model_type), intent(in) :: model
-      real(wp), intent(in) :: y(:), z(:)
-      character(len=*), intent(in) :: name
-      real(wp), dimension(0:degree, size(y)) :: after, before, better, of_y
-      real(wp) :: unit
-      real(wp) :: of_z(0:degree, size(z)), dz(0:degree, size(z), vectors), &
-                  dy(0:degree, size(y), vectors)
-      integer :: i
-
-      unit = unit_for(model, y, z)
-      of_z = delayed_series(z)
-      of_y(0, :) = y
-      call model%series(now, unit, degree, of_z, of_y)
-      better = of_y
-      call model%slow_series(now, unit, degree, of_z, better)
-      call compare(error, [better(:degree - 1, :)], [of_y(:degree - 1, :)], 1.0e-28_wp, &
-                   name//", slow series")
-      dy = 0.0_wp
-      do i = 1, vectors
-         dy(0, :, i) = uniform(500 + i, size(y), -1.0_wp, 1.0_wp)
-         dz(:, :, i) = reshape(uniform(600 + i, size(of_z), -1.0_wp, 1.0_wp), shape(of_z))
-      end do
-      call model%tangent_series(now, unit, degree, of_z, of_y, vectors, dz, dy)
-      call model%slow_tangent_series(now, unit, degree, of_z, of_y, better, vectors, dz, dy)
-      do i = 1, vectors
-         after(0, :) = y + h*uniform(500 + i, size(y), -1.0_wp, 1.0_wp)
-         before(0, :) = y - h*uniform(500 + i, size(y), -1.0_wp, 1.0_wp)
-         call model%series(now, unit, degree, of_z + h*dz(:, :, i), after)
-         call model%series(now, unit, degree, of_z - h*dz(:, :, i), before)
-         call model%slow_series(now, unit, degree, of_z + h*dz(:, :, i), after)
-         call model%slow_series(now, unit, degree, of_z - h*dz(:, :, i), before)
-         call compare(error, [dy(:, :, i)], [(after - before)/(2.0_wp*h)], good, &
-                      name//", slow series of disturbance "//text(i))
-      end do
-   end subroutine check_slow
 
    !> Derivative forms at the steady state: the first is the Jacobian, others are differences of it.
    subroutine check_forms(error, model, name)

@@ -10,7 +10,7 @@ from scripts.config.checks import (
     wrong,
 )
 from scripts.namelists.laws import HISTORY
-from scripts.studies.atlas.parts import part_of, refinements_of
+from scripts.studies.atlas.plan import part_of, refinements_of
 
 MOST_POINTS = 1_000_000
 """Points that one run of the program takes."""

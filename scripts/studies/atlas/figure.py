@@ -66,10 +66,12 @@ def draw(
         draw_classes(left, shown, along)
         mesh = draw_exponents(right, shown, along)
         for axes in (left, right):
-            for plane in curves:
-                if plane_of(plane.attrs) == at:
-                    draw_curves(axes, plane)
+            for plane in (one for one in curves if plane_of(one.attrs) == at):
+                for piece in np.unique(plane.piece):
+                    line = plane.isel(point=plane.piece.values == piece)
+                    draw_piece(axes, *(line[key] for key in axes_of(plane.attrs)), line.l1, INK)
             mark_scenes(axes, inside, along, named=axes is left)
+            axes.set_xlabel(parameters.axis_of(along[0], along[0], shown[0]))
         for line in cycles:
             if plane_of(line.attrs, along) == at:
                 drawn |= draw_curves_of_cycles(left, line, along)
@@ -77,9 +79,8 @@ def draw(
         left.set_title(f"$\\bf{{{next(letters)}}}$  {symbols}\n{count_in_words(shown)}")
         right.set_title(f"$\\bf{{{next(letters)}}}$  the same: largest Lyapunov exponent")
         left.set_ylabel(parameters.axis_of(along[1], along[1], shown[0]))
-        for axes in (left, right):
-            axes.set_xlabel(parameters.axis_of(along[0], along[0], shown[0]))
-            axes.label_outer()
+        left.label_outer()
+        right.label_outer()
     unit = "units of $v_0/L$" if all(map(is_of_block, table)) else "per unit of time"
     ticks = [-LARGEST, -0.01, -LINEAR, 0, LINEAR, 0.01, LARGEST]
     figure.colorbar(
@@ -122,13 +123,6 @@ def draw_exponents(axes: Axes, rows: list[dict], along: tuple[str, str]):
     return mesh
 
 
-def draw_curves(axes: Axes, curves: xr.Dataset) -> None:
-    """Hopf curves, dashed where subcritical."""
-    for piece in np.unique(curves.piece):
-        line = curves.isel(point=curves.piece.values == piece)
-        draw_piece(axes, *(line[key] for key in axes_of(curves.attrs)), line.l1, INK)
-
-
 def draw_curves_of_cycles(axes: Axes, cycles: xr.Dataset, along: tuple[str, str]) -> set[str]:
     """Curves of special points of cycles, with a white edge; their kinds."""
     drawn = set()
@@ -150,22 +144,20 @@ def numbers(table: list[dict]) -> dict:
         counts = Counter(row["class"] for row in rows).most_common()
         shares = [(kind, 100 * count / len(rows)) for kind, count in counts]
         computed = [row for row in rows if not math.isnan(row["exponent_1"])]
-        most = max(computed, key=lambda row: row["exponent_1"], default=None)
+        most = max(computed, key=lambda row: row["exponent_1"], default={})
+        at = ", ".join(parameters.equation(key, most[key]) for key in axes if most)
         planes.append(
             {
                 "panels": ", ".join(ascii_lowercase[2 * number : 2 * number + 2]),
                 "place": place_in_words(rows[0], *axes),
                 "shares": ", ".join(f"{kind} {short(share, 2)} %" for kind, share in shares),
                 "largest": with_error(most["exponent_1"], most["error_1"]) if most else "",
-                "at": as_formulas(", ".join(parameters.equation(key, most[key]) for key in axes))
-                if most
-                else "",
+                "at": as_formulas(at),
             }
         )
     taken = sum(not is_computed(row) for row in table)
-    named = zip(("abscissas", "ordinates"), zip(*map(axes_of, table), strict=True), strict=True)
     symbols = {
         name: [f":math:`{parameters.symbol_of(key)}`" for key in dict.fromkeys(keys)]
-        for name, keys in named
+        for name, *keys in zip(("abscissas", "ordinates"), *map(axes_of, table), strict=True)
     }
     return {"planes": planes, "taken": taken, **symbols}

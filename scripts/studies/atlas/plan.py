@@ -9,7 +9,10 @@ from pathlib import PurePath
 from scripts.namelists.attractor_surveys import survey_groups
 from scripts.plans.declare import LONG_RUN, Figure, Run, Study, Table
 from scripts.plans.scenes import curves_of, marked_scenes, plane_of
-from scripts.studies.atlas.parts import part_of, refinements_of
+
+LEAST_DISTANCES = 6
+"""Distances between the lines of a plane that are computed in full: those of the default grid, of
+which it is known how many points get another class than if computed."""
 
 
 def groups(config: dict, atlas_plane: str, part: str) -> dict:
@@ -30,6 +33,22 @@ def groups(config: dict, atlas_plane: str, part: str) -> dict:
     return survey_groups(
         config, "atlas", name, place=place, histories=histories, refinements=refinements
     )
+
+
+def refinements_of(atlas: dict) -> int:
+    """The refinements of the file, or as many as leave enough distances of its first lines."""
+    fewest = min(atlas["abscissa_count"], atlas["ordinate_count"]) - 1
+    return min(atlas["refinements"], max(0, (fewest // LEAST_DISTANCES).bit_length() - 1))
+
+
+def part_of(count: int, parts: int, part: int, distance: int = 1) -> list[int]:
+    """First and last of `count` lines in part 1..parts, all about as large.
+
+    From the first to the last line of a part but the last, there is a whole number of distances.
+    """
+    steps = (count - parts) // distance
+    first, after = (i * steps // parts * distance + i + 1 for i in (part - 1, part))
+    return [first, count if part == parts else after - 1]
 
 
 def parts_of_plane(config: dict, atlas_plane: str) -> list[str]:
@@ -84,11 +103,6 @@ def inputs(config: dict) -> dict:
     }
 
 
-def inputs_of_play(config: dict) -> dict:
-    """Motions at all points, and the tables of their classes."""
-    return {"runs": parts_of_atlas(config), "tables": [table_of_atlas(config)]}
-
-
 FIGURE = {
     "category": "Atlas",
     "inputs": inputs,
@@ -118,7 +132,8 @@ STUDY = Study(
             script="tables/attractor_tables.py",
         ),
         Table(
-            *("play_data", "page/play-data.js", inputs_of_play),
+            *("play_data", "page/play-data.js"),
+            lambda config: {"runs": parts_of_atlas(config), "tables": [table_of_atlas(config)]},
             params={"scenes": marked_scenes},
             script="play_data.py",
         ),

@@ -6,7 +6,7 @@ The file is a script, because a page that is opened as a file may load no other 
 import base64
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable
 
 import numpy as np
 import xarray as xr
@@ -35,65 +35,51 @@ LONGEST_GAP = 255
 """Most steps of time between two points, in one byte."""
 
 
-def list_planes(
-    rows: list[dict], paths: Sequence[np.ndarray | None], times: Sequence[float]
-) -> list[dict]:
+def list_planes(points: Iterable[tuple[dict, np.ndarray | None, float]]) -> list[dict]:
     """Planes of the atlas in the order of the rows, each with the motions of its points.
 
-    There is one row, one path and one length of the path in time for each point.
+    A point is its row, its path and the length of the path in time.
     """
-    # the view moves epsilon and tau of the block
-    every = zip(rows, paths, times, strict=True)
-    points = [
-        point
-        for point in every
-        if axes_of(point[0]) == ("epsilon", "tau") and is_of_block(point[0])
-    ]
-    places = dict.fromkeys(plane_of(row) for row, _, _ in points)
-    return [
-        describe_plane([point for point in points if plane_of(point[0]) == place])
-        for place in places
-    ]
+    of_plane: dict[tuple, list] = {}
+    for point in points:
+        # the view moves epsilon and tau of the block
+        if axes_of(point[0]) == ("epsilon", "tau") and is_of_block(point[0]):
+            of_plane.setdefault(plane_of(point[0]), []).append(point)
+    return list(map(describe_plane, of_plane.values()))
 
 
 def describe_plane(points: list[tuple[dict, np.ndarray | None, float]]) -> dict:
     """Axes, kinds and paths of a plane: points along epsilon, from the least tau upwards."""
     points = sorted(points, key=lambda point: (point[0]["tau"], point[0]["epsilon"]))
-    rows = [row for row, _, _ in points]
+    rows, paths, times = zip(*points, strict=True)
     columns, lines = (sorted({row[key] for row in rows}) for key in ("epsilon", "tau"))
-    kinds = np.array([KINDS.index(kind_of(row)) for row in rows])
-    computed = np.array([is_computed(row) for row in rows])
     shape = len(lines), len(columns)
-    alike = np.array([KINDS.index(kind_of(row)) + len(KINDS) * period_of(row) for row in rows])
+    kinds = [KINDS.index(kind_of(row)) for row in rows]
+    alike = np.array(kinds) + len(KINDS) * np.array(list(map(period_of, rows)))
+    computed = np.array(list(map(is_computed, rows)))
     across, along = nearest_alike(alike.reshape(shape), computed.reshape(shape))
+    packed = [pack_path(i, path, times[i]) for i, path in enumerate(paths) if path is not None]
     return {
         "xi": rows[0]["xi"],
         "gamma": rows[0]["gamma"],
         "law": "" if law_of(rows[0]) == PAPER else law_of(rows[0]),
         "epsilon": columns,
         "tau": lines,
-        "time": float(max(time for _, _, time in points)),
+        "time": float(max(times)),
         "kinds": "".join(map(str, kinds)),
         "shown": (across * len(columns) + along).ravel().tolist(),
-        "words": {i: words_of(row) for i, row in enumerate(rows) if is_computed(row)},
-        "paths": base64.b64encode(
-            b"".join(
-                pack_path(i, path, time)
-                for i, (_, path, time) in enumerate(points)
-                if path is not None
-            )
-        ).decode(),
+        "words": {
+            i: [motion(row), exponents(row), frequencies(row)]
+            for i, row in enumerate(rows)
+            if is_computed(row)
+        },
+        "paths": base64.b64encode(b"".join(packed)).decode(),
     }
 
 
 def period_of(row: dict) -> int:
     """Points of a cycle in the section, 0 for other motions."""
     return int(row["period"]) if row["class"] == "cycle" and row["period"] > 0 else 0
-
-
-def words_of(row: dict) -> list[str]:
-    """Class, exponents, and period or fundamental frequencies."""
-    return [motion(row), exponents(row), frequencies(row)]
 
 
 def frequencies(row: dict) -> str:
@@ -112,11 +98,8 @@ def paths_of(run: xr.Dataset) -> list[np.ndarray | None]:
     if "path_u" not in run:
         return [None] * run.sizes["point"]
     columns = np.array([run[key].values for key in ("path_time", "path_u", "path_ln_v")])
-    ends = np.cumsum(run.path_length.values)
-    return [
-        columns[:, end - length : end] if length else None
-        for end, length in zip(ends, run.path_length.values, strict=True)
-    ]
+    paths = np.split(columns, np.cumsum(run.path_length.values)[:-1], axis=1)
+    return [path if path.size else None for path in paths]
 
 
 def pack_path(number: int, path: np.ndarray, time: float) -> bytes:
@@ -143,8 +126,7 @@ def pack_path(number: int, path: np.ndarray, time: float) -> bytes:
 def write_script(rows: list[dict], runs: list[xr.Dataset], scenes: dict[str, dict]) -> str:
     """The whole file: planes of the atlas, and the scenes on them by name."""
     of_runs = [(path, run.attrs.get("t_path", 0.0)) for run in runs for path in paths_of(run)]
-    paths, times = zip(*of_runs, strict=True)
-    found = list_planes(rows, paths, times)
+    found = list_planes((row, *of_run) for row, of_run in zip(rows, of_runs, strict=True))
     places = {plane_of({**one, "law": one["law"] or PAPER}): i for i, one in enumerate(found)}
     on_planes = [
         {

@@ -3,6 +3,7 @@
 import base64
 import json
 import struct
+from itertools import product
 
 import numpy as np
 import pytest
@@ -28,15 +29,10 @@ def unpacked(text: str, time: float) -> dict[int, np.ndarray]:
     found, at = {}, 0
     while at < len(data):
         number, size, *ranges = struct.unpack_from("<IIffff", data, at)
-        columns = np.frombuffer(data, np.uint8, 3 * size, at + 24).reshape(size, 3).T
-        (u_least, u_most), (ln_v_least, ln_v_most) = ranges[:2], ranges[2:]
-        found[number] = np.array(
-            [
-                np.cumsum(columns[0].astype(int)) / play_data.STEPS * time,
-                u_least + columns[1] / play_data.LEVELS * (u_most - u_least),
-                ln_v_least + columns[2] / play_data.LEVELS * (ln_v_most - ln_v_least),
-            ]
-        )
+        steps, *levels = np.frombuffer(data, np.uint8, 3 * size, at + 24).reshape(size, 3).T
+        least, most = np.reshape(ranges, (2, 2, 1)).swapaxes(0, 1)
+        values = least + np.array(levels) / play_data.LEVELS * (most - least)
+        found[number] = np.vstack([np.cumsum(steps.astype(int)) / play_data.STEPS * time, values])
         at += 24 + 3 * size
     return found
 
@@ -44,18 +40,16 @@ def unpacked(text: str, time: float) -> dict[int, np.ndarray]:
 def play() -> str:
     """Two planes: classes change with epsilon; the last point of the first was not computed."""
     none = {f"exponent_{i}": np.nan for i in (1, 2, 3)}
-    rows, paths = [], []
-    for xi in (0.5, 0.8):
-        for tau in (0.0, 5.0):
-            rows += [
-                attractor(0.1, tau, xi=xi, **{"class": "fixed point"}, f1=np.nan, f2=np.nan),
-                attractor(0.2, tau, xi=xi, f1=0.1, f2=np.nan),
-                attractor(0.3, tau, xi=xi, period=2.0, f1=0.05, f2=np.nan),
-                attractor(0.4, tau, xi=xi, **{"class": "chaos"}, f1=np.nan, f2=np.nan),
-            ]
-            later = np.add(turn(30.0, 90.0), [[30.0], [0.0], [0.0]])
-            longer = np.concatenate([turn(30.0, 40.0), later], axis=1)
-            paths += [None, turn(10.0, 3.0), turn(20.0, 5.0), longer]
+    motions = [{"class": "fixed point"}, {"f1": 0.1}, {"period": 2.0, "f1": 0.05}]
+    motions = [{"f1": np.nan, "f2": np.nan, **one} for one in (*motions, {"class": "chaos"})]
+    rows = [
+        attractor(epsilon, tau, xi=xi, **motion)
+        for xi, tau in product((0.5, 0.8), (0.0, 5.0))
+        for epsilon, motion in zip((0.1, 0.2, 0.3, 0.4), motions, strict=True)
+    ]
+    later = np.add(turn(30.0, 90.0), [[30.0], [0.0], [0.0]])
+    longer = np.concatenate([turn(30.0, 40.0), later], axis=1)
+    paths = 4 * [None, turn(10.0, 3.0), turn(20.0, 5.0), longer]
     rows[7] |= {"computed": "no", **none}
     paths[7] = None
     return play_data.write_script(rows, [atlas_run(*paths[:3]), atlas_run(*paths[3:])], {})
@@ -117,15 +111,10 @@ def test_smoke_run_has_each_point_of_its_atlas(smoke):
     rows = read_table(results / "tables" / "atlas.tsv")
     drawn = 0
     for plane in found["planes"]:
-        places = {
-            (row["epsilon"], row["tau"]): row
-            for row in rows
-            if (row["xi"], row["gamma"]) == (plane["xi"], plane["gamma"])
-        }
-        cells = [(epsilon, tau) for tau in plane["tau"] for epsilon in plane["epsilon"]]
-        assert [KINDS[int(kind)] for kind in plane["kinds"]] == [
-            kind_of(places[cell]) for cell in cells
-        ]
+        at = plane["xi"], plane["gamma"]
+        of_plane = [row for row in rows if (row["xi"], row["gamma"]) == at]
+        ordered = sorted(of_plane, key=lambda row: (row["tau"], row["epsilon"]))
+        assert [KINDS[int(kind)] for kind in plane["kinds"]] == list(map(kind_of, ordered))
         assert plane["time"] == 20.0
         drawn += len(unpacked(plane["paths"], plane["time"]))
     files = sorted((results / "attractors" / "atlas").glob("*/*.nc"))

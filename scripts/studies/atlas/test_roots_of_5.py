@@ -1,8 +1,6 @@
 """Roots of (5), and what motions do where one is unstable."""
 
-import numpy as np
 import pytest
-import xarray as xr
 from made_up_results import (
     NO,
     YES,
@@ -12,7 +10,7 @@ from made_up_results import (
 )
 
 from scripts.studies.atlas.claims import roots_decide
-from scripts.studies.atlas.roots_of_5 import unstable_pairs
+from scripts.tables.roots_of_5 import unstable_pairs
 
 BELOW, ABOVE = {"epsilon": 0.2, "tau": 0.0}, {"epsilon": 0.4, "tau": 0.0}
 """Beside the Hopf point without delay, epsilon = gamma^2 xi/(xi + gamma^2) = 0.356 at xi = 0.8."""
@@ -64,18 +62,3 @@ def test_pairs_change_on_hopf_curves(k):
             for off in (-1e-6, 1e-6)
         )
         assert abs(after - before) == 1
-
-
-@pytest.mark.parametrize(("plane", "xi"), [("tau_of_epsilon", 0.5), ("tau_of_epsilon_xi_08", 0.8)])
-def test_pairs_are_those_of_the_program(smoke, plane, xi):
-    """The program counts them by the argument principle, in every cell of the plane."""
-    curves = xr.load_dataset(smoke.folder / "results" / "hopf" / f"{plane}.nc")
-    counted = [
-        [
-            unstable_pairs(epsilon=float(epsilon), tau=float(tau), xi=xi, gamma=0.8)
-            for epsilon in curves.map_abscissa
-        ]
-        for tau in curves.map_ordinate
-    ]
-    np.testing.assert_array_equal(curves.map_unstable_pairs, counted)
-    assert curves.map_unstable_pairs.max() >= 2

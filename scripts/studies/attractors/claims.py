@@ -84,8 +84,8 @@ def exponents_of(row: dict, long: list[tuple[float, float]]) -> str:
     """
     number = 4 if row["class"] == "3-torus" else 3
     short_run = [(row[f"exponent_{i}"], row[f"error_{i}"]) for i in range(1, number + 1)]
-    parts = [with_error(*pair) for pair in (long or short_run)[:number] if not math.isnan(pair[0])]
-    return f" (exponents{' of its long run' if long else ''} {', '.join(parts)})" if parts else ""
+    values = [with_error(*pair) for pair in (long or short_run)[:number] if not math.isnan(pair[0])]
+    return f" (exponents{' of its long run' if long else ''} {', '.join(values)})" if values else ""
 
 
 def with_error(exponent: float, error: float) -> str:

@@ -2,7 +2,7 @@
 
 from scripts.claims.claims_results import Finding, Results, decided
 from scripts.claims.declare import Scenes, claim, reads, says, tested_with
-from scripts.tables.chain_motions import moves_alike, rests, strongest_mode
+from scripts.studies.chain.table import moves_alike, rests, strongest_mode
 
 
 @claim(64, "more_blocks", "section 5", look_at="chain")
@@ -17,19 +17,19 @@ def blocks_differ(results: Results, *, scenes: Scenes) -> Finding:
 
     Chains begin with small differences between blocks.
     """
-    parts, differ = [], 0
+    sentences, differ = [], 0
     for name in scenes:
         chain = results.trajectories[name]
         place = f"{name.replace('_', ' ')} of {chain.attrs['blocks']} blocks"
         if rests(chain):
-            parts.append(f"Scene {place} comes to rest.")
+            sentences.append(f"Scene {place} comes to rest.")
         elif moves_alike(chain):
-            parts.append(f"Scene {place} moves as one block.")
+            sentences.append(f"Scene {place} moves as one block.")
         else:
             mode, share = strongest_mode(chain)
             differ += 1
-            parts.append(
+            sentences.append(
                 f"In scene {place} mode {mode} is the strongest beside the mean;"
                 f" {100 * share:.0f} % of the mean square of ln v is in such modes."
             )
-    return decided(differ > 0, " ".join(parts), "All chains move as one block does.")
+    return decided(differ > 0, " ".join(sentences), "All chains move as one block does.")

@@ -11,7 +11,7 @@ from matplotlib.ticker import MaxNLocator, NullFormatter
 from scripts.drawing import parameters
 from scripts.drawing.roots import roots_in_words
 from scripts.drawing.wording import as_formulas, place_in_words, short
-from scripts.tables.chain_motions import (
+from scripts.studies.chain.table import (
     ALIKE,
     first_mode,
     moves_alike,
@@ -48,12 +48,9 @@ def draw(chains: list[xr.Dataset], roots: list[xr.Dataset]) -> Figure:
         draw_map(figure, panels[0], chain)
         draw_spread(panels[1], chain)
         draw_modes(panels[2], chain)
-    for axes, words in zip(
-        grid[-1],
-        ("time (units of $L/v_0$)", "time (units of $L/v_0$)", "number of the mode"),
-        strict=True,
-    ):
-        axes.set_xlabel(words)
+    for axes in grid[-1, :2]:
+        axes.set_xlabel("time (units of $L/v_0$)")
+    grid[-1, 2].set_xlabel("number of the mode")
     return figure
 
 

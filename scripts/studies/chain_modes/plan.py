@@ -14,18 +14,12 @@ def modes_of(config: dict) -> range:
 
 def groups(config: dict, mode_plane: str, mode: str) -> dict[str, dict]:
     """A plane of Hopf curves of a mode."""
-    study = config["chain_modes"]
-    plane = {
-        **study["planes"][mode_plane],
-        **{key: study[key] for key in ("blocks", "kappa", "ends", "cells")},
-        **{"abscissa": "epsilon", "ordinate": "tau", "mode": int(mode)},
-    }
-    windows = {
-        f"{axis}_window": plane.pop(f"{plane[axis]}_window") for axis in ("abscissa", "ordinate")
-    }
-    if plane["mode"] == 0:
-        plane["blocks"] = 1
-    return {"hopf_curves": plane_group(config, plane | windows)}
+    study, number = config["chain_modes"], int(mode)
+    plane, axes = dict(study["planes"][mode_plane]), {"abscissa": "epsilon", "ordinate": "tau"}
+    windows = {f"{axis}_window": plane.pop(f"{name}_window") for axis, name in axes.items()}
+    chain = {key: study[key] for key in ("kappa", "ends", "cells")}
+    chain |= {"blocks": study["blocks"] if number else 1, "mode": number}
+    return {"hopf_curves": plane_group(config, plane | axes | windows | chain)}
 
 
 def curves(config: dict) -> list[str]:

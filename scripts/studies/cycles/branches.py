@@ -1,5 +1,6 @@
 """Branches of cycles in a file of cycles followed along a line."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,10 +28,9 @@ def most_of(cycles: Dataset) -> str:
 
 def cycles_there(cycles: Dataset, place: float) -> list[CycleThere]:
     """All cycles at a value of the parameter, each between two points of its branch."""
-    along = cycles.attrs["along"]
     found = []
     for number in range(1, cycles.sizes["branches"] + 1):
-        x, most, unstable = branch_of(cycles, number, along)
+        x, most, unstable = branch_of(cycles, number)
         away = x - place
         orbits = cycles.isel(orbit=cycles.branch.values == number)
         for i in np.flatnonzero((away[:-1] * away[1:] <= 0) & (away[:-1] != away[1:])):
@@ -54,12 +54,13 @@ def modulus_at(orbits: Dataset, place: float, most: float) -> float:
     return float(moduli[nearest])
 
 
-def branch_of(cycles: Dataset, number: int, along: str) -> tuple[np.ndarray, ...]:
+def branch_of(cycles: Dataset, number: int) -> tuple[np.ndarray, ...]:
     """Parameter, greatest v, and between each two points the number of unstable multipliers.
 
     Special points stand between the orbits where this number changes, so that each part of the
     branch ends at its special point. A closed branch ends at its first orbit.
     """
+    along = cycles.attrs["along"]
     orbits = cycles.isel(orbit=cycles.branch.values == number)
     points = cycles.isel(special=cycles.special_branch.values == number)
     x, y = orbits[along].values, orbits[most_of(orbits)].values
@@ -84,3 +85,14 @@ def branch_of(cycles: Dataset, number: int, along: str) -> tuple[np.ndarray, ...
         x, y = np.insert(x, before, point_x), np.insert(y, before, point_y)
         between = np.insert(between, before, behind)
     return x, y, between
+
+
+def parts_of(cycles: Dataset) -> Iterator[tuple[int, np.ndarray, np.ndarray]]:
+    """Parts of all branches with the same number of unstable multipliers: this, parameter, v."""
+    for number in range(1, cycles.sizes["branches"] + 1):
+        x, y, unstable = branch_of(cycles, number)
+        cuts = np.flatnonzero(np.diff(unstable)) + 1
+        # a branch of one orbit has no part
+        for part in filter(len, np.split(np.arange(unstable.size), cuts)):
+            ends = slice(part[0], part[-1] + 2)
+            yield int(unstable[part[0]]), x[ends], y[ends]

@@ -1,6 +1,5 @@
 """The drawing of plans/cycles.py, and the numbers of its caption."""
 
-from itertools import groupby
 from string import ascii_lowercase
 
 import numpy as np
@@ -16,7 +15,7 @@ from scripts.drawing.special_points import STYLES, in_words, words_of
 from scripts.drawing.style import FAINT, INK
 from scripts.drawing.wording import count, counted_at, place_in_words, short, words_of_state
 from scripts.namelists.laws import is_of_block
-from scripts.studies.cycles.branches import branch_of, most_of
+from scripts.studies.cycles.branches import most_of, parts_of
 
 HEIGHT = 1.7
 """Of a line, in inches."""
@@ -29,8 +28,8 @@ LINES = (
 """How cycles are drawn, by the number of their unstable multipliers."""
 HOPF = {"ls": "", "marker": "o", "ms": 3, "mfc": "white", "color": INK, "label": "Hopf point"}
 SWEEPS = {
-    "up": {"color": "#cc79a7", "ms": 4.2, "zorder": 2},
-    "down": {"color": "#56b4e9", "ms": 2.6, "zorder": 2.5},
+    "up": {"color": "#cc79a7", "ms": 4.2, "zorder": 2, "label": "sweep up"},
+    "down": {"color": "#56b4e9", "ms": 2.6, "zorder": 2.5, "label": "sweep down"},
 }
 """Dots of a sweep, lighter than the lines over them. Those of the second are smaller and
 on top: both show where they agree."""
@@ -58,8 +57,11 @@ def draw(
         if is_of_block(line.attrs):
             axes.axhline(1, **SLIDING)
         for direction in on_line:
-            draw_sweep(axes, direction, next(following), along)
-        draw_branches(axes, line, along)
+            style = {"ls": "", "marker": ".", "mew": 0, "rasterized": True, **SWEEPS[direction]}
+            axes.plot(*maxima_of(next(following), along), **style)
+        # dots of sweeps lie over the stable parts and below the others
+        for unstable, x, y in parts_of(line):
+            axes.plot(x, y, **LINES[min(unstable, 3)], zorder=3 if unstable else 1)
         draw_points(axes, line, along)
         drawn |= {str(artist.get_label()): artist for artist in axes.lines}
         abscissa = parameters.axis_of(along, line[along].attrs.get("long_name", ""), line.attrs)
@@ -73,7 +75,9 @@ def draw(
         mark_scenes(axes, scenes, line.attrs, along)
         words = f"{parameters.in_words(line.attrs, along)}: {count_in_words(line)}"
         axes.set_title(f"$\\bf{{{'abcdefgh'[i % 8]}}}$  {words}")
-    figure.legend(handles=legend_of(drawn), loc="outside lower center", ncols=3)
+    names = [style["label"] for style in (*LINES, *SWEEPS.values(), SLIDING, HOPF)]
+    handles = [drawn[name] for name in (*names, *map(in_words, STYLES)) if name in drawn]
+    figure.legend(handles=handles, loc="outside lower center", ncols=3)
     return figure
 
 
@@ -84,27 +88,6 @@ def count_in_words(cycles: xr.Dataset) -> str:
         f"{branches} {'branch' if branches == 1 else 'branches'},"
         f" {points} special point{'s' * (points != 1)}"
     )
-
-
-def draw_sweep(axes: Axes, direction: str, swept: xr.Dataset, along: str) -> None:
-    """A dot for each maximum kept."""
-    style = {"ls": "", "marker": ".", "mew": 0, "rasterized": True, "label": f"sweep {direction}"}
-    axes.plot(*maxima_of(swept, along), **style, **SWEEPS[direction])
-
-
-def draw_branches(axes: Axes, cycles: xr.Dataset, along: str) -> None:
-    """The branches, cut where the number of unstable multipliers changes.
-
-    Dots of sweeps lie over the stable parts and below the others.
-    """
-    for number in range(cycles.sizes["branches"]):
-        x, y, unstable = branch_of(cycles, number + 1, along)
-        cuts = np.flatnonzero(np.diff(unstable)) + 1
-        # a branch of one orbit has no part
-        for part in filter(len, np.split(np.arange(unstable.size), cuts)):
-            count = int(unstable[part[0]])
-            ends = slice(part[0], part[-1] + 2)
-            axes.plot(x[ends], y[ends], **LINES[min(count, 3)], zorder=3 if count else 1)
 
 
 def draw_points(axes: Axes, cycles: xr.Dataset, along: str) -> None:
@@ -137,16 +120,6 @@ def draw_points(axes: Axes, cycles: xr.Dataset, along: str) -> None:
         axes.plot(places, np.ones(places.size), clip_on=False, zorder=4, **HOPF)
 
 
-def legend_of(drawn: dict[str, Artist]) -> list[Artist]:
-    """What is drawn somewhere, in the order of the lists above."""
-    names = [
-        *(str(style["label"]) for style in LINES),
-        *(f"sweep {run}" for run in SWEEPS),
-        *("steady sliding", "Hopf point", *map(in_words, STYLES)),
-    ]
-    return [drawn[name] for name in names if name in drawn]
-
-
 def numbers(cycles: list[xr.Dataset]) -> dict:
     """Branches, special points and Hopf points of each line, and where stable cycles are."""
     lines = []
@@ -169,21 +142,15 @@ def numbers(cycles: list[xr.Dataset]) -> dict:
                 "signal": line.attrs["signal"],
                 "state": words_of_state(line.attrs),
                 "hopf": [short(x, 4) for x in np.sort(line[f"hopf_{along}"].values)],
-                "stable": stable_stretches(line, along),
+                "stable": stable_stretches(line),
             }
         )
     return {"lines": lines, "signal": cycles[0].attrs["signal"]}
 
 
-def stable_stretches(cycles: xr.Dataset, along: str) -> list[str]:
+def stable_stretches(cycles: xr.Dataset) -> list[str]:
     """Intervals of the parameter with stable cycles, branch by branch."""
-    found = set()
-    for number in range(1, cycles.sizes["branches"] + 1):
-        x, _, unstable = branch_of(cycles, number, along)
-        for multipliers, parts in groupby(range(unstable.size), key=unstable.__getitem__):
-            pieces = list(parts)
-            if multipliers == 0:
-                values = x[pieces[0] : pieces[-1] + 2]
-                found.add((float(values.min()), float(values.max())))
+    parts = parts_of(cycles)
+    found = {(float(x.min()), float(x.max())) for unstable, x, _ in parts if unstable == 0}
     words = [(short(first), short(last)) for first, last in sorted(found)]
     return [first if first == last else f"{first} to {last}" for first, last in words]

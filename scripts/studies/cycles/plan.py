@@ -56,14 +56,6 @@ def sweeps_on_lines(config: dict) -> list[list[str]]:
     return found
 
 
-def inputs_of_points(config: dict) -> dict:
-    """Cycles of each line, and tables of the routes, whose sweeps leave them."""
-    return {
-        "cycles": cycles_of_lines(config),
-        "routes": [f"<results>/tables/routes/{route}.tsv" for route in config["routes"]["lines"]],
-    }
-
-
 def inputs(config: dict) -> dict:
     """Cycles of each line, and the sweeps of routes on the same lines."""
     sweeps = [path for on_line in sweeps_on_lines(config) for path in on_line]
@@ -76,10 +68,7 @@ def params(config: dict) -> dict:
     return {"directions": directions, "scenes": marked_scenes(config)}
 
 
-FIGURE = {
-    "inputs": inputs,
-    "params": params,
-}
+FIGURE = {"inputs": inputs, "params": params}
 STUDY = Study(
     reads=("attractors", "exponents", "linear_stability", "routes", "scenes"),
     entries={"cycle_line": ("cycles", "lines")},
@@ -93,7 +82,11 @@ STUDY = Study(
     ),
     tables=(
         Table(
-            *("cycle_points", "tables/cycle-points.tsv", inputs_of_points),
+            *("cycle_points", "tables/cycle-points.tsv"),
+            lambda config: {
+                "cycles": cycles_of_lines(config),
+                "routes": [f"<results>/tables/routes/{r}.tsv" for r in config["routes"]["lines"]],
+            },
             wanted=lambda config: bool(config["cycles"]["lines"]),
         ),
     ),

@@ -6,7 +6,7 @@ import xarray as xr
 
 from scripts.files.inputs import read
 from scripts.files.outputs import logged
-from scripts.files.tsv import as_digits, read_table, write_table
+from scripts.files.tsv import as_digits, read_table, rows_by, write_table
 from scripts.namelists.laws import law_in_file, law_of
 from scripts.namelists.parameters import PARAMETERS
 from scripts.studies.cycles.branches import cycles_there, most_of
@@ -92,9 +92,9 @@ def confirmed(point: xr.Dataset, cycles: xr.Dataset, swept: list[dict]) -> str:
         return "not simulated"
     _, most, here, there = min(stable)
     left = []
-    for run in {row["run"] for row in swept}:
-        rows = {row[along]: row for row in swept if row["run"] == run}
-        cycle, other = rows[here], rows[there]
+    for rows in rows_by(swept, "run").values():
+        by_place = {row[along]: row for row in rows}
+        cycle, other = by_place[here], by_place[there]
         share = abs(cycle["largest_maximum"] / most - 1)
         if cycle["class"] == "cycle" and share < SAME_MAXIMUM and other["class"] != UNDECIDED:
             left.append(leaves(cycle, other))
@@ -129,5 +129,4 @@ if __name__ == "__main__":
         for path in snakemake.input.cycles:
             cycles = read(path)
             rows += rows_of(Path(path).stem, cycles, sweeps_over(cycles, routes))
-        own = dict.fromkeys(key for row in rows for key in row if key not in COLUMNS)
-        write_table(snakemake.output[0], rows, [*COLUMNS, *own])
+        write_table(snakemake.output[0], rows, COLUMNS)

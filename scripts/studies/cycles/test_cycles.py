@@ -1,28 +1,46 @@
-"""The table of special points of cycles, from a made-up line with a torus bifurcation at 0.25."""
+"""Special points of cycles: the table, verdicts and the figure, mostly from made-up lines."""
 
 import numpy as np
 import pytest
 import xarray as xr
-from made_up_results import PLACE, cycles_to_a_torus, followed_cycles, of_other_model
+from figure_contents import title_of
+from made_up_results import (
+    LINES,
+    NO,
+    PARTLY,
+    PLACE,
+    YES,
+    Results,
+    attractor_row,
+    cycles_to_a_torus,
+    followed_cycles,
+    of_other_model,
+    route_rows,
+    stability_row,
+    torus_point,
+)
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
+from scripts.claims import ledger  # noqa: F401  (it loads the tests of all studies)
+from scripts.drawing.special_points import STYLES
+from scripts.drawing.style import STYLE
 from scripts.namelists.laws import PAPER
-from scripts.studies.cycles.branches import cycles_there
+from scripts.studies.cycles import figure as cycles
+from scripts.studies.cycles.branches import branch_of, cycles_there
+from scripts.studies.cycles.claims import second_hopf, torus_of_scene
+from scripts.studies.cycles.plan import sweeps_on_lines
 from scripts.studies.cycles.table import COLUMNS, rows_of, sweeps_over
 
 
 def sweep(*motions: tuple[str, float], run: str = "up", **given) -> list[dict]:
     """Rows of a sweep at 0.2, 0.3 and so on: class, with points in the section behind a /."""
+    rows = route_rows(*(met for met, _ in motions), run=run)[::-1]
     return [
-        {
-            "run": run,
-            **PLACE,
-            "tau": round(0.1 * i + 0.2, 1),
-            "class": met.split("/")[0],
-            "period": float(met.split("/")[1]) if "/" in met else float("nan"),
-            "largest_maximum": most,
-            **given,
-        }
-        for i, (met, most) in enumerate(motions)
+        {**row, "tau": round(row["tau"] + 0.1, 1), "largest_maximum": most, **given}
+        for row, (_, most) in zip(rows, motions, strict=True)
     ]
 
 
@@ -142,3 +160,135 @@ def test_cycles_at_a_value_of_the_parameter():
     both = [cycle for cycle in cycles_there(closed, 0.65) if cycle.branch == 2]
     assert [round(cycle.most, 9) for cycle in both] == [2.05, 2.55]
     assert [cycle.unstable for cycle in both] == [0, 0]
+
+
+def at_scene(met: str, tau: float, **given):
+    return Results(
+        **{
+            "attractors": [attractor_row(met)],
+            "linear_stability": [stability_row(**{**PLACE, "tau": tau})],
+            "cycles": {"mine": cycles_to_a_torus()},
+            "cycle_points": [torus_point()],
+            **given,
+        }
+    )
+
+
+@pytest.mark.parametrize(
+    ("met", "tau", "verdict"),
+    [
+        ("torus", 0.35, YES),
+        ("torus", 0.24, PARTLY),
+        ("cycle", 0.15, NO),
+        ("chaos", 0.35, NO),
+    ],
+)
+def test_torus_of_scene(met, tau, verdict):
+    """A run that ends on a torus, where no cycle is stable: the special point parts the orbits."""
+    assert torus_of_scene(at_scene(met, tau), scene="mine").verdict == verdict
+
+
+@pytest.mark.parametrize(
+    ("met", "tau", "given", "verdict"),
+    [
+        ("torus", 0.35, {}, YES),
+        ("torus", 0.15, {}, NO),
+        ("chaos", 0.35, {}, NO),
+        ("torus", 0.35, {"cycle_points": []}, NO),
+        ("torus", 0.35, {"cycle_points": [torus_point(kind="fold")]}, NO),
+        ("torus", 0.35, {"cycle_points": [torus_point(unstable_before=2.0)]}, NO),
+        ("torus", 0.35, {"cycles": {"mine": cycles_to_a_torus(xi=0.5)}}, NO),
+    ],
+)
+def test_second_hopf(met, tau, given, verdict):
+    """At the scene; elsewhere on a line through it is said, but is not there."""
+    found = second_hopf(at_scene(met, tau, **given), scene="mine")
+    assert found.verdict == verdict
+    elsewhere = "With all other parameters the same it occurs at $tau = 0.25$."
+    nowhere = "No torus bifurcation of a stable cycle is known on these lines."
+    instead = nowhere if given else elsewhere
+    assert found.instead == (instead if verdict == NO else "")
+
+
+STABLE, ONE, TWO, MANY = (style["color"] for style in cycles.LINES)
+
+
+@pytest.fixture(autouse=True)
+def _style():
+    """That of all figures, and none is left open."""
+    with plt.style.context(STYLE):
+        yield
+    plt.close("all")
+
+
+@pytest.fixture
+def cycles_drawn() -> Figure:
+    return cycles.draw([followed_cycles("tau"), followed_cycles("epsilon")], [], [[], []], {})
+
+
+def labelled(axes: Axes, label: str) -> list[Line2D]:
+    return [line for line in axes.lines if line.get_label() == label]
+
+
+def test_branches_change_their_line_at_special_points(cycles_drawn):
+    """Each part ends at the point where its number of unstable multipliers changes."""
+    parts = [
+        (line.get_color(), [tuple(point) for point in line.get_xydata()])
+        for line in cycles_drawn.axes[0].lines
+        if line.get_label() in {style["label"] for style in cycles.LINES}
+    ]
+    assert parts == [
+        (TWO, [(0.1, 1.1), (0.3, 1.5), (0.4, 2.0), (0.45, 2.2)]),
+        (MANY, [(0.45, 2.2), (0.4, 2.5), (0.35, 2.8), (0.3, 3.0)]),
+        (ONE, [(0.3, 3.0), (0.2, 3.5)]),
+        (STABLE, [(0.6, 2.0), (0.7, 2.1)]),
+        (ONE, [(0.7, 2.1), (0.8, 2.0), (0.8, 2.5), (0.7, 2.6)]),
+        (STABLE, [(0.7, 2.6), (0.6, 2.5), (0.6, 2.0)]),
+    ]
+
+
+def test_a_change_without_a_point_is_drawn_between_orbits():
+    """A point that the search did not find moves no other point."""
+    found = followed_cycles().isel(special=[0])
+    x, y, unstable = branch_of(found, 1)
+    assert x.tolist() == [0.1, 0.3, 0.4, 0.45, 0.4, 0.35, 0.2]
+    assert y.tolist() == [1.1, 1.5, 2.0, 2.2, 2.5, 2.8, 3.5]
+    assert unstable.tolist() == [2, 2, 2, 3, 3, 3]
+
+
+def test_special_points_have_markers_by_kind(cycles_drawn):
+    expected = {
+        "fold": ("fold", [[0.45, 2.2]]),
+        "torus bifurcation": ("torus", [[0.3, 3.0]]),
+        "period doubling": ("period_doubling", [[0.7, 2.1], [0.7, 2.6]]),
+    }
+    for axes in cycles_drawn.axes:
+        for label, (kind, places) in expected.items():
+            (points,) = labelled(axes, label)
+            assert points.get_marker() == STYLES[kind][0]
+            assert points.get_xydata().tolist() == places
+        (hopf,) = labelled(axes, "Hopf point")
+        assert hopf.get_xydata().tolist() == [[0.1, 1.0]]
+
+
+def test_cycles_of_a_model_that_is_not_the_block():
+    """Neither steady sliding nor Hopf points at v = 1 are drawn."""
+    (axes,) = cycles.draw([of_other_model(followed_cycles("epsilon"))], [], [[]], {}).axes
+    labels = {str(line.get_label()) for line in axes.lines}
+    assert not labels & {"steady sliding", "Hopf point"}
+    assert {"fold", "torus bifurcation", "period doubling"} <= labels
+    assert (axes.get_xlabel(), axes.get_ylabel()) == (r"$\beta$", "maxima of $y$")
+    words = r"$\tau = 10$, model mackey glass (n = 10): 2 branches, 4 special points"
+    assert title_of(axes).endswith(words)
+
+
+def test_sweeps_on_lines_are_found_by_their_parameters(own_config):
+    """Those of routes with the same law, parameter and fixed values."""
+    config = own_config
+    config["cycles"]["lines"] = LINES
+    config["routes"]["lines"]["part"] = {**LINES["mine"], "window": [5.8, 6.1]}
+    folder = "<results>/attractors/routes"
+    mine, *others, across, in_xi = sweeps_on_lines(config)
+    assert mine == [f"{folder}/chaos_in_tau/up.nc", f"{folder}/chaos_in_tau/down.nc"]
+    assert across == [f"{folder}/chaos_in_epsilon/up.nc", f"{folder}/chaos_in_epsilon/down.nc"]
+    assert [*others, in_xi] == [[]] * 4

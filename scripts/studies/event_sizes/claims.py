@@ -6,7 +6,12 @@ from typing import Annotated
 
 from scripts.claims.claims_results import Finding, Results, decided, join, rows_about, short
 from scripts.claims.declare import Scenes, claim, number, reads, says, tested_with
-from scripts.studies.event_sizes.names_of_laws import RIVALS, definition_of, is_usual
+from scripts.studies.event_sizes.names_of_laws import (
+    RIVALS,
+    cut_off_in_words,
+    definition_of,
+    is_usual,
+)
 
 LEVEL = 0.01
 """A law is more likely than another one if chance alone has less than this probability."""
@@ -30,12 +35,8 @@ def power_law_of_sizes(results: Results, *, scenes: Scenes, decades: Decades) ->
     decades. They count from the lower cut-off on.
     """
     parts, pure, joined, plausible = [], False, 0.0, 0.0
-    others: dict[str, list[dict]] = {}
     for name in scenes:
         row = laws_of(results, name)
-        for other in results.event_sizes:
-            if other["chain"] == name and not is_usual(other):
-                others.setdefault(definition_of(other), []).append(other)
         place = f"Chain {name.replace('_', ' ')} has {row['events']:g} events."
         if math.isnan(row["size_exponent"]):
             parts.append(f"{place} They are too few above a lower cut-off to fit a law.")
@@ -58,8 +59,10 @@ def power_law_of_sizes(results: Results, *, scenes: Scenes, decades: Decades) ->
             f" {short(row['size_cutoff_goodness'], 2)} of samples is farther, and more likely laws:"
             f" {join(than_cut_off)}."
         )
+    others = [row for row in results.event_sizes if row["chain"] in scenes and not is_usual(row)]
     spans = {}
-    for definition, rows in others.items():
+    for definition in dict.fromkeys(map(definition_of, others)):
+        rows = [row for row in others if definition_of(row) == definition]
         fitted = [row for row in rows if not math.isnan(row["size_cutoff"])]
         spans[definition] = max(map(decades_of, fitted), default=0.0)
         cut_offs = [
@@ -84,12 +87,6 @@ def power_law_of_sizes(results: Results, *, scenes: Scenes, decades: Decades) ->
 def decades_of(row: dict) -> float:
     """Decades from the lower cut-off to the upper one, none if this is the smaller one."""
     return max(0.0, math.log10(row["size_cutoff"] / row["size_least"]))
-
-
-def cut_off_in_words(row: dict) -> str:
-    """The cut-off with the ends of its interval."""
-    low, high = (short(row[f"size_cutoff_{end}"], 2) for end in ("low", "high"))
-    return f"{short(row['size_cutoff'], 2)} ({low} to {high})"
 
 
 def better_laws(row: dict, rivals: Iterable[str]) -> list[str]:

@@ -12,7 +12,7 @@ from scripts.drawing.style import INK
 from scripts.drawing.wording import place_in_words, short, with_error
 from scripts.namelists.parameters import PARAMETERS
 from scripts.studies.event_sizes.laws import CONFIDENCE, LARGEST, WINDOW, times_after_main_shocks
-from scripts.studies.event_sizes.names_of_laws import definition_of, is_usual
+from scripts.studies.event_sizes.names_of_laws import cut_off_in_words, definition_of, is_usual
 
 MARKS = ["o", "s", "^", "D", "v", "P"]
 BINS = np.geomspace(0.3, WINDOW, 10)
@@ -33,24 +33,29 @@ def draw(
     for number, (chain, row) in enumerate(zip(events, usual, strict=True)):
         colour, mark = f"C{number}", MARKS[number % len(MARKS)]
         of_row = [event for event in chain if event["threshold"] == row["threshold"]]
+        found = [event["size"] for event in of_row]
         words = f"{row['chain'].replace('_', ' ')}: {row['blocks']:g} blocks"
-        draw_sizes(sizes, [event["size"] for event in of_row], color=colour, label=words)
-        draw_law(sizes, [event["size"] for event in of_row], row, colour)
-        draw_rates(rates, of_row, row, colour, mark)
+        draw_sizes(sizes, found, color=colour, label=words)
+        draw_law(sizes, found, row, colour)
+        draw_rates(rates, of_row, row, color=colour, fmt=mark)
     longest = max(range(len(names)), key=lambda i: usual[i]["blocks"])
     shown = [row for row in laws if row["chain"] in names]
     styles = styles_of(shown)
     for row in shown:
         if row["chain"] == names[longest]:
-            name = definition_of(row)
-            found = sizes_of(row, events[longest], slips[longest])
+            name, chain = definition_of(row), slips[longest]
+            if row["joined"] == "yes":
+                there = (e for e in events[longest] if e["threshold"] == row["threshold"])
+                found = [event["size"] for event in there]
+            else:
+                kept = chain.onset >= chain.attrs["t_end"] - row["time"]
+                found = chain.slip.values[(chain.threshold == row["threshold"]) & kept]
             draw_sizes(others, found, label=name, **styles[name])
     others.legend(fontsize=7)
     draw_cut_offs(cutoffs, shown, styles)
-    of = names[longest].replace("_", " ")
-    titles = {sizes: "a", others: "b", cutoffs: "c", rates: "d"}
-    for axes, letter in titles.items():
-        axes.set_title(f"$\\bf{{{letter}}}${f'  {of}' if axes is others else ''}")
+    for axes, letter in zip((sizes, others, cutoffs, rates), "abcd", strict=True):
+        of = "  " + names[longest].replace("_", " ") if axes is others else ""
+        axes.set_title(f"$\\bf{{{letter}}}${of}")
     for axes in (sizes, others):
         axes.set(xlabel="size (units of $L$)", ylabel="share of events at least as large")
     cutoffs.set(xlabel="blocks", ylabel="cut-off (units of $L$)")
@@ -64,14 +69,6 @@ def draw(
         *sizes.get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=7
     )
     return figure
-
-
-def sizes_of(row: dict, events: list[dict], slips: xr.Dataset) -> np.ndarray:
-    """Sizes of the events of a chain by the definition of a row."""
-    if row["joined"] == "yes":
-        return np.array([e["size"] for e in events if e["threshold"] == row["threshold"]])
-    start = slips.attrs["t_end"] - row["time"]
-    return slips.slip.values[(slips.threshold == row["threshold"]) & (slips.onset >= start)]
 
 
 def draw_sizes(axes: Axes, sizes, **style) -> None:
@@ -124,25 +121,16 @@ def draw_cut_offs(axes: Axes, laws: list[dict], styles: dict[str, dict]) -> None
     axes.minorticks_off()
 
 
-def draw_rates(axes: Axes, events: list[dict], row: dict, colour: str, mark: str) -> None:
+def draw_rates(axes: Axes, events: list[dict], row: dict, **style: str) -> None:
     """Rates of events after the largest ones over the mean rate, with three standard errors."""
-    onset, duration, size = (
-        np.array([event[key] for event in events]) for key in ("onset", "duration", "size")
-    )
-    shocks, after = times_after_main_shocks(onset, duration, size)
+    shocks, after = times_after_main_shocks(events)
     if shocks == 0:
         return
     counts, _ = np.histogram(after, BINS)
     expected = shocks * len(events) / row["time"] * np.diff(BINS)
-    axes.errorbar(
-        np.sqrt(BINS[1:] * BINS[:-1]),
-        counts / expected,
-        yerr=3 * np.sqrt(counts) / expected,
-        fmt=mark,
-        color=colour,
-        ms=3,
-        lw=0.6,
-    )
+    bars = 3 * np.sqrt(counts) / expected
+    middles = np.sqrt(BINS[1:] * BINS[:-1])
+    axes.errorbar(middles, counts / expected, yerr=bars, ms=3, lw=0.6, **style)
     axes.set_xscale("log")
 
 
@@ -151,56 +139,41 @@ def numbers(
 ) -> dict:
     """What the events of each chain are, and the laws that they follow."""
     usual = laws_of(laws, names)
-    definitions = list(dict.fromkeys(map(definition_of, laws)))
-    cut_offs = {
-        (row["chain"], definition_of(row)): with_interval(row)
-        for row in laws
-        if row["chain"] in names
-    }
+    shuffled = [row["shuffled_cutoff"] for row in usual]
+    cut_offs = {(row["chain"], definition_of(row)): cut_off_in_words(row) for row in laws}
+    definitions = dict.fromkeys(definition for _, definition in cut_offs)
     return {
         "chains": [numbers_of(row) for row in usual],
         "cells": [
             ["cut-off", *(name.replace("_", " ") for name in names)],
             *([one, *(cut_offs[name, one] for name in names)] for one in definitions),
-            ["slips shuffled", *map(shuffled_in_words, usual)],
+            [
+                "slips shuffled",
+                *("too few events" if math.isnan(one) else f"{one:.2g}" for one in shuffled),
+            ],
         ],
         "confidence": short(100 * CONFIDENCE),
         "largest": short(100 * LARGEST),
     }
 
 
-def shuffled_in_words(row: dict) -> str:
-    """The cut-off with shuffled slips."""
-    cut_off = row["shuffled_cutoff"]
-    return "too few events" if math.isnan(cut_off) else f"{cut_off:.2g}"
-
-
-def with_interval(row: dict) -> str:
-    """A cut-off with the ends of its interval."""
-    if math.isnan(row["size_cutoff"]):
-        return "too few events"
-    middle, low, high = (row[f"size_cutoff{end}"] for end in ("", "_low", "_high"))
-    return f"{middle:.2g} ({low:.2g} to {high:.2g})"
-
-
 def numbers_of(row: dict) -> dict:
     """Numbers of one chain in words."""
-    fitted = not math.isnan(row["size_exponent"])
-    shocks = row["aftershock_main_shocks"]
-    return {
-        "cells": [
-            row["chain"].replace("_", " "),
-            f"{row['blocks']:g}",
-            short(row["gamma"]),
-            f"{row['events']:g}",
-            short(row["size_least"]) if fitted else "",
-            with_error(row["size_exponent"], row["size_error"]) if fitted else "too few",
-            short(row["size_goodness"], 2) if fitted else "",
-            short(row["size_cutoff_exponent"], 2) if fitted else "",
-            short(row["size_cutoff_goodness"], 2) if fitted else "",
-            ""
-            if math.isnan(shocks)
-            else with_error(row["aftershock_first"], row["aftershock_first_error"]),
-        ],
-        "place": place_in_words({key: row[key] for key in (*PARAMETERS, "law")}),
-    }
+    place = place_in_words({key: row[key] for key in (*PARAMETERS, "law")})
+    cells = [
+        *(row["chain"].replace("_", " "), f"{row['blocks']:g}", short(row["gamma"])),
+        f"{row['events']:g}",
+        *("", "too few", "", "", "", ""),
+    ]
+    if not math.isnan(row["size_exponent"]):
+        cells[4:9] = [
+            short(row["size_least"]),
+            with_error(row["size_exponent"], row["size_error"]),
+            *(
+                short(row[f"size_{key}"], 2)
+                for key in ("goodness", "cutoff_exponent", "cutoff_goodness")
+            ),
+        ]
+    if not math.isnan(row["aftershock_main_shocks"]):
+        cells[9] = with_error(row["aftershock_first"], row["aftershock_first_error"])
+    return {"cells": cells, "place": place}

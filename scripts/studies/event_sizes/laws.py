@@ -1,12 +1,12 @@
 """Laws of event sizes and of aftershocks, put to the test of their data.
 
 Sizes: maximum likelihood above a lower cut-off, and ratios of likelihoods (Clauset, Shalizi and
-Newman 2009). Aftershocks: the likelihood of a rate that decays as Omori and Utsu say.
+Newman 2009). Aftershocks: the likelihood of a rate that decays as Omori and Utsu say. What is found
+has the names of columns of the table.
 """
 
 import warnings
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 import powerlaw
@@ -37,7 +37,7 @@ CUT_SAMPLES = 199
 LARGEST = 0.05
 """Share of the events that are main shocks: the largest."""
 FIRST = 1.0
-"""Time after a main shock in which the first rate is counted."""
+"""Time after a main shock in which the first rate is counted, over that of the whole run."""
 WINDOW = 50.0
 """Time after a main shock in which aftershocks are looked for."""
 EXPONENTS = (0.3, 3.0)
@@ -45,44 +45,11 @@ EXPONENTS = (0.3, 3.0)
 Matsu'ura 1995)."""
 
 
-@dataclass(frozen=True)
-class SizeLaw:
-    """A power law of sizes, density size^-exponent above a least size, and its rivals."""
+def fit_cut_off(sizes: np.ndarray, least: float) -> dict[str, float]:
+    """The law with a cut-off, density size^-exponent exp(-size/cutoff) above a least size.
 
-    exponent: float
-    error: float
-    least: float
-    events: int
-    """Events with at least the least size."""
-    goodness: float
-    """Share of samples of the power law that are farther from it than the data (Kolmogorov and
-    Smirnov's distance)."""
-    ratios: dict[str, tuple[float, float]]
-    """Of each rival the logarithm of the likelihoods' ratio over its standard deviation, positive
-    in favour of the power law, and the probability that it is as large by chance."""
-    cutoff_ratios: dict[str, tuple[float, float]]
-    """The same of the power law with a cut-off and the other rivals."""
-    cut_off: "CutOff"
-    cutoff_goodness: float
-    """The same as the goodness, of the law with a cut-off."""
-
-
-@dataclass(frozen=True)
-class CutOff:
-    """The power law with a cut-off, density size^-exponent exp(-size/cutoff) above a least size."""
-
-    exponent: float
-    size: float
-    """Size at which it is cut off."""
-    low: float
-    high: float
-    """Ends of its interval; 0 or infinity where the likelihood bounds it on one side only."""
-
-
-def fit_cut_off(sizes: np.ndarray, least: float) -> CutOff:
-    """The law of the sizes of at least the least one, by maximum likelihood.
-
-    The interval of the cut-off is that of the profile likelihood.
+    By maximum likelihood. The interval of the cut-off is that of the profile likelihood, 0 or
+    infinite where this bounds it on one side only.
     """
     y = sizes[sizes >= least] / least
     exponent, best = most_likely(y)
@@ -100,7 +67,12 @@ def fit_cut_off(sizes: np.ndarray, least: float) -> CutOff:
         least * np.exp(-brentq(beyond, best, end, xtol=1e-3)) if beyond(end) > 0 else without
         for end, without in zip(LOG_RATES[::-1], (0.0, np.inf), strict=True)
     )
-    return CutOff(exponent, least * float(np.exp(-best)), float(low), float(high))
+    return {
+        "size_cutoff_exponent": exponent,
+        "size_cutoff": least * float(np.exp(-best)),
+        "size_cutoff_low": float(low),
+        "size_cutoff_high": float(high),
+    }
 
 
 def minus_log_likelihood(
@@ -164,16 +136,16 @@ def distance(y: np.ndarray, exponent: float, log_rate: float) -> float:
     return float(cdf.statistic)
 
 
-def fit_definition(sizes: np.ndarray) -> tuple[float, int, CutOff] | None:
-    """The least size, the events above it and the law with a cut-off, if events are enough."""
+def fit_definition(sizes: np.ndarray) -> dict[str, float]:
+    """The least size, the events above it and the law with a cut-off; nothing of too few events."""
     searched = sizes[:: max(1, sizes.size // MOST_SEARCHED)]
     if searched.size < FEWEST:
-        return None
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # sizes at the bounds of the search
+        return {}
+    with warnings.catch_warnings(action="ignore"):  # sizes at the bounds of the search
         least = float(powerlaw.Fit(searched, verbose=0).xmin)
     above = int(np.count_nonzero(sizes >= least))
-    return (least, above, fit_cut_off(sizes, least)) if above >= FEWEST else None
+    found = {"size_least": least, "size_events": above}
+    return found | fit_cut_off(sizes, least) if above >= FEWEST else {}
 
 
 def shuffle_slips(slips: np.ndarray, per_event: np.ndarray) -> np.ndarray:
@@ -182,22 +154,20 @@ def shuffle_slips(slips: np.ndarray, per_event: np.ndarray) -> np.ndarray:
     return np.add.reduceat(drawn, np.concatenate(([0], np.cumsum(per_event)[:-1])))
 
 
-def fit_sizes(sizes: np.ndarray) -> SizeLaw | None:
-    """The law of the sizes, shape (events); none of fewer than `FEWEST` above the least size."""
+def fit_sizes(sizes: np.ndarray) -> dict[str, float]:
+    """The power law of the sizes, shape (events), density size^-exponent, and its rivals.
+
+    Nothing of fewer events than `FEWEST` above the least size. Goodness of a law is the share of
+    its samples that are farther from it than the data, by Kolmogorov and Smirnov's distance.
+    """
     if sizes.size < FEWEST:
-        return None
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # sizes at the bounds of the search
+        return {}
+    with warnings.catch_warnings(action="ignore"):  # sizes at the bounds of the search
         fit = powerlaw.Fit(sizes, verbose=0)
-        above = sizes[sizes >= fit.xmin]
+        least, above = float(fit.xmin), sizes[sizes >= fit.xmin]
         if above.size < FEWEST:
-            return None
-        ratios = {
-            rival: compare(fit, "power_law", rival, nested=rival == CUT_OFF) for rival in RIVALS
-        }
-        cutoff_ratios = {
-            rival: compare(fit, CUT_OFF, rival) for rival in RIVALS if rival != CUT_OFF
-        }
+            return {}
+        ratios = compare(fit, "power_law", RIVALS) | compare(fit, CUT_OFF, RIVALS[:-1])
         test = stats.goodness_of_fit(
             stats.pareto,
             above,
@@ -206,92 +176,71 @@ def fit_sizes(sizes: np.ndarray) -> SizeLaw | None:
             n_mc_samples=SAMPLES,
             rng=np.random.default_rng(SEED),
         )
-    return SizeLaw(
-        exponent=float(fit.alpha),
-        error=float(fit.sigma),
-        least=float(fit.xmin),
-        events=above.size,
-        goodness=float(test.pvalue),
-        ratios=ratios,
-        cutoff_ratios=cutoff_ratios,
-        cut_off=fit_cut_off(sizes, float(fit.xmin)),
-        cutoff_goodness=goodness_of_cut_off(sizes, float(fit.xmin)),
-    )
+    return {
+        "size_exponent": float(fit.alpha),
+        "size_error": float(fit.sigma),
+        "size_least": least,
+        "size_events": above.size,
+        "size_goodness": float(test.pvalue),
+        "size_cutoff_goodness": goodness_of_cut_off(sizes, least),
+        **fit_cut_off(sizes, least),
+        **ratios,
+    }
 
 
-def compare(
-    fit: powerlaw.Fit, law: str, rival: str, *, nested: bool = False
-) -> tuple[float, float]:
-    """The logarithm of the likelihoods' ratio over its standard deviation, and its probability."""
-    ratio, chance = fit.distribution_compare(law, rival, nested=nested, normalized_ratio=True)
-    return float(ratio), float(chance)
+def compare(fit: powerlaw.Fit, law: str, rivals: tuple[str, ...]) -> dict[str, float]:
+    """The logarithms of the ratios of likelihoods, and the probabilities that chance makes them.
 
-
-@dataclass(frozen=True)
-class AftershockLaw:
-    """The rate of events after main shocks, background + productivity (1 + t/delay)^-exponent.
-
-    Times count from the end of the main shock.
+    A logarithm is over its standard deviation, positive in favour of the law.
     """
-
-    main_shocks: int
-    rate: float
-    """Events per unit of time in the whole run."""
-    first: float
-    """The rate in the time `FIRST` after main shocks, over that of the whole run."""
-    first_error: float
-    background: float
-    productivity: float
-    delay: float
-    exponent: float
-    chance: float
-    """Probability that a constant rate is as much less likely by chance."""
-    over_exponential: float
-    """Logarithm of the likelihood over that of a rate that decays exponentially."""
+    found, over = {}, "cutoff_over_" * (law == CUT_OFF)
+    for rival in rivals:
+        ratio, chance = fit.distribution_compare(
+            law, rival, nested=rival == CUT_OFF, normalized_ratio=True
+        )
+        found |= {f"{over}{rival}_ratio": float(ratio), f"{over}{rival}_chance": float(chance)}
+    return found
 
 
-def times_after_main_shocks(
-    onset: np.ndarray, duration: np.ndarray, sizes: np.ndarray
-) -> tuple[int, np.ndarray]:
+def times_after_main_shocks(events: list[dict]) -> tuple[int, np.ndarray]:
     """The number of main shocks, and the times from their ends to the onsets of other events.
 
-    Of events, shape (events). Times are up to `WINDOW`, which all main shocks have before them.
+    Times are up to `WINDOW`, which all main shocks have before them.
     """
-    if sizes.size < FEWEST:
+    if len(events) < FEWEST:
         return 0, np.empty(0)
+    onset, duration, sizes = (
+        np.array([event[key] for event in events]) for key in ("onset", "duration", "size")
+    )
     end = onset + duration
     main = (sizes >= np.quantile(sizes, 1 - LARGEST)) & (end + WINDOW < onset.max())
     after = (onset - end[main, np.newaxis]).ravel()
     return np.count_nonzero(main), after[(after > 0) & (after < WINDOW)]
 
 
-def fit_aftershocks(
-    onset: np.ndarray, duration: np.ndarray, sizes: np.ndarray, time: float
-) -> AftershockLaw | None:
-    """The law of Omori and Utsu of all events that begin after the end of the largest ones.
+def fit_aftershocks(events: list[dict], time: float) -> dict[str, float]:
+    """The rate of events after main shocks, background + productivity (1 + t/delay)^-exponent.
 
-    Of events, shape (events), in a run of some time; none if they are too few.
+    In a run of some time; nothing of too few events. Times t count from the end of the main shock.
+    `chance` is the probability that a constant rate is as much less likely by chance,
+    `over_exponential` the logarithm of the likelihood over that of an exponential decay.
     """
-    shocks, after = times_after_main_shocks(onset, duration, sizes)
+    shocks, after = times_after_main_shocks(events)
     if after.size < FEWEST:
-        return None
-    rate, soon = sizes.size / time, np.count_nonzero(after < FIRST)
+        return {}
+    rate, soon = len(events) / time, np.count_nonzero(after < FIRST)
     expected = rate * FIRST * shocks
     constant = after.size * (np.log(after.size / (shocks * WINDOW)) - 1)
-    best, (background, productivity, delay, exponent) = fit_decay(shocks, after, power_decay)
+    best, values = fit_decay(shocks, after, power_decay)
     exponential, _ = fit_decay(shocks, after, exponential_decay)
-    return AftershockLaw(
-        main_shocks=shocks,
-        rate=rate,
-        first=soon / expected,
-        first_error=float(np.sqrt(max(soon, 1)) / expected),
-        background=background,
-        productivity=productivity,
-        delay=delay,
-        exponent=exponent,
-        chance=float(stats.chi2.sf(2 * max(best - constant, 0.0), 3)),
-        over_exponential=best - exponential,
-    )
+    found = {
+        **{"main_shocks": shocks, "rate": rate, "first": soon / expected},
+        "first_error": float(np.sqrt(max(soon, 1)) / expected),
+        **dict(zip(("background", "productivity", "delay", "exponent"), values, strict=True)),
+        "chance": float(stats.chi2.sf(2 * max(best - constant, 0.0), 3)),
+        "over_exponential": best - exponential,
+    }
+    return {f"aftershock_{key}": value for key, value in found.items()}
 
 
 def power_decay(t: np.ndarray, delay: float, exponent: float) -> tuple[np.ndarray, float]:

@@ -19,14 +19,12 @@ def groups(config: dict, scene: str) -> dict[str, dict]:
     return scene_groups(config, scene, **own)
 
 
-def slips(config: dict) -> list[str]:
-    """Slips of the blocks of all chains."""
-    return paths_of_scenes("chain_slips", names(config))
-
-
-def events(config: dict) -> list[str]:
-    """Tables of the events of all chains."""
-    return [f"<results>/tables/chain-events/{name}.tsv" for name in names(config)]
+def inputs(config: dict) -> dict:
+    """Slips of the blocks of each chain, and its events."""
+    return {
+        "slips": paths_of_scenes("chain_slips", names(config)),
+        "events": [f"<results>/tables/chain-events/{name}.tsv" for name in names(config)],
+    }
 
 
 def transient(config: dict, scene: str) -> float:
@@ -34,18 +32,9 @@ def transient(config: dict, scene: str) -> float:
     return config["scenes"][scene]["t_transient"]
 
 
-def inputs(config: dict) -> dict:
-    """Events and slips of each chain, and the laws fitted to them."""
-    return {
-        "events": events(config),
-        "slips": slips(config),
-        "laws": "<results>/tables/event-sizes.tsv",
-    }
-
-
 FIGURE = {
     "category": "Chains",
-    "inputs": inputs,
+    "inputs": lambda config: inputs(config) | {"laws": "<results>/tables/event-sizes.tsv"},
     "params": lambda config: {"names": names(config)},
 }
 STUDY = Study(
@@ -65,8 +54,7 @@ STUDY = Study(
             script="events_table.py",
         ),
         Table(
-            *("event_sizes_table", "tables/event-sizes.tsv"),
-            lambda config: {"slips": slips(config), "events": events(config)},
+            *("event_sizes_table", "tables/event-sizes.tsv", inputs),
             params={
                 "t_transient": lambda config: [transient(config, name) for name in names(config)],
                 "thresholds": lambda config: config["event_sizes"]["thresholds"],

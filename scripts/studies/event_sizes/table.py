@@ -12,7 +12,6 @@ from scripts.files.tsv import read_table, write_table
 from scripts.namelists.laws import law_of
 from scripts.namelists.parameters import PARAMETERS
 from scripts.studies.event_sizes.laws import (
-    CutOff,
     fit_aftershocks,
     fit_definition,
     fit_sizes,
@@ -20,11 +19,17 @@ from scripts.studies.event_sizes.laws import (
 )
 from scripts.studies.event_sizes.names_of_laws import RIVALS, is_usual
 
-OF_SIZES = ("exponent", "error", "least", "events", "goodness", "cutoff_goodness")
-OF_AFTERSHOCKS = (
-    *("main_shocks", "rate", "first", "first_error", "background", "productivity", "delay"),
-    *("exponent", "chance", "over_exponential"),
-)
+OF_LAWS = [
+    *("size_exponent", "size_error", "size_least", "size_events", "size_goodness"),
+    *("size_cutoff_goodness", "size_cutoff_exponent", "size_cutoff", "size_cutoff_low"),
+    *("size_cutoff_high", "shuffled_cutoff"),
+    *(f"{law}_{key}" for law in RIVALS for key in ("ratio", "chance")),
+    *(f"cutoff_over_{law}_{key}" for law in RIVALS[:-1] for key in ("ratio", "chance")),
+    *("aftershock_main_shocks", "aftershock_rate", "aftershock_first", "aftershock_first_error"),
+    *("aftershock_background", "aftershock_productivity", "aftershock_delay"),
+    *("aftershock_exponent", "aftershock_chance", "aftershock_over_exponential"),
+]
+"""Columns that are missing where there are too few events."""
 
 
 def rows_of_chain(
@@ -50,49 +55,20 @@ def rows_of_chain(
             row = {**place, "threshold": threshold, "joined": joined, "slips": alone.size}
             row |= {"events": found.size, "smallest": found.min() if found.size else math.nan}
             row |= {"largest": found.max(initial=0.0)}
-            laws = laws_of(these, alone, row) if is_usual(row) else law_of_others(found)
-            rows.append(row | laws)
+            usual = is_usual(row)
+            laws = laws_of(these, alone, row["time"]) if usual else fit_definition(found)
+            rows.append(row | dict.fromkeys(OF_LAWS, math.nan) | laws)
     return rows
 
 
-def laws_of(events: list[dict], slips: np.ndarray, row: dict) -> dict:
-    """The laws that the usual events of a chain follow, and those with shuffled slips."""
-    onset, duration, size = (
-        np.array([event[key] for event in events]) for key in ("onset", "duration", "size")
-    )
-    sizes, aftershocks = fit_sizes(size), fit_aftershocks(onset, duration, size, row["time"])
-    ratios = {}
-    for rival in RIVALS:
-        ratio, chance = sizes.ratios[rival] if sizes else (math.nan, math.nan)
-        ratios |= {f"{rival}_ratio": ratio, f"{rival}_chance": chance}
-    for rival in RIVALS[:-1]:
-        ratio, chance = sizes.cutoff_ratios[rival] if sizes else (math.nan, math.nan)
-        ratios |= {f"cutoff_over_{rival}_ratio": ratio, f"cutoff_over_{rival}_chance": chance}
-    shuffled = None
-    if sizes:
+def laws_of(events: list[dict], slips: np.ndarray, time: float) -> dict[str, float]:
+    """The laws that the usual events of a chain follow, and the cut-off of shuffled slips."""
+    laws = fit_sizes(np.array([event["size"] for event in events]))
+    if laws:
         counts = np.array([int(event["slips"]) for event in events])
         shuffled = fit_definition(shuffle_slips(slips, counts))
-    return {
-        **{f"size_{key}": getattr(sizes, key, math.nan) for key in OF_SIZES},
-        **columns_of(sizes.cut_off if sizes else None),
-        "shuffled_cutoff": shuffled[2].size if shuffled else math.nan,
-        **ratios,
-        **{f"aftershock_{key}": getattr(aftershocks, key, math.nan) for key in OF_AFTERSHOCKS},
-    }
-
-
-def law_of_others(sizes: np.ndarray) -> dict:
-    """The law with a cut-off that events of another definition follow."""
-    least, above, law = fit_definition(sizes) or (math.nan, math.nan, None)
-    return {"size_least": least, "size_events": above, **columns_of(law)}
-
-
-def columns_of(law: CutOff | None) -> dict:
-    """A law with a cut-off."""
-    names = ("exponent", "size", "low", "high")
-    exponent, *ends = (getattr(law, name, math.nan) for name in names)
-    columns = ("size_cutoff", "size_cutoff_low", "size_cutoff_high")
-    return {"size_cutoff_exponent": exponent, **dict(zip(columns, ends, strict=True))}
+        laws["shuffled_cutoff"] = shuffled.get("size_cutoff", math.nan)
+    return laws | fit_aftershocks(events, time)
 
 
 if __name__ == "__main__":
@@ -101,13 +77,8 @@ if __name__ == "__main__":
         chains = zip(
             snakemake.input.slips, snakemake.input.events, snakemake.params.t_transient, strict=True
         )
-        write_table(
-            snakemake.output[0],
-            [
-                row
-                for slips, events, start in chains
-                for row in rows_of_chain(
-                    Path(slips).stem, read(slips), read_table(events), start, thresholds
-                )
-            ],
-        )
+        rows = [
+            rows_of_chain(Path(slips).stem, read(slips), read_table(events), start, thresholds)
+            for slips, events, start in chains
+        ]
+        write_table(snakemake.output[0], [row for of_chain in rows for row in of_chain])

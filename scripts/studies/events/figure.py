@@ -33,37 +33,27 @@ def draw(slip_events: list[xr.Dataset], labels: list[str]) -> Figure:
         )
         panels[0].set_title(f"$\\bf{{{label}}}$  {title}")
         if events.sizes["event"] > 0:
-            draw_recurrence(panels[0], events)
-            draw_distribution(panels[1], events.recurrence_time.values)
+            draw_recurrence(*panels[:2], events.recurrence_time.values)
             draw_sizes(panels[2], np.sort(events.slip.values), ends)
-    for axes, words in zip(
-        grid.T,
-        (
-            (f"number of the event, up to {EVENTS_SHOWN}", f"recurrence\n{TIME}"),
-            (f"recurrence {TIME}", "share of events"),
-            ("slip $s$ (units of $L$)", "share of events\nwith slip $\\geq s$"),
-        ),
-        strict=True,
-    ):
-        for panel in axes:
-            panel.set_ylabel(words[1])
-        axes[-1].set_xlabel(words[0])
+    words = (
+        (f"number of the event, up to {EVENTS_SHOWN}", f"recurrence\n{TIME}"),
+        (f"recurrence {TIME}", "share of events"),
+        ("slip $s$ (units of $L$)", "share of events\nwith slip $\\geq s$"),
+    )
+    for column, (abscissa, ordinate) in zip(grid.T, words, strict=True):
+        plt.setp(column, ylabel=ordinate)
+        column[-1].set_xlabel(abscissa)
     return figure
 
 
-def draw_recurrence(axes: Axes, events: xr.Dataset) -> None:
-    """The recurrence times of the first events."""
-    shown = events.recurrence_time.values[:EVENTS_SHOWN]
-    axes.plot(1 + np.arange(shown.size), shown, ls="", marker="o", ms=2, mew=0)
-    axes.set_ylim(0, 1.15 * shown.max())
-
-
-def draw_distribution(axes: Axes, times: np.ndarray) -> None:
-    """Shares of the recurrence times in equal bins from zero on."""
-    axes.hist(
-        times, bins=np.linspace(0, 1.15 * times.max(), BINS), weights=1 / times.size + 0 * times
-    )
-    axes.set_ylim(0, None)
+def draw_recurrence(first: Axes, shares: Axes, times: np.ndarray) -> None:
+    """The recurrence times of the first events, and shares of all in equal bins from zero on."""
+    shown = times[:EVENTS_SHOWN]
+    first.plot(1 + np.arange(shown.size), shown, ls="", marker="o", ms=2, mew=0)
+    first.set_ylim(0, 1.15 * shown.max())
+    bins = np.linspace(0, 1.15 * times.max(), BINS)
+    shares.hist(times, bins=bins, weights=1 / times.size + 0 * times)
+    shares.set_ylim(0, None)
 
 
 def draw_sizes(axes: Axes, slip: np.ndarray, ends: tuple[float, float]) -> None:

@@ -7,17 +7,6 @@ from scripts.namelists.program_groups import scene_groups
 from scripts.plans.declare import Figure, Run, Study
 from scripts.plans.scenes import paths_of_scenes, scenes_of
 
-
-def inputs(config: dict) -> dict:
-    """Slip events of the rows."""
-    return {"slip_events": paths_of_scenes("slip_events", scenes_of(config, "events"))}
-
-
-def params(config: dict) -> dict:
-    """Labels of the rows."""
-    return {"labels": list(config["figures"]["events"]["rows"])}
-
-
 STUDY = Study(
     reads=("cycles", "scenes"),
     runs=(
@@ -31,8 +20,10 @@ STUDY = Study(
             "events",
             category="Supplement",
             place=130,
-            inputs=inputs,
-            params=params,
+            inputs=lambda config: {
+                "slip_events": paths_of_scenes("slip_events", scenes_of(config, "events"))
+            },
+            params=lambda config: {"labels": list(config["figures"]["events"]["rows"])},
         ),
     ),
 )

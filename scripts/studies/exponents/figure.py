@@ -1,4 +1,4 @@
-"""The drawing of plans/exponents.py, and the numbers of its caption."""
+"""The drawing of exponents, and the numbers of its caption."""
 
 from collections import Counter
 
@@ -77,48 +77,35 @@ def draw_times(axes: Axes, run: xr.Dataset) -> None:
     for i in range(run.sizes["exponent"]):
         axes.plot(elapsed, run.running_average[:, i], color=f"C{i % COLOURS}", lw=0.8)
     end = run.attrs["t_end"] - run.attrs["t_begin"]
-    draw_bars(axes, run, 0, np.full(run.sizes["exponent"], 1.03 * end))
+    draw_bars(axes, run.isel(run=[0]), np.full((1, run.sizes["exponent"]), 1.03 * end))
     axes.set(xlim=(0, 1.06 * end), ylabel=r"exponent $\lambda_i$")
-    scale(axes)
 
 
 def draw_tolerances(axes: Axes, run: xr.Dataset) -> None:
     """Values and error bars at each tolerance, side by side."""
     spread = 10 ** np.linspace(-0.3, 0.3, run.sizes["exponent"])
-    for k, tolerance in enumerate(run.tolerance.values):
-        draw_bars(axes, run, k, tolerance * spread)
+    draw_bars(axes, run, np.outer(run.tolerance, spread))
     axes.set_xscale("log")
-    scale(axes)
 
 
 def draw_resolutions(axes: Axes, run: xr.Dataset) -> None:
     """Values and error bars at each mean step, side by side."""
     steps = run.mean_step.values
     spread = 0.05 * steps.max() * np.linspace(-1, 1, run.sizes["exponent"])
-    for k, step in enumerate(steps):
-        draw_bars(axes, run, k, step + spread)
+    draw_bars(axes, run, np.add.outer(steps, spread))
     axes.set_xlim(0, 1.15 * steps.max())
     axes.xaxis.set_major_locator(MaxNLocator(3))
-    scale(axes)
 
 
-def draw_bars(axes: Axes, run: xr.Dataset, k: int, places: np.ndarray) -> None:
-    """All exponents of one run."""
-    for i, place in enumerate(places):
-        axes.errorbar(
-            place,
-            float(run.value[k, i]),
-            float(run.error[k, i]),
-            fmt="o",
-            ms=2.5,
-            capsize=2,
-            lw=0.8,
-            color=f"C{i % COLOURS}",
-        )
+def draw_bars(axes: Axes, runs: xr.Dataset, places: np.ndarray) -> None:
+    """Exponents of runs at their places, shape (runs, exponents).
 
-
-def scale(axes: Axes) -> None:
-    """Logarithmic away from zero, so that small exponents and large ones can be read."""
+    Logarithmic away from zero, so that small exponents and large ones can be read.
+    """
+    bars = {"fmt": "o", "ms": 2.5, "capsize": 2, "lw": 0.8}
+    for i in range(runs.sizes["exponent"]):
+        columns = (places[:, i], runs.value[:, i], runs.error[:, i])
+        axes.errorbar(*columns, color=f"C{i % COLOURS}", **bars)
     axes.axhline(0, color=FAINT, lw=0.6, zorder=0)
     axes.set_yscale("symlog", linthresh=LEAST_SCALE)
 

@@ -12,15 +12,11 @@ from scripts.plans.scenes import paths_of_scenes, scenes_with
 
 def groups(config: dict, scene: str) -> dict[str, dict]:
     """A scene and how its exponents are measured, by default up to its own end."""
-    settings, shared = config["scenes"][scene], config["exponents"] | zero_of(config)
-    own = {"checks": True, **settings.get("exponents", {})}
-    default = {"count": shared.pop("count"), "t_end": settings["t_end"]}
-    exponents = {**default, **shared, **own}
-    left_out = (
-        "checks",
-        *[key for key in shared if key.startswith("check_") and not own["checks"]],
-    )
-    measured = {key: value for key, value in exponents.items() if key not in left_out}
+    settings = config["scenes"][scene]
+    own = {"t_end": settings["t_end"], "checks": True, **settings.get("exponents", {})}
+    measured = config["exponents"] | zero_of(config) | own
+    if not measured.pop("checks"):
+        measured = {key: one for key, one in measured.items() if not key.startswith("check_")}
     return {**scene_groups(config, scene), "exponents": measured}
 
 
@@ -60,7 +56,7 @@ STUDY = Study(
     figures=(Figure("exponents", category="Supplement", place=110, **FIGURE),),
     kinds=(
         Figure(
-            *("exponents",),
+            "exponents",
             category="Exponents",
             place=20,
             shows=("scenes",),

@@ -4,6 +4,7 @@ from typing import Annotated
 
 from scripts.claims.claims_results import Finding, Results, decided, equations, short
 from scripts.claims.declare import Gamma, number, question, reads, says, tested_with
+from scripts.studies.fault_limit.table import leading_order
 
 STIFFEST = 10.0
 """A xi beyond that of any fault: steady sliding is unstable there if b is 11 a or more."""
@@ -20,15 +21,12 @@ Share = Annotated[float, number("interval of epsilon, over its end, up to which 
 def hopf_by_delay_at_faults(
     results: Results, *, least: Gamma, most: Gamma, limit: Share
 ) -> Finding:
-    """Whether a delay makes steady sliding unstable at an epsilon where it is stable without.
-
-    The interval of such epsilon has the width xi^3 (1 + xi)/(2 gamma^4), docs/method.md.
-    """
+    """Whether a delay makes steady sliding unstable at an epsilon where it is stable without."""
     rows = [row for row in results.fault_limit if least <= row["gamma"] <= most]
     if not rows:
         raise ValueError(f"fault-limit.tsv: no gamma from {short(least)} to {short(most)}")
     widest = max(rows, key=lambda row: row["depth"] / row["without_delay"])
-    stiffest = STIFFEST**3 * (1 + STIFFEST) / (2 * least**4)
+    stiffest = leading_order(STIFFEST, least)
     return decided(
         widest["depth"] > limit * widest["without_delay"],
         f"The least $epsilon$ of all Hopf curves is computed at {equations(widest, ['xi'])} and"

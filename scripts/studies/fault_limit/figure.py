@@ -1,4 +1,4 @@
-"""The drawing of plans/fault_limit.py, and the numbers of its caption."""
+"""The drawing of the least epsilon over gamma, and the numbers of its caption."""
 
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes

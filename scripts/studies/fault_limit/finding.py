@@ -4,6 +4,7 @@ import math
 
 from scripts.claims.claims_results import short
 from scripts.studies.fault_limit.claims import STIFFEST
+from scripts.studies.fault_limit.table import leading_order
 from scripts.tables.ranges_of_gamma import FAULTS, PAPER
 
 PLACE = 1
@@ -23,7 +24,7 @@ def describe(tables: dict[str, list[dict]]) -> dict:
     kinds = [(row["of"], row["kind"]) for row in tables["hopf_points"]]
     turns = sum(kind == "generalised_hopf" for _, kind in kinds)
     planes = len({of for of, kind in kinds if not kind.startswith("amplitude_death")})
-    stiffest = STIFFEST**3 * (1 + STIFFEST) / (2 * fault["gamma"] ** 4)
+    stiffest = leading_order(STIFFEST, fault["gamma"])
     bound = 10.0 ** math.ceil(math.log10(max(fault["depth"], stiffest)))
     return {
         "title": "At the $gamma$ of real faults the interval of $epsilon$ in which a delay makes"

@@ -12,6 +12,11 @@ ITERATIONS = 60
 """Of Newton's method; from gamma = 0.1 on ten are enough."""
 
 
+def leading_order(xi: float, gamma: float) -> float:
+    """How far delays lower the least epsilon at large gamma: xi^3 (1 + xi)/(2 gamma^4)."""
+    return xi**3 * (1 + xi) / (2 * gamma**4)
+
+
 def row_of(xi: float, gamma: float) -> dict:
     """The minimum of (1 + epsilon)^2 = F(x), x = omega^2, on the Hopf curves.
 
@@ -39,7 +44,7 @@ def row_of(xi: float, gamma: float) -> dict:
         "without_delay": x0,
         "least": x0 - depth,
         "depth": depth,
-        "leading_order": xi**3 * (1 + xi) / (2 * square**2),
+        "leading_order": leading_order(xi, gamma),
         "omega": omega,
         "tau": (math.atan(b) - math.atan(omega) + 2 * math.pi) / omega,
     }

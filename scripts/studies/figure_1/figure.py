@@ -1,4 +1,4 @@
-"""The drawing of plans/figure_1.py, and the numbers of its caption."""
+"""The drawing of block and spring (Figure 1)."""
 
 import numpy as np
 from matplotlib import pyplot as plt

@@ -2,8 +2,9 @@
 
 from scripts.claims.claims_results import Finding, Results, decided, short
 from scripts.claims.declare import Gamma, question, reads, says, tested_with
+from scripts.files.tsv import rows_by
 from scripts.namelists.laws import spoken
-from scripts.studies.friction_laws.table import rows_of_planes, scenes_of, shares_of
+from scripts.studies.friction_laws.table import scenes_of, shares_of
 from scripts.tables.motion_rows import kind_of
 
 CHAOTIC, PERIODIC = "delayed_logarithm", "delayed_velocity"
@@ -22,34 +23,29 @@ def place_of_delay_decides(results: Results, *, gamma: Gamma) -> Finding:
 
     And in none under the laws with the delayed velocity itself.
     """
-    shares = shares_of(rows_of_planes(results.friction_laws))
-    chaotic = {
-        place: [
-            share["kinds"]["chaos"] > 0
-            for share in shares
-            if share["gamma"] == gamma and share["law"].endswith(place)
-        ]
-        for place in (CHAOTIC, PERIODIC)
-    }
-    words = []
-    for place in dict.fromkeys((share["gamma"], share["xi"]) for share in shares):
-        here = [share for share in shares if (share["gamma"], share["xi"]) == place]
+    shares = shares_of(results.friction_laws)
+    chaotic = chaotic_points(shares, gamma)
+    words, scenes = [], []
+    for (at_gamma, xi), here in rows_by(shares, "gamma", "xi").items():
         counts = [f"{share['kinds']['chaos']} ({spoken(share['law'])})" for share in here]
         words.append(
-            f"At $gamma = {short(place[0])}$, $xi = {short(place[1])}$ of {here[0]['points']}"
-            f" points these are chaotic: {', '.join(counts)}."
+            f"At $gamma = {short(at_gamma)}$, $xi = {short(xi)}$ of {here[0]['points']} points"
+            f" these are chaotic: {', '.join(counts)}."
         )
+    for scene, rows in scenes_of(results.friction_laws).items():
+        kinds = [f"{kind_of(row)} ({spoken(row['law'])})" for row in rows]
+        scenes.append(f" Scene {scene}: {', '.join(kinds)}.")
     return decided(
         bool(chaotic[CHAOTIC]) and all(chaotic[CHAOTIC]) and not any(chaotic[PERIODIC]),
-        f"{' '.join(words)} Each point has one history. {scenes_in_words(results)}",
+        f"{' '.join(words)} Each point has one history.{''.join(scenes)}",
         "Laws with the delay in the same place differ.",
     )
 
 
-def scenes_in_words(results: Results) -> str:
-    """Classes of the paper's scenes under each law."""
-    parts = []
-    for scene, rows in scenes_of(results.friction_laws).items():
-        kinds = [f"{kind_of(row)} ({spoken(row['law'])})" for row in rows]
-        parts.append(f"Scene {scene}: {', '.join(kinds)}.")
-    return " ".join(parts)
+def chaotic_points(shares: list[dict], gamma: float) -> dict[str, list[int]]:
+    """Numbers of chaotic points of planes at this gamma, by the place of the delay."""
+    here = [share for share in shares if share["gamma"] == gamma]
+    return {
+        place: [share["kinds"]["chaos"] for share in here if share["law"].endswith(place)]
+        for place in (CHAOTIC, PERIODIC)
+    }

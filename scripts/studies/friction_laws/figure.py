@@ -36,7 +36,7 @@ def draw(table: list[dict], natural_fault: dict, laboratory: dict) -> Figure:
     )
     letters = iter(ascii_lowercase)
     *maps, fastest, recurrence = panels
-    shown = planes_of(rows)
+    shown = planes_of(table)
     for law, line in zip(laws, maps, strict=True):
         for (gamma, xi), axes in zip(planes, line, strict=True):
             here = shown[gamma, xi, law]
@@ -49,7 +49,8 @@ def draw(table: list[dict], natural_fault: dict, laboratory: dict) -> Figure:
     for column, (gamma, xi) in enumerate(planes):
         words = parameters.in_words({"gamma": gamma, "xi": xi}, "tau", "epsilon")
         by_law = {law: shown[gamma, xi, law] for law in laws}
-        head_column(maps[0][column], words)
+        place = {"xycoords": "axes fraction", "ha": "center", "annotation_clip": False}
+        maps[0][column].annotate(words, (0.5, 1.42), fontsize=8, **place)
         maps[-1][column].set_xlabel(r"sensitivity $\varepsilon$")
         draw_over_delay(fastest[column], by_law, "largest_maximum")
         fastest[column].semilogy()
@@ -71,25 +72,10 @@ def draw(table: list[dict], natural_fault: dict, laboratory: dict) -> Figure:
 
 def draw_scenes(axes: Axes, table: list[dict], law: str, plane: tuple[float, float]) -> None:
     """A circle for each scene of this plane, coloured by its class under the law."""
-    for rows in scenes_of(table).values():
-        for row in rows:
-            if row["law"] == law and (row["gamma"], row["xi"]) == plane:
-                colour = COLOURS[kind_of(row)]
-                axes.plot(
-                    row["epsilon"], row["tau"], marker="o", ms=5, mfc=colour, mec=INK, mew=0.7
-                )
-
-
-def head_column(axes: Axes, words: str) -> None:
-    """The plane of a column, above its first map."""
-    axes.annotate(
-        words,
-        (0.5, 1.42),
-        xycoords="axes fraction",
-        ha="center",
-        fontsize=8,
-        annotation_clip=False,
-    )
+    for row in table:
+        if (row["of"], row["law"], row["gamma"], row["xi"]) == ("scene", law, *plane):
+            style = {"mfc": COLOURS[kind_of(row)], "mec": INK, "mew": 0.7}
+            axes.plot(row["epsilon"], row["tau"], marker="o", ms=5, **style)
 
 
 def draw_over_delay(axes: Axes, by_law: dict[str, list[dict]], column: str) -> None:
@@ -116,12 +102,11 @@ def unit_of_time(si: dict) -> float:
 
 def numbers(table: list[dict], natural_fault: dict, laboratory: dict) -> dict:
     """Chaotic points by plane and law, and the classes of scenes."""
-    rows = rows_of_planes(table)
-    laws = list(dict.fromkeys(row["law"] for row in rows))
+    shares = shares_of(table)
+    laws = list(dict.fromkeys(row["law"] for row in rows_of_planes(table)))
     by_plane: dict[str, list[str]] = {}
-    for share in shares_of(rows):
-        fixed = {key: share[key] for key in ("gamma", "xi")}
-        place = f"chaos at {place_in_words(fixed, 'tau', 'epsilon')}"
+    for share in shares:
+        place = f"chaos at {place_in_words({key: share[key] for key in ('gamma', 'xi')})}"
         unsure = f", {number} undecided" if (number := share["kinds"][UNDECIDED]) else ""
         cells = by_plane.setdefault(place, [place, *("" for _ in laws)])
         cells[1 + laws.index(share["law"])] = f"{share['kinds']['chaos']}{unsure}"
@@ -131,7 +116,7 @@ def numbers(table: list[dict], natural_fault: dict, laboratory: dict) -> dict:
     ]
     return {
         "cells": [["", *map(spoken, laws)], *by_plane.values(), *scenes],
-        "points": max(share["points"] for share in shares_of(rows)),
+        "points": max(share["points"] for share in shares),
         "years": unit_of_time(natural_fault) / TIMES["years"],
         "seconds": unit_of_time(laboratory),
     }

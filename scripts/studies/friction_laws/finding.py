@@ -1,7 +1,8 @@
 """The finding about other laws of friction."""
 
 from scripts.claims.claims_results import short
-from scripts.studies.friction_laws.claims import CHAOTIC, PERIODIC
+from scripts.files.tsv import rows_by
+from scripts.studies.friction_laws.claims import CHAOTIC, PERIODIC, chaotic_points
 from scripts.studies.friction_laws.table import shares_of
 from scripts.tables.ranges_of_gamma import PAPER
 
@@ -13,11 +14,7 @@ CLAIMS = ("chaos_depends_on_place_of_delay",)
 def describe(tables: dict[str, list[dict]]) -> dict:
     """How many points of a plane are chaotic, by the place of the delay in the law."""
     shares = shares_of(tables["friction_laws"])
-    counts = {}
-    for share in shares:
-        place = CHAOTIC if share["law"].endswith(CHAOTIC) else PERIODIC
-        counts.setdefault(share["gamma"], {CHAOTIC: [], PERIODIC: []})
-        counts[share["gamma"]][place].append(share["kinds"]["chaos"])
+    counts = {gamma: chaotic_points(shares, gamma) for gamma in rows_by(shares, "gamma")}
     decides = all(counts[PAPER][CHAOTIC]) and not any(counts[PAPER][PERIODIC])
     words = [
         f"At $gamma = {short(gamma)}$ a plane has {span(of[CHAOTIC])} chaotic points if the delay"

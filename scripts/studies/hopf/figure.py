@@ -85,11 +85,9 @@ def mark_special_points(axes: Axes, curves: xr.Dataset) -> list[Line2D]:
     x, y = (curves[f"special_{key}"].values for key in axes_of(curves.attrs))
     for kind, (marker, name) in MARKERS.items():
         these = kinds == kind
-        if not these.any():
-            continue
-        style = {"ls": "", "marker": marker, "color": INK, "mfc": "white", "ms": 4}
-        axes.plot(x[these], y[these], clip_on=False, **style)
-        handles.append(Line2D([], [], label=name, **style))
+        if these.any():
+            style = {"ls": "", "marker": marker, "color": INK, "mfc": "white", "ms": 4}
+            handles += axes.plot(x[these], y[these], clip_on=False, label=name, **style)
     return handles
 
 

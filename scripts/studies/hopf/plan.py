@@ -15,14 +15,6 @@ def groups(config: dict, plane: str) -> dict[str, dict]:
     return {"hopf_curves": plane_group(config, config["hopf_curves"][plane])}
 
 
-def inputs_of_points(config: dict) -> dict:
-    """Curves of all planes, and the linear stability of all scenes of one block."""
-    return {
-        "curves": [f"<results>/hopf/{plane}.nc" for plane in config["hopf_curves"]],
-        "scenes": paths_of_scenes("linear_stability", blocks_of(config)),
-    }
-
-
 def inputs(config: dict) -> dict:
     """Hopf curves of the plane that the configuration lists."""
     (plane,) = config["hopf_curves"]
@@ -55,7 +47,11 @@ STUDY = Study(
     runs=(Run("hopf_curves", "hopf", "hopf/{plane}.nc", groups, data="curves", priority=PAPER),),
     tables=(
         Table(
-            *("hopf_points", "tables/hopf-points.tsv", inputs_of_points),
+            *("hopf_points", "tables/hopf-points.tsv"),
+            lambda config: {
+                "curves": [f"<results>/hopf/{plane}.nc" for plane in config["hopf_curves"]],
+                "scenes": paths_of_scenes("linear_stability", blocks_of(config)),
+            },
             wanted=lambda config: bool(config["hopf_curves"]),
         ),
     ),

@@ -74,13 +74,8 @@ def death_rows_of(scene: str, stability: xr.Dataset) -> list[dict]:
             crossing = stability.tau_of_change.values == tau
             if crossing.any():
                 omega = stability.tau_change_omega.values[crossing][0]
-                row = {
-                    "of": scene,
-                    "law": law_of(stability.attrs),
-                    "kind": f"amplitude_death_{kind}",
-                    **known,
-                    "tau": as_digits(tau),
-                }
+                row = {"of": scene, "law": law_of(stability.attrs)}
+                row |= {"kind": f"amplitude_death_{kind}", **known, "tau": as_digits(tau)}
                 rows.append({**row, "unstable_pairs": 0, "omega_1": as_digits(omega)})
     return rows
 
@@ -92,5 +87,4 @@ if __name__ == "__main__":
             rows += rows_of(Path(path).stem, read(path))
         for path in snakemake.input.scenes:
             rows += death_rows_of(Path(path).stem, read(path))
-        own = dict.fromkeys(key for row in rows for key in row if key not in COLUMNS)
-        write_table(snakemake.output[0], rows, [*COLUMNS, *own])
+        write_table(snakemake.output[0], rows, COLUMNS)

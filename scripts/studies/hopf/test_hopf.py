@@ -1,17 +1,42 @@
-"""The hopf program: every point in equation (5) and in closed form, and the table of its points.
+"""The hopf program: every point in equation (5) and in closed form; the table, captions, verdicts.
 
 The suite hopf_curves shows that curves are complete and smooth, and which way roots cross; the
 suite hopf_unfoldings shows where curves of folds and of tori start.
 """
 
+import math
+
 import numpy as np
 import pytest
 import xarray as xr
-from characteristic_equation import closed_form, count_by_crossings, residual
+from characteristic_equation import closed_form, residual
+from made_up_results import (
+    NO,
+    PARTLY,
+    YES,
+    Results,
+    changed,
+    hopf_curve,
+    on_plane,
+    stability_row,
+)
+from matplotlib import pyplot as plt
 
-from scripts.files.tsv import read_table
+from scripts.drawing.wording import short
+from scripts.drawing.write_captions import render
+from scripts.files.tsv import read_table, rows_by
 from scripts.namelists.laws import PAPER
+from scripts.plans import studies
+from scripts.studies.hopf import figure as drawing
+from scripts.studies.hopf.claims import (
+    hopf_by_delay,
+    hopf_depends_on,
+    hopf_only_by_delay,
+    kinds_of_hopf,
+    pairs_gained_and_lost,
+)
 from scripts.studies.hopf.table import rows_of
+from scripts.tables.roots_of_5 import unstable_pairs
 
 PLANES = ["tau_of_epsilon", "xi_of_epsilon"]
 
@@ -62,7 +87,7 @@ def test_map_counts_the_crossings(curves, plane):
     for i, epsilon in enumerate(curves.map_abscissa.values):
         for j, ordinate in enumerate(curves.map_ordinate.values):
             place = {**plane, plane["ordinate"]: ordinate}
-            expected = count_by_crossings(epsilon, place["tau"], place["xi"], plane["gamma"])
+            expected = unstable_pairs(epsilon, place["tau"], place["xi"], plane["gamma"])
             assert curves.map_unstable_pairs.values[j, i] == expected
 
 
@@ -106,7 +131,7 @@ def test_any_parameter_is_an_ordinate(programs, along):
     for i, epsilon in enumerate(curves.map_abscissa.values):
         for j, y in enumerate(curves.map_ordinate.values):
             place = (0.5, y) if along == "gamma" else (0.5 * (1 + y), 0.8)
-            counted = count_by_crossings(epsilon, 7.0, *place)
+            counted = unstable_pairs(epsilon, 7.0, *place)
             assert curves.map_unstable_pairs.values[j, i] == counted
             # a pair becomes unstable at each curve
             pieces = [curves.isel(point=curves.piece.values == k) for k in set(curves.piece.values)]
@@ -116,17 +141,123 @@ def test_any_parameter_is_an_ordinate(programs, along):
 
 def test_table_of_the_workflow(smoke):
     rows = read_table(smoke.folder / "results" / "tables" / "hopf-points.tsv")
-    kinds = {row["kind"] for row in rows}
-    assert kinds == {
-        "amplitude_death_begin",
-        "amplitude_death_end",
-        "double_hopf",
-        "generalised_hopf",
-        "hopf_without_delay",
-    }
-    (begin, end) = [
-        row["tau"]
-        for row in rows
-        if row["kind"].startswith("amplitude_death") and row["of"] == "torus"
-    ]
+    deaths = [f"amplitude_death_{end}" for end in ("begin", "end")]
+    by_kind = rows_by(rows, "kind")
+    assert by_kind.keys() == {*deaths, "double_hopf", "generalised_hopf", "hopf_without_delay"}
+    begin, end = (row["tau"] for kind in deaths for row in by_kind[kind] if row["of"] == "torus")
     assert begin < end
+
+
+FIRST = np.arange(12) < 3
+"""Three of the points of a curve."""
+
+
+def with_changes(*cells: str | float) -> Results:
+    """Results of scenes a, b, ... whose stability changes at these delays."""
+    rows = [
+        stability_row(name, tau_of_changes=cell) for name, cell in zip("abc", cells, strict=False)
+    ]
+    return Results(linear_stability=rows)
+
+
+@pytest.mark.parametrize(
+    ("cells", "verdict", "words"),
+    [
+        # stable without delay and unstable at some delay, in one scene at least
+        (["2 (0 -> 1)", "1 (1 -> 0); 5 (0 -> 1)"], YES, "at $tau = 2$."),
+        (["1 (1 -> 0); 5 (0 -> 1)"], NO, "unstable without delay in a ($epsilon"),
+        ([math.nan], NO, "No pair crosses the axis in a ($epsilon"),
+    ],
+)
+def test_hopf_by_delay(cells, verdict, words):
+    found = hopf_by_delay(with_changes(*cells), scenes=list("abc"[: len(cells)]))
+    assert found.verdict == verdict
+    assert words.removesuffix(".") in found.evidence
+
+
+def test_hopf_only_by_delay():
+    """A point without delay refutes "only by", in its own plane; "merely by" needs a scene."""
+    point = {"of": "plane", "kind": "hopf_without_delay", "xi": 0.5, "gamma": 0.8, "l1_1": -0.05}
+    point["epsilon"] = 0.64 * 0.5 / 1.14
+    made = with_changes("2 (0 -> 1)", "1 (1 -> 0); 5 (0 -> 1)")
+    made.hopf_points = [point]
+    assert hopf_only_by_delay(made, plane="plane", scenes=["b"]).verdict == NO
+    found = hopf_only_by_delay(made, plane="plane", scenes=["a", "b"])
+    assert found.verdict == PARTLY
+    assert "Read as 'merely by a delay' it holds." in found.evidence
+    made.hopf_points = [point | {"of": "other"}, point | {"kind": "double_hopf"}]
+    assert hopf_only_by_delay(made, plane="plane", scenes=["b"]).verdict == YES
+
+
+@pytest.mark.parametrize(
+    ("l1", "pairs", "expected", "verdict"),
+    [
+        (-0.1, 0, ["supercritical"], YES),
+        (0.1, 0, ["supercritical"], NO),
+        (np.where(FIRST, 0.1, -0.1), 0, ["supercritical"], PARTLY),
+        (np.where(FIRST, 0.1, -0.1), 0, ["supercritical", "subcritical"], YES),
+        # a bifurcation beside other unstable pairs is counted, not judged
+        (np.where(FIRST, 0.1, -0.1), np.where(FIRST, 1, 0), ["supercritical"], YES),
+        (-0.1, 2, ["supercritical"], NO),
+    ],
+)
+def test_kinds_of_hopf(l1, pairs, expected, verdict):
+    """All of the kind, none, or some of another, where stability changes."""
+    made = on_plane(changed(hopf_curve(), l1=l1, unstable_pairs=pairs))
+    assert kinds_of_hopf(made, planes=["plane"], expected=expected).verdict == verdict
+
+
+@pytest.mark.parametrize(
+    ("crossing", "verdict"), [(np.where(FIRST, 1, -1), YES), (1, NO), (-1, NO)]
+)
+def test_pairs_gained_and_lost(crossing, verdict):
+    made = on_plane(changed(hopf_curve(), crossing=crossing))
+    assert pairs_gained_and_lost(made, plane="plane").verdict == verdict
+
+
+@pytest.mark.parametrize(
+    ("with_tau", "with_xi", "pairs", "verdict"),
+    [(0.1, 0.1, 0, PARTLY), (0.0, 0.1, 0, YES), (0.1, 0.0, 0, NO), (0.1, 0.1, 1, NO)],
+)
+def test_hopf_depends_on(with_tau, with_xi, pairs, verdict):
+    """On xi it must, on the delay it must not; where no stability changes it depends on nothing."""
+    curves = {
+        name: changed(
+            hopf_curve(), epsilon=np.linspace(0.3, 0.3 + spread, 12), unstable_pairs=pairs
+        )
+        for name, spread in (("a", with_tau), ("b", with_xi))
+    }
+    found = hopf_depends_on(Results(curves=curves), at_fixed_xi="a", at_fixed_tau="b", limit=1e-3)
+    assert found.verdict == verdict
+    assert found.instead.endswith("also depends on $tau$.") == (verdict == PARTLY)
+
+
+def test_plane_without_a_curve_has_a_figure_and_a_caption(smoke):
+    """In the window of the file."""
+    curves = xr.load_dataset(smoke.folder / "results" / "hopf" / "tau_of_epsilon.nc")
+    empty = curves.isel(point=slice(0), special=slice(0))
+    figure = drawing.draw(empty, {})
+    window = (0.0, pytest.approx(1.5)), (0.0, pytest.approx(20.0))
+    assert (figure.axes[0].get_xlim(), figure.axes[0].get_ylim()) == window
+    plt.close(figure)
+    text = (studies.FOLDER / "hopf" / "caption.rst").read_text()
+    caption = render(text, [], paper=False, **drawing.numbers(empty, {}))
+    assert caption.startswith("No Hopf curve lies in this plane, at ")
+    assert "Lyapunov" not in caption
+
+
+def test_numbers_of_a_plane():
+    """Counts along the curves, the boundary, and special points with their places."""
+    curves = hopf_curve()
+    curves["l1"][3] = 0.2
+    curves["unstable_pairs"][curves.epsilon.values.argmax()] = 1
+    curves["crossing"][:4] = -1
+    curves["map_unstable_pairs"] = (("map_y", "map_x"), [[0, 0], [0, 1]])
+    kinds = ["double_hopf", "hopf_without_delay", "double_hopf"]
+    curves["special_kind"] = ("special", np.array(kinds))
+    curves["special_epsilon"] = ("special", [1.143, 0.28, 0.336])
+    curves["special_tau"] = ("special", [3.343, 0.0, 13.4])
+    found = drawing.numbers(curves, {})
+    assert (found["stabilising"], found["double"], found["without_delay"]) == (4, 2, [0.28])
+    ordered = np.sort(curves.epsilon.values)
+    assert found["boundary"] == (short(ordered[0]), short(ordered[-2]))

@@ -11,15 +11,15 @@ from scripts.claims.words import motions_beside_rest
 @reads("linear_stability")
 def delay_destabilises(results: Results, *, scenes: Scenes) -> Finding:
     """Whether each scene has a delay at which steady sliding loses its stability."""
-    parts, never = [], []
+    places, never = [], []
     for scene in scenes:
         row = results.stability_of(scene)
         lost = [place for place, before, _ in changes(row["tau_of_changes"]) if before == 0]
-        parts.append(f"{scene} at {delays_in_words(lost) or 'no $tau$'}")
+        places.append(f"{scene} at {delays_in_words(lost) or 'no $tau$'}")
         never += [] if lost else [scene]
     return decided(
         not never,
-        f"A longer delay makes steady sliding unstable: {'; '.join(parts)}.",
+        f"A longer delay makes steady sliding unstable: {'; '.join(places)}.",
         f"No longer delay makes steady sliding unstable in {join(never)}.",
     )
 
@@ -30,17 +30,17 @@ def delay_destabilises(results: Results, *, scenes: Scenes) -> Finding:
 @reads("linear_stability", "basins")
 def amplitude_death(results: Results, *, scenes: Scenes) -> Finding:
     """Whether steady sliding that is unstable at a delay is stable at a longer one."""
-    parts = []
+    places = []
     for scene in scenes:
         row = results.stability_of(scene)
         regained = [
             place for place, before, after in changes(row["tau_of_changes"]) if before > after == 0
         ]
         if regained:
-            parts.append(f"{scene} at {delays_in_words(regained)}")
+            places.append(f"{scene} at {delays_in_words(regained)}")
     return decided(
-        bool(parts),
-        f"Scenes in which a longer delay restores stability: {'; '.join(parts) or 'none'}."
+        bool(places),
+        f"Scenes in which a longer delay restores stability: {'; '.join(places) or 'none'}."
         f" {motions_beside_rest(results)}",
         "In none of the scenes does a longer delay restore stability.",
     )

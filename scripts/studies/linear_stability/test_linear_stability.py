@@ -1,12 +1,18 @@
-"""The linear_stability program: roots and changes of stability of the scenes, and the tables."""
+"""The linear_stability program: roots and changes of stability of the scenes, tables, verdicts."""
+
+import math
 
 import numpy as np
 import pytest
-from characteristic_equation import count_by_crossings, residual
+from characteristic_equation import residual
+from made_up_results import NO, YES, Results, stability_row
 
+from scripts.claims.claims_results import changes
 from scripts.files.tsv import read_table
 from scripts.namelists.parameters import PARAMETERS
+from scripts.studies.linear_stability import claims
 from scripts.studies.linear_stability.table import amplitude_death, row_of
+from scripts.tables.roots_of_5 import unstable_pairs
 
 SCENES = {"fixed_point": 0, "oscillation": 1, "torus": 1, "chaos": 1}
 SCENES |= {"true_torus": 1, "stick_slip": 1}
@@ -40,7 +46,7 @@ def test_file_and_row_of_a_scene(stability):
     assert set(roots) == set(roots.conj())
     pairs = stability.attrs["unstable_pairs"]
     assert pairs == np.count_nonzero(roots.real > 0) // 2
-    assert pairs == count_by_crossings(*parameters(stability))
+    assert pairs == unstable_pairs(*parameters(stability))
     for key in ("tau", "epsilon"):
         places, omegas = stability[f"{key}_of_change"], stability[f"{key}_change_omega"]
         assert places.size > 0
@@ -61,9 +67,9 @@ def test_amplitude_death(stability):
     """Unstable without delay, stable between the first two crossings; by the crossings, too."""
     ((begin, end),) = amplitude_death(stability)
     assert (begin, end) == tuple(stability.tau_of_change.values[:2])
-    assert count_by_crossings(*parameters(stability, tau=0.9 * begin)) == 1
-    assert count_by_crossings(*parameters(stability, tau=(begin + end) / 2)) == 0
-    assert count_by_crossings(*parameters(stability, tau=1.1 * end)) == 1
+    assert unstable_pairs(*parameters(stability, tau=0.9 * begin)) == 1
+    assert unstable_pairs(*parameters(stability, tau=(begin + end) / 2)) == 0
+    assert unstable_pairs(*parameters(stability, tau=1.1 * end)) == 1
 
 
 @pytest.mark.parametrize("stability", ["fixed_point", "oscillation"], indirect=True)
@@ -82,3 +88,33 @@ def test_bound_too_far_is_refused(programs, good_inputs):
     assert run.returncode == 1
     assert "a bound nearer to 0 expected" in run.stderr
     assert programs.left_behind() == []
+
+
+def with_changes(*cells: str | float) -> Results:
+    """Results of scenes a, b, ... whose stability changes at these delays."""
+    rows = [
+        stability_row(name, tau_of_changes=cell) for name, cell in zip("abc", cells, strict=False)
+    ]
+    return Results(linear_stability=rows)
+
+
+def test_changes_of_a_cell():
+    assert changes("2.5 (0 -> 1); 1e-3 (12 -> 11)") == [(2.5, 0, 1), (1e-3, 12, 11)]
+    assert changes(math.nan) == []
+
+
+@pytest.mark.parametrize(
+    ("test", "cells", "verdict", "words"),
+    [
+        # every scene must have such a delay
+        ("delay_destabilises", ["2 (0 -> 1); 5 (1 -> 0)", "3 (0 -> 1)"], YES, "; b at $tau = 3$."),
+        ("delay_destabilises", ["2 (0 -> 1)", "2 (1 -> 2); 5 (2 -> 1)"], NO, "; b at no $tau$."),
+        # fewer unstable pairs are not enough: none must be left
+        ("amplitude_death", ["2 (0 -> 1); 5 (1 -> 0)"], YES, "stability: a at $tau = 5$."),
+        ("amplitude_death", ["2 (2 -> 1); 5 (1 -> 2)"], NO, "stability: none."),
+    ],
+)
+def test_changes_with_the_delay(test, cells, verdict, words):
+    found = getattr(claims, test)(with_changes(*cells), scenes=list("abc"[: len(cells)]))
+    assert found.verdict == verdict
+    assert words.removesuffix(".") in found.evidence

@@ -6,7 +6,7 @@ at one point. Torus bifurcations are those of the cycles followed on the same li
 
 from collections import Counter
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import pairwise, product
 
 import numpy as np
 
@@ -26,6 +26,7 @@ from scripts.claims.declare import (
     tested_with,
 )
 from scripts.claims.words import boundary, class_with_loops, places_along, torus_points
+from scripts.files.tsv import rows_by
 from scripts.namelists.parameters import PARAMETERS
 from scripts.tables.motion_rows import UNDECIDED, parameter_of
 
@@ -59,11 +60,10 @@ Turns = dict[str, list[list[Stretch]]]
 @reads("routes")
 def route(results: Results, *, routes: Routes, expected: Classes) -> Finding:
     """Whether these classes follow each other along at least one of the routes."""
-    lines = [results.route(name) for name in routes]
-    found = [sequences(rows, expected) for rows in lines]
+    found = [in_turn(results, name, expected) for name in routes]
+    evidence = " ".join(words for _, words in found)
     instead = f"No run shows {', then '.join(expected)}."
-    evidence = " ".join(map(in_a_sentence, lines, found))
-    return decided(any(any(met.values()) for met in found), evidence, instead)
+    return decided(any(shown for shown, _ in found), evidence, instead)
 
 
 @claim(49, "cycle_to_torus", "section 5", look_at="routes")
@@ -72,7 +72,7 @@ def route(results: Results, *, routes: Routes, expected: Classes) -> Finding:
 @reads("routes", "cycle_points")
 def torus_route(results: Results, *, routes: Routes, expected: Classes) -> Finding:
     """Whether these classes follow each other, a cycle and a torus at a torus bifurcation."""
-    found = [at_bifurcations(results, name, expected) for name in routes]
+    found = [in_turn(results, name, expected, at_bifurcations=True) for name in routes]
     evidence = " ".join(words for _, words in found)
     instead = (
         f"No run shows {', then '.join(expected)} with a torus bifurcation between cycle and torus."
@@ -97,8 +97,8 @@ def quasiperiodic_route(results: Results, *, routes: Routes, fine: Route) -> Fin
         "torus breakdown (cycle, torus of two frequencies, chaos)": breakdown.verdict,
         "a third frequency, of which Ruelle, Takens and Newhouse speak": strict.verdict,
     }
-    fails = [name for name, verdict in found.items() if verdict != REPRODUCED]
-    holds = [name for name in found if name not in fails]
+    holds = [name for name, verdict in found.items() if verdict == REPRODUCED]
+    fails = [name for name in found if name not in holds]
     evidence = (
         f"Torus breakdown: {breakdown.evidence} {locking_in_words(results.route(fine))} A torus of"
         f" three frequencies between torus and chaos: {strict.evidence}"
@@ -113,12 +113,12 @@ def quasiperiodic_route(results: Results, *, routes: Routes, fine: Route) -> Fin
 def locking_in_words(rows: list[dict]) -> str:
     """Where a torus is locked to a cycle of several loops, and where runs differ."""
     along = parameter_of(rows)
-    places: dict[float, Counter] = {}
-    for row in sorted(rows, key=lambda row: row[along]):
-        places.setdefault(row[along], Counter())[class_with_loops(row)] += 1
+    places = {
+        place: Counter(map(class_with_loops, at)) for place, at in rows_by(rows, along).items()
+    }
     parts = [
         f"{', '.join(f'{motion} in {n} runs' for motion, n in motions.items())} at {short(place)}"
-        for place, motions in places.items()
+        for place, motions in sorted(places.items())
         if len(motions) > 1 or "loops" in next(iter(motions))
     ]
     if not parts:
@@ -131,25 +131,24 @@ def three_tori_in_atlas(atlas: list[dict]) -> str:
     tori = [row for row in atlas if row["class"] == THREE]
     if not tori:
         return "The atlas has no torus of three frequencies."
-    next_to = {"tau": 0, "epsilon": 0}
-    for torus in tori:
-        for along in next_to:
-            beyond = [
-                row
-                for row in atlas
-                if row[along] > torus[along]
-                and row["class"] not in (THREE, UNDECIDED)
-                and all(row[key] == torus[key] for key in PARAMETERS if key != along)
-            ]
-            following = min(beyond, key=lambda row: row[along], default={"class": ""})
-            next_to[along] += following["class"] == "chaos"
+    beyond = dict.fromkeys(("tau", "epsilon"), 0)
+    for torus, along in product(tori, beyond):
+        larger = [
+            row
+            for row in atlas
+            if row[along] > torus[along]
+            and row["class"] not in (THREE, UNDECIDED)
+            and all(row[key] == torus[key] for key in PARAMETERS if key != along)
+        ]
+        following = min(larger, key=lambda row: row[along], default={"class": ""})
+        beyond[along] += following["class"] == "chaos"
     places = Counter(equations(row, ["xi", "gamma"]) for row in tori)
     counts = [f"{count} at {place}" for place, count in places.items()]
-    ends = [f"{short(end(row['tau'] for row in tori))}" for end in (min, max)]
+    least, most = (short(end(row["tau"] for row in tori)) for end in (min, max))
     return (
         f"The atlas has {len(tori)} tori of three frequencies: {'; '.join(counts)}, for $tau$ from"
-        f" {ends[0]} to {ends[1]}. The next class is chaos beyond {next_to['tau']} of them with a"
-        f" longer delay, and beyond {next_to['epsilon']} with a larger $epsilon$."
+        f" {least} to {most}. The next class is chaos beyond {beyond['tau']} of them with a"
+        f" longer delay, and beyond {beyond['epsilon']} with a larger $epsilon$."
     )
 
 
@@ -269,7 +268,7 @@ def delays_in_turn(results: Results, *, scenes: Scenes, expected: Classes, route
     delays = [results.stability_of(scene)["tau"] for scene in scenes]
     grow = all(before < after for before, after in pairwise(delays))
     met = [f"{class_with_loops(row)} at {short(tau)}" for row, tau in zip(own, delays, strict=True)]
-    shows, shown = at_bifurcations(results, route, expected)
+    shows, shown = in_turn(results, route, expected, at_bifurcations=True)
     evidence = (
         f"The paper's delays in its order, with other parameters changed, too: {', '.join(met)}."
         f" These delays {'grow' if grow else 'do not grow'} from one to the next. Only"
@@ -282,28 +281,30 @@ def delays_in_turn(results: Results, *, scenes: Scenes, expected: Classes, route
     return decided(holds, evidence, instead, partly=shows)
 
 
-def at_bifurcations(results: Results, route: str, expected: Classes) -> tuple[bool, str]:
+def in_turn(
+    results: Results, route: str, expected: Classes, *, at_bifurcations: bool = False
+) -> tuple[bool, str]:
     """Whether a run of a route shows these classes in turn, and what is found, in words.
 
-    Between each cycle and torus lies a torus bifurcation: a pair of multipliers of a stable cycle
-    crosses the unit circle.
+    With a torus bifurcation between each cycle and torus, if it is asked for: a pair of multipliers
+    of a stable cycle crosses the unit circle.
     """
     rows = results.route(route)
+    found = sequences(rows, expected)
+    if not at_bifurcations:
+        return any(found.values()), in_a_sentence(rows, found)
     along = parameter_of(rows)
     fixed = {key: rows[0][key] for key in PARAMETERS if key != along}
     places = [point[along] for point in torus_points(results, fixed)]
-    found = {
-        run: [
-            turn
-            for turn in turns
-            if all(
-                any(before.last <= place <= after.first for place in places)
-                for before, after in pairwise(turn)
-                if (before.motion, after.motion) == ("cycle", "torus")
-            )
-        ]
-        for run, turns in sequences(rows, expected).items()
-    }
+
+    def bifurcates(turn: list[Stretch]) -> bool:
+        return all(
+            any(before.last <= place <= after.first for place in places)
+            for before, after in pairwise(turn)
+            if (before.motion, after.motion) == ("cycle", "torus")
+        )
+
+    found = {run: list(filter(bifurcates, turns)) for run, turns in found.items()}
     words = "No torus bifurcation of a stable cycle is known on this line."
     if places:
         words = (
@@ -315,15 +316,11 @@ def at_bifurcations(results: Results, route: str, expected: Classes) -> tuple[bo
 
 def sequences(rows: list[dict], expected: Classes) -> Turns:
     """Where these classes follow each other."""
-    size = len(expected)
-    return {
-        run: [
-            stretches[i : i + size]
-            for i in range(len(stretches) - size + 1)
-            if [stretch.motion for stretch in stretches[i : i + size]] == expected
-        ]
-        for run, stretches in stretches_of(rows).items()
-    }
+    found: Turns = {}
+    for run, stretches in stretches_of(rows).items():
+        parts = [stretches[i : i + len(expected)] for i in range(len(stretches))]
+        found[run] = [part for part in parts if [one.motion for one in part] == expected]
+    return found
 
 
 def changes(rows: list[dict], before: Classes, after: Class) -> Turns:
@@ -342,11 +339,11 @@ def stretches_of(rows: list[dict]) -> dict[str, list[Stretch]]:
     """Stretches along a route by run. A cycle of several points behind a torus is locked there."""
     along = parameter_of(rows)
     times = Counter((row[along], row["class"]) for row in rows)
-    found = {}
-    for run in dict.fromkeys(row["run"] for row in rows):
-        ordered = sorted((row for row in rows if row["run"] == run), key=lambda row: row[along])
+    found: dict[str, list[Stretch]] = {}
+    for run, of_run in rows_by(rows, "run").items():
+        ordered = sorted(of_run, key=lambda row: row[along])
         beside = [UNDECIDED, *(row["class"] for row in ordered), UNDECIDED]
-        stretches: list[Stretch] = []
+        stretches = found.setdefault(run, [])
         for i, row in enumerate(ordered):
             confirmed = times[row[along], row["class"]] > 1
             confirmed |= row["class"] in (beside[i], beside[i + 2])
@@ -358,7 +355,6 @@ def stretches_of(rows: list[dict]) -> dict[str, list[Stretch]]:
                 stretches[-1].last = row[along]
             else:
                 stretches.append(Stretch(row["class"], row[along], row[along]))
-        found[run] = stretches
     return found
 
 

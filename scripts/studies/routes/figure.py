@@ -14,6 +14,7 @@ from scripts.drawing.along_parameter import mark_scenes, maxima_of
 from scripts.drawing.class_map import draw_strips, legend_of
 from scripts.drawing.style import FAINT
 from scripts.drawing.wording import joined, place_in_words, short
+from scripts.files.tsv import rows_by
 from scripts.namelists.laws import is_of_block
 from scripts.tables.attractor_tables import same_attractor
 from scripts.tables.motion_rows import UNDECIDED, count_in_words, has_problem, parameter_of
@@ -33,8 +34,8 @@ LOGARITHMIC = 100
 
 def draw(tables: list[list[dict]], runs: list[xr.Dataset], scenes: dict[str, dict]) -> Figure:
     """One route below the other; `runs` are in the order of the tables."""
-    routes = [rows_by_run(rows) for rows in tables]
-    strips = [len(by_run) for by_run in routes]
+    routes = [rows_by(rows, "run") for rows in tables]
+    strips = list(map(len, routes))
     following = iter(runs)
     figure, grid = plt.subplots(
         3 * len(tables),
@@ -51,7 +52,9 @@ def draw(tables: list[list[dict]], runs: list[xr.Dataset], scenes: dict[str, dic
             style = {"color": colour, "ms": DOTS[min(number, len(DOTS) - 1)], "mew": 0}
             data = next(following)
             draw_maxima(above, data, of_run, along, style)
-            draw_exponent(below, of_run, along, style)
+            keys = (along, "exponent_1", "error_1")
+            exponents = ([row[key] for row in of_run] for key in keys)
+            below.errorbar(*exponents, fmt="o", lw=0.5, **style)
         draw_strips(middle, by_run, along)
         meaning = data[along].attrs.get("long_name", "") if along in data else ""
         label(above, middle, below, parameters.axis_of(along, meaning, rows[0]))
@@ -67,14 +70,6 @@ def draw(tables: list[list[dict]], runs: list[xr.Dataset], scenes: dict[str, dic
     all_rows = [row for rows in tables for row in rows]
     figure.legend(handles=dots + legend_of(all_rows), loc="outside lower center", ncols=5)
     return figure
-
-
-def rows_by_run(rows: list[dict]) -> dict[str, list[dict]]:
-    """Rows of a route by run, in the order of the runs."""
-    runs: dict[str, list[dict]] = {}
-    for row in rows:
-        runs.setdefault(row["run"], []).append(row)
-    return runs
 
 
 def label(above: Axes, strips: Axes, below: Axes, abscissa: str) -> None:
@@ -113,23 +108,15 @@ def draw_maxima(axes: Axes, run: xr.Dataset, rows: list[dict], along: str, style
     )
 
 
-def draw_exponent(axes: Axes, rows: list[dict], along: str, style: dict) -> None:
-    """The largest exponent with its standard error."""
-    keys = (along, "exponent_1", "error_1")
-    axes.errorbar(*([row[key] for row in rows] for key in keys), fmt="o", lw=0.5, **style)
-
-
 def numbers(tables: list[list[dict]], runs: list[xr.Dataset]) -> dict:
     """Where each class first appears along each route, run by run, and where runs differ."""
     routes = []
     for letter, rows in zip(ascii_lowercase, tables, strict=False):
         along = parameter_of(rows)
         alike: dict[str, list[str]] = {}
-        for run, of_run in rows_by_run(rows).items():
+        for run, of_run in rows_by(rows, "run").items():
             alike.setdefault(first_appearances(of_run, along), []).append(run)
-        places: dict[float, list[dict]] = {}
-        for row in rows:
-            places.setdefault(row[along], []).append(row)
+        places = sorted(rows_by(rows, along).items())
         routes.append(
             {
                 "letter": letter,
@@ -141,13 +128,11 @@ def numbers(tables: list[list[dict]], runs: list[xr.Dataset]) -> dict:
                 ],
                 "parted": [
                     short(place, 4)
-                    for place, there in sorted(places.items())
+                    for place, there in places
                     if len({row["class"] for row in there} - {UNDECIDED}) > 1
                 ],
                 "places": len(places),
-                "several": [
-                    short(place) for place, there in sorted(places.items()) if coexist(there)
-                ],
+                "several": [short(place) for place, there in places if coexist(there)],
             }
         )
     signals = dict.fromkeys(run.attrs["signal"] for run in runs)

@@ -55,10 +55,7 @@ def inputs(config: dict) -> dict:
     }
 
 
-FIGURE = {
-    "inputs": inputs,
-    "params": lambda config: {"scenes": marked_scenes(config)},
-}
+FIGURE = {"inputs": inputs, "params": lambda config: {"scenes": marked_scenes(config)}}
 STUDY = Study(
     reads=("atlas", "attractors", "cycles", "hopf", "linear_stability", "scenes"),
     entries={"route": ("routes", "lines")},

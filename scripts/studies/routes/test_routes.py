@@ -1,4 +1,4 @@
-"""Verdicts on what changes along a parameter, on made-up tables of routes."""
+"""Routes: verdicts and captions on made-up tables, and namelists."""
 
 import math
 from pathlib import Path
@@ -21,11 +21,11 @@ from made_up_results import (
     torus_point,
 )
 
-from scripts.claims.claims_results import VERDICTS
-from scripts.claims.ledger import paper_claims
-from scripts.drawing.write_captions import caption_of
-from scripts.files.tsv import write_table
+from scripts.drawing.write_captions import render
+from scripts.namelists.laws import PAPER
+from scripts.namelists.parameters import HISTORY
 from scripts.plans import studies
+from scripts.studies.routes import figure, plan
 from scripts.studies.routes.claims import (
     chaos_by_a_and_b,
     delays_in_turn,
@@ -218,20 +218,14 @@ def test_independent_of_spring(given, classes, verdict):
     assert found.verdict == verdict
 
 
-def words_of_caption(folder: Path, rows: list[dict], run: xr.Dataset) -> str:
-    """The caption of a route of one's own, whose runs say the same of their model."""
-    write_table(folder / "route.tsv", rows)
-    run.to_netcdf(folder / "run.nc")
-    claims = [{"id": name, "verdict": VERDICTS[0]} for name in paper_claims()]
-    inputs = {"tables": [folder / "route.tsv"], "runs": [folder / "run.nc"]}
-    figure = {
-        **{"template": studies.FOLDER / "routes" / "caption.rst", "drawing": "routes.figure"},
-        **{"inputs": inputs, "params": {}, "paper": False},
-    }
-    return " ".join(caption_of(figure, claims).split())
+def words_of_caption(rows: list[dict], run: xr.Dataset) -> str:
+    """The caption of a user's route, whose runs say the same of their model."""
+    text = (studies.FOLDER / "routes" / "caption.rst").read_text()
+    numbers = figure.numbers([rows], [run])
+    return " ".join(render(text, None, paper=False, **numbers).split())
 
 
-def test_caption_of_a_route(tmp_path):
+def test_caption_of_a_route():
     """Where classes first appear, runs that agree, and where motions coexist."""
     kept = {"smallest_maximum": 2.0, "largest_maximum": 3.0, "problem": math.nan}
     kept |= {"exponent_1": 0.02, "error_1": 0.001}
@@ -242,17 +236,50 @@ def test_caption_of_a_route(tmp_path):
     ]
     # a cycle of another size
     rows[7] |= {"smallest_maximum": 4.0, "largest_maximum": 5.0}
-    words = words_of_caption(tmp_path, rows, survey_run(["cycle"]))
+    words = words_of_caption(rows, survey_run(["cycle"]))
     assert "15 points. In runs near and up each class first appears at this value" in words
     assert "maxima of v on the attractor." in words
     assert "motions at 2 of 5 values of :math:`\\tau`: 0.3 and 0.5." in words
 
 
-def test_caption_of_a_route_of_a_model_that_is_not_the_block(tmp_path):
+def test_caption_of_a_route_of_a_model_that_is_not_the_block():
     run = of_other_model(survey_run(["cycle", "chaos"], epsilon=[0.1, 0.2], period=[1, 0]))
     run.attrs["axes"] = "beta"
     rows = route_rows_of(Path("mine/own.nc"), run)
-    words = words_of_caption(tmp_path, rows, run)
+    words = words_of_caption(rows, run)
     place = r":math:`\tau = 1`, model mackey glass (n = 10)"
     assert words.startswith(rf"Route along :math:`\beta` at {place}: 2 points.")
     assert "maxima of y on the attractor." in words
+
+
+@pytest.mark.parametrize(("run", "sweep"), [("near", "none"), ("slip", "none"), ("up", "up")])
+def test_runs_of_a_route_go_along_its_parameter(own_config, run, sweep):
+    """Three values are fixed; sweeps start from the first history."""
+    routes = own_config["routes"]
+    groups = plan.groups(own_config, "chaos_in_epsilon", run)
+    points, line = groups["points"], routes["lines"]["chaos_in_epsilon"]
+    assert points["sweep"] == sweep
+    count = line["count"]
+    axis = {"along": "epsilon", "window": line["window"], "count": count, "part": [1, count]}
+    assert points["axes"] == [axis]
+    model = {"name": PAPER, "parameters": ["tau", "xi", "gamma"], "values": [7.0, 0.5, 0.8]}
+    assert points["model"] == model
+    history = routes["histories"].get(run, routes["histories"]["near"])
+    assert groups["histories"] == {"names": HISTORY, "values": [history[key] for key in HISTORY]}
+    assert groups["observation"].items() >= own_config["spectra"].items()
+    assert (points["refinements"], points["kept"]) == (0, routes["observation"]["kept"])
+
+
+def test_route_along_a_value_of_the_history(own_config):
+    """One set of parameters and a history for each value; there are no sweeps."""
+    line = {"along": "v", "window": [0.5, 1.5], "count": 3, "tau": 7.0, "epsilon": 0.5}
+    own_config["routes"]["lines"]["mine"] = line | {"xi": 0.5, "gamma": 0.8, "law": PAPER}
+    groups = plan.groups(own_config, "mine", "slip")
+    points, histories = groups["points"], groups["histories"]
+    theta, u = (own_config["routes"]["histories"]["slip"][key] for key in ("theta", "u"))
+    assert histories["names"] == HISTORY
+    assert histories["values"] == [theta, u, 0.5, theta, u, 1.0, theta, u, 1.5]
+    assert "axes" not in points
+    assert points["sweep"] == "none"
+    names = [path.split("/")[-1] for path in plan.runs_of_route(own_config, "mine")]
+    assert names == ["near.nc", "slip.nc"]

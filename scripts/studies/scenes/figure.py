@@ -1,4 +1,4 @@
-"""The drawing of plans/scene.py, and the numbers of its caption."""
+"""The drawing of one scene, and the numbers of its caption."""
 
 import math
 import warnings

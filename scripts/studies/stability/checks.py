@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from scripts.config.checks import check_reference, wrong
 from scripts.namelists.laws import is_law
-from scripts.studies.stability.cases import cases_of_family, number_of_cases
+from scripts.studies.stability.plan import cases_of_family, number_of_cases
 
 MOST_CASES = 1000
 """Cases that one namelist holds."""

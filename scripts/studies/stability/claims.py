@@ -23,7 +23,7 @@ WITHIN_EXPECTED = 100.0
 @reads("stability")
 def out_of_reach(results: Results, *, method: Method, least: Gamma, most: Gamma) -> Finding:
     """Whether no run of this method with gamma in this range is completed."""
-    runs = runs_between(results, method, least, most)
+    runs = runs_between(results.stability, method, least, most)
     done = sum(row["status"] == "ok" for row in runs)
     return decided(
         bool(runs) and not done,
@@ -44,7 +44,7 @@ def stiffness_forbids(results: Results, *, method: Method, least: Gamma, most: G
 
     A run is solved if it reaches its end with an error within what its tolerance lets expect.
     """
-    runs = runs_between(results, method, least, most)
+    runs = runs_between(results.stability, method, least, most)
     done = [row for row in runs if row["status"] == "ok"]
     compared = [row for row in done if row["error_expected"] > 0]
     solved = sum(row["error"] <= WITHIN_EXPECTED * row["error_expected"] for row in compared)
@@ -73,13 +73,9 @@ def in_words(rows: list[dict]) -> str:
     return "".join(parts)
 
 
-def runs_between(results: Results, method: str, least: float, most: float) -> list[dict]:
+def runs_between(table: list[dict], method: str, least: float, most: float) -> list[dict]:
     """Runs of a method with gamma in a range."""
-    return [
-        row
-        for row in results.stability
-        if row["method"] == method and least <= row["gamma"] <= most
-    ]
+    return [row for row in table if row["method"] == method and least <= row["gamma"] <= most]
 
 
 @claim(16, "stationary_state", "section 2, below (3)", look_at="stability.tsv")

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from scripts.drawing.parameters import number
 from scripts.drawing.style import FAINT, INK
 from scripts.drawing.wording import short
+from scripts.files.tsv import rows_by
 
 GRID = "grid_"
 """How names of the grid's families begin."""
@@ -23,16 +24,16 @@ def draw(table: list[dict]) -> Figure:
     figure, axes = plt.subplot_mosaic(
         [["a", "b"], ["c", "c"]], figsize=(6.7, 5.2), height_ratios=[1, 1.15]
     )
-    methods = list(dict.fromkeys(row["method"] for row in table))
-    for label, method in zip("ab", methods, strict=False):
-        shown = [row for row in table if row["method"] == method and row["family"].startswith(GRID)]
+    by_method = rows_by(table, "method")
+    for label, (method, rows) in zip("ab", by_method.items(), strict=False):
+        shown = [row for row in rows if row["family"].startswith(GRID)]
         mesh = draw_map(axes[label], shown)
         axes[label].set_title(f"$\\bf{{{label}}}$  {method}, {tolerances(shown)}")
     axes["b"].set_ylabel("")
     bar = figure.colorbar(mesh, ax=[axes["a"], axes["b"]], pad=0.02)
     bar.set_label("largest error")
     bar.set_ticks(10.0**LEVELS, labels=[f"$10^{{{level}}}$" for level in LEVELS])
-    draw_errors(axes["c"], table, methods)
+    draw_errors(axes["c"], by_method)
     axes["c"].set_title(rf"$\bf{{c}}$  all cases with a reference, {tolerances(table)}")
     return figure
 
@@ -72,18 +73,12 @@ def tolerances(rows: list[dict]) -> str:
     return f"tolerance {', '.join(f'${number(value)}$' for value in values)}"
 
 
-def draw_errors(axes: Axes, rows: list[dict], methods: list[str]) -> None:
+def draw_errors(axes: Axes, by_method: dict[str, list[dict]]) -> None:
     """Error of each case over tolerance times amplification."""
-    for index, method in enumerate(methods):
+    for index, (method, rows) in enumerate(by_method.items()):
+        measured = [row for row in rows if row["error"] > 0 and row["amplification"] > 0]
         for ended in (True, False):
-            shown = [
-                row
-                for row in rows
-                if row["method"] == method
-                and (row["status"] == "ok") is ended
-                and row["error"] > 0
-                and row["amplification"] > 0
-            ]
+            shown = [row for row in measured if (row["status"] == "ok") is ended]
             if not shown:
                 continue
             axes.plot(
@@ -115,8 +110,7 @@ def draw_errors(axes: Axes, rows: list[dict], methods: list[str]) -> None:
 def numbers(table: list[dict]) -> dict:
     """Runs that are completed by each method, and errors that are within what is expected."""
     methods = []
-    for method in dict.fromkeys(row["method"] for row in table):
-        rows = [row for row in table if row["method"] == method]
+    for method, rows in rows_by(table, "method").items():
         ended = [row for row in rows if row["status"] == "ok"]
         measured = [row for row in ended if row["error"] >= 0 and row["error_expected"] > 0]
         methods.append(

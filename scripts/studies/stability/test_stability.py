@@ -13,9 +13,9 @@ from scripts.files.tsv import read_table
 from scripts.namelists.laws import PAPER
 from scripts.namelists.program_groups import case_groups
 from scripts.studies.stability import figure as drawing
-from scripts.studies.stability.cases import cases_of_family
 from scripts.studies.stability.claims import out_of_reach, stationary_state, stiffness_forbids
 from scripts.studies.stability.finding import describe
+from scripts.studies.stability.plan import cases_of_family
 
 
 def test_family_is_all_combinations():

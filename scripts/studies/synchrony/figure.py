@@ -1,4 +1,4 @@
-"""The drawing of plans/synchrony.py, and the numbers of its caption."""
+"""The drawing of growth of disturbances of modes, and the numbers of its caption."""
 
 import math
 
@@ -8,18 +8,9 @@ from matplotlib.figure import Figure
 
 from scripts.drawing.style import INK
 from scripts.drawing.wording import joined
-from scripts.studies.synchrony.ranges import (
-    growing_ranges,
-    has_multipliers,
-    largest_alike,
-    undecided_blocks,
-    undecided_range,
-)
 
 KAPPAS = (0.1, 1.0, 10.0)
 """Spring constants between neighbours at which the largest chains are named."""
-MOST_BLOCKS = 10
-"""Blocks of the longest chain of which it is said that its sign is not known."""
 MOST_ACCURATE = 1e-6
 """An error below this is not named."""
 MARKS = ["o", "s", "^", "D", "v", "P"]
@@ -67,7 +58,6 @@ def numbers(growth: list[xr.Dataset]) -> dict:
                 "name": one.attrs["scene"].replace("_", " "),
                 "zeros": zeros_in_words(one),
                 "alike": alike_in_words(one),
-                "unsure": unsure_in_words(one),
             }
             for one in growth
         ]
@@ -105,20 +95,6 @@ def with_its_digits(value: float, error: float) -> str:
     return f"{value:.{digits}f} ± {error:.{digits}f}"
 
 
-def unsure_in_words(one: xr.Dataset) -> str:
-    """Chains of which it is not known whether they move as one."""
-    found = [(undecided_blocks(one, kappa, MOST_BLOCKS), kappa) for kappa in KAPPAS]
-    parts = [
-        f"N = {', '.join(map(str, blocks))} at :math:`\\kappa = {kappa:g}`"
-        for blocks, kappa in found
-        if blocks
-    ]
-    if not parts:
-        return ""
-    low, high = undecided_range(one)
-    return f"at s = {low:.3g} to {high:.3g} the sign is not known, so for {joined(parts)}"
-
-
 def alike_in_words(one: xr.Dataset) -> str:
     """The numbers of blocks of the largest chains that move as one."""
     ranges = growing_ranges(one)
@@ -130,3 +106,42 @@ def alike_in_words(one: xr.Dataset) -> str:
             for most, kappa in found
         ]
     )
+
+
+def has_multipliers(one: xr.Dataset) -> bool:
+    """Whether the motion is a cycle of which Floquet multipliers were found."""
+    return one.sizes["floquet_s"] > 0
+
+
+def growing_ranges(one: xr.Dataset) -> list[tuple[float, float]]:
+    """Ranges of s in which disturbances grow, by multipliers where there are any.
+
+    Beyond the largest s that was tried all is as there.
+    """
+    kind = "floquet_" if has_multipliers(one) else ""
+    zeros = one[f"{kind}zero_s"].values.tolist()
+    rises = one[f"{kind}zero_rises"].values.astype(bool).tolist()
+    grows = [not rises[0] if zeros else float(one[f"{kind}exponent"][-1]) > 0, *rises]
+    ends = [1.0, *zeros, math.inf]
+    return [(ends[i], ends[i + 1]) for i, up in enumerate(grows) if up]
+
+
+def largest_alike(ranges: list[tuple[float, float]], kappa: float) -> int | None:
+    """The largest number of blocks with free ends of which no mode has s in a range; None: any.
+
+    Mode m has s = 1 + 4 kappa sin^2(x/2) at x = pi m/N. If the distance pi/N is less than the
+    width of a range in x, the range has a mode.
+    """
+
+    def place(s: float) -> float:
+        return 2 * math.asin(math.sqrt(min((s - 1) / (4 * kappa), 1)))
+
+    widest = max((place(high) - place(low) for low, high in ranges), default=0.0)
+    if widest == 0:
+        return None
+    for blocks in range(math.floor(math.pi / widest) + 1, 1, -1):
+        angles = [math.pi * mode / blocks for mode in range(1, blocks)]
+        modes = [1 + kappa * round(4 * math.sin(angle / 2) ** 2, 12) for angle in angles]
+        if not any(low < s < high for s in modes for low, high in ranges):
+            return blocks
+    return 1

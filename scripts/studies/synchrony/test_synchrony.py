@@ -10,14 +10,8 @@ import xarray as xr
 from scripts.config.check_config import checked
 from scripts.files.read_config import ConfigError
 from scripts.namelists.program_groups import scene_groups
-from scripts.studies.synchrony.figure import zeros_in_words
+from scripts.studies.synchrony.figure import growing_ranges, largest_alike, zeros_in_words
 from scripts.studies.synchrony.plan import groups
-from scripts.studies.synchrony.ranges import (
-    growing_ranges,
-    largest_alike,
-    undecided_blocks,
-    undecided_range,
-)
 
 
 @pytest.fixture
@@ -29,7 +23,7 @@ def config(filled_config) -> dict:
 def measured(programs, config: dict, scene: str, window: list, count: int) -> xr.Dataset:
     """A short measurement of the growth of disturbances."""
     t_end = config["scenes"][scene]["t_transient"] + 4000.0
-    config["synchrony"] |= {"s_window": window, "count": count, "t_end": t_end, "blocks": 10}
+    config["synchrony"] |= {"s_window": window, "count": count, "t_end": t_end, "batches": 10}
     return programs.made_of("synchrony", groups(config, scene))
 
 
@@ -134,12 +128,6 @@ def test_ranges_of_growth_end_at_zeros():
         assert growing_ranges(growth([2.0], [0], [0.0, -1.0], multipliers)) == [(1.0, 2.0)]
         two = growth([2.0, 3.0, 4.0], [1, 0, 1], [0.0, 1.0], multipliers)
         assert growing_ranges(two) == [(2.0, 3.0), (4.0, math.inf)]
-    # the exponents at s = 3 and 4 are within three errors of 0; of two blocks s = 1 + 2 kappa
-    unsure = growth([3.5], [0], [0.1, 0.05, 0.01, -0.01, -0.1], False)
-    unsure["error"] = ("s", [0.01] * 5)
-    assert undecided_range(unsure) == (3.0, 4.0)
-    assert undecided_blocks(unsure, 1.2, 3) == [2]
-    assert undecided_blocks(unsure, 2.0, 3) == [3]
 
 
 @pytest.mark.parametrize(

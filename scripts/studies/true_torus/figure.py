@@ -1,4 +1,4 @@
-"""The drawing of plans/true_torus.py, and the numbers of its caption."""
+"""The drawing of the paper's torus beside a true one, and the numbers of its caption."""
 
 import math
 

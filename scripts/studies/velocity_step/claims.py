@@ -18,15 +18,15 @@ Difference = Annotated[float, number("largest difference that counts as none")]
 def mu0_is_steady_friction(results: Results, *, limit: Difference) -> Finding:
     """Whether steady friction at v0 is mu0."""
     friction = columns_of(results.velocity_step)
-    a, b, mu0, v0, dc, unit = (
+    a, b, mu0, v0, dc, b_state = (
         float(friction[key][0]) for key in ("a", "b", "mu0", "v0", "dc", "b_state")
     )
     # the block slides steadily at v0 before the step
     steady = float(friction["mu"][0])
     off = steady - mu0
-    of_v, of_theta = -a * np.log(2), b * np.log(dc / (v0 * unit) + 1)
+    of_v, of_theta = -a * np.log(2), b * np.log(dc / (v0 * b_state) + 1)
     # rounded: theta at v0 may be b but for the last digit
-    without = round(b * np.log(dc / (v0 * unit)), 12) + 0.0
+    without = round(b * np.log(dc / (v0 * b_state)), 12) + 0.0
     return decided(
         abs(off) <= limit,
         f"By (1.1) steady friction at $v0 = {short(v0)}$ m/s is {short(steady, 6)}"

@@ -1,4 +1,4 @@
-"""The drawing of plans/figure_8.py, and the numbers of its caption."""
+"""The drawing of friction after a velocity step (Figure 8), and the numbers of its caption."""
 
 import numpy as np
 from matplotlib import pyplot as plt

@@ -26,9 +26,9 @@ def respond(step: dict) -> dict[str, np.ndarray]:
     time = slip = 0.0
     theta = step["dc"] / step["v0"]
     phases = []
-    for part, faster in (("slip_before", 0.0), ("slip_after", step["delta_v"]), ("slip_after", 0)):
+    for key, faster in (("slip_before", 0.0), ("slip_after", step["delta_v"]), ("slip_after", 0)):
         v = step["v0"] + faster
-        t = np.linspace(0.0, step[part] * step["dc"] / v, step["samples"])
+        t = np.linspace(0.0, step[key] * step["dc"] / v, step["samples"])
         state = state_after(step, v, t, theta)
         mu = friction_of(step, v, state)
         phases.append((time + t, slip + v * t, np.full(t.size, v), state, mu))

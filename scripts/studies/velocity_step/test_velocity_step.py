@@ -26,19 +26,19 @@ def test_response_is_that_of_scipy(step):
     for phase, (v, length) in enumerate(
         [(v0, step["slip_before"]), *[(v, step["slip_after"]) for v in (v0 + step["delta_v"], v0)]]
     ):
-        part = {name: values[phase * n : (phase + 1) * n] for name, values in found.items()}
+        found_there = {name: values[phase * n : (phase + 1) * n] for name, values in found.items()}
         times = np.linspace(start, start + length * dc / v, n)
         run = solve_ivp(
             lambda _, y, v=v: 1 - v * y / dc, times[[0, -1]], [theta], "DOP853", times,
             rtol=1e-12, atol=1e-12,
         )  # fmt: skip
-        np.testing.assert_allclose(part["time"], times, rtol=1e-12)
-        np.testing.assert_allclose(part["slip"], passed + v * (times - start), rtol=1e-12)
-        np.testing.assert_array_equal(part["velocity"], v)
-        np.testing.assert_allclose(part["theta"], run.y[0], rtol=1e-9)
+        np.testing.assert_allclose(found_there["time"], times, rtol=1e-12)
+        np.testing.assert_allclose(found_there["slip"], passed + v * (times - start), rtol=1e-12)
+        np.testing.assert_array_equal(found_there["velocity"], v)
+        np.testing.assert_allclose(found_there["theta"], run.y[0], rtol=1e-9)
         direct = step["a"] * np.log(v0 / v + 1)
         mu = step["mu0"] - direct + step["b"] * np.log(run.y[0] / step["b_state"] + 1)
-        np.testing.assert_allclose(part["mu"], mu, rtol=1e-9)
+        np.testing.assert_allclose(found_there["mu"], mu, rtol=1e-9)
         theta, start, passed = run.y[0, -1], times[-1], passed + length * dc
 
 

@@ -6,6 +6,7 @@ from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
 from scripts.drawing.wording import count, short
+from scripts.files.tsv import rows_by
 
 MARKERS = "osD^vx+ph<>"
 ENOUGH = 1e-15
@@ -53,15 +54,11 @@ def draw(table: list[dict], others: list[dict], date: str) -> Figure:
     )
     for axes in grid.flat[len(scenes) :]:
         axes.remove()
+    drawn = [row for row in (*table, *others) if row["error_max"] >= 0 and row["seconds"] > 0]
+    runs = rows_by(drawn, "scene", "solver")
     for axes, scene in zip(grid.flat, scenes, strict=False):
         for solver, style in styles.items():
-            shown = [
-                row
-                for row in [*table, *others]
-                if (row["scene"], row["solver"]) == (scene, solver)
-                and row["error_max"] >= 0
-                and row["seconds"] > 0
-            ]
+            shown = runs.get((scene, solver), [])
             axes.plot(
                 [row["seconds"] for row in shown],
                 [max(row["error_max"], ENOUGH) for row in shown],
@@ -75,13 +72,10 @@ def draw(table: list[dict], others: list[dict], date: str) -> Figure:
         axes.set_ylabel("largest error")
     for axes in grid[-1]:
         axes.set_xlabel("CPU seconds")
-    handles = {}
-    for axes in grid.flat[: len(scenes)]:
-        handles |= {line.get_label(): line for line in axes.get_lines()}
+    handles = grid[0, 0].get_lines()
     columns = len(handles) if len(handles) <= 6 else -(-len(handles) // 2)
     figure.legend(
-        handles.values(),
-        handles,
+        handles=handles,
         loc="outside lower center",
         ncols=columns,
         title=f"dashed: other solvers, measured on {date}" if others else None,

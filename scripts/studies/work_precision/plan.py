@@ -10,26 +10,19 @@ from scripts.plans.declare import LONG_RUN, Figure, Run, Study, Table
 OTHERS = "benchmarks/measured.tsv"
 
 
-def measured_study(config: dict) -> dict:
-    """The study of work against precision, in which its scenes are cases among the others."""
-    study = config["work_precision"]
-    scenes = {
-        name: place_of(config, config["scenes"][name])
-        | {"history": config["scenes"][name]["history"]}
-        | settings
+def cases_of(config: dict) -> dict[str, dict]:
+    """Measured cases by name, each up to its t_end: scenes, as they are, and harder ones."""
+    study, scenes = config["work_precision"], config["scenes"]
+    of_scenes = {
+        name: place_of(config, scenes[name]) | {"history": scenes[name]["history"]} | settings
         for name, settings in study["scenes"].items()
     }
-    return {**study, "cases": scenes | study["cases"]}
-
-
-def case_of(name: str, settings: dict) -> dict:
-    """One case up to its t_end."""
-    return {"name": name, **settings}
+    return {name: {"name": name, **case} for name, case in (of_scenes | study["cases"]).items()}
 
 
 def groups_of(config: dict, case: str) -> dict[str, list[dict]]:
     """A case in full length."""
-    return case_groups(config, [case_of(case, measured_study(config)["cases"][case])])
+    return case_groups(config, [cases_of(config)[case]])
 
 
 def trust_groups(config: dict, case: str) -> dict[str, dict]:
@@ -59,15 +52,10 @@ def measurement_groups(config: dict, case: str) -> dict[str, dict]:
 
 def inputs_of(study: str):
     """What a table of runs of a study is made of, by the configuration."""
-
-    def inputs(config: dict) -> dict:
-        cases = measured_study(config)["cases"]
-        return {
-            "measurements": [f"<results>/measurements/{study}/{case}.nc" for case in cases],
-            "references": [f"<results>/references/trust/{case}.tsv" for case in cases],
-        }
-
-    return inputs
+    return lambda config: {
+        "measurements": [f"<results>/measurements/{study}/{case}.nc" for case in cases_of(config)],
+        "references": [f"<results>/references/trust/{case}.tsv" for case in cases_of(config)],
+    }
 
 
 def params(_config: dict) -> dict:

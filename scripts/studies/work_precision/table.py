@@ -3,7 +3,7 @@
 import numpy as np
 
 from scripts.files.outputs import logged
-from scripts.files.tsv import write_table
+from scripts.files.tsv import rows_by, write_table
 from scripts.tables.accuracy import Reference, errors_of, largest, read_runs_with_references
 
 FIXED = {"error_quarter": 0.25, "error_half": 0.5, "error_end": 1.0}
@@ -35,26 +35,19 @@ def row_of(run: dict, reference: Reference) -> dict:
 
 def proportionality(rows: list[dict]) -> list[dict]:
     """Slope of log error over log tolerance for each scene and solver, and its number of points."""
-    points: dict[tuple[str, str], list] = {(row["scene"], row["solver"]): [] for row in rows}
-    for row in rows:
-        if USEFUL[0] <= row["error_max"] <= USEFUL[1]:
-            points[row["scene"], row["solver"]].append((row["tolerance"], row["error_max"]))
     found = []
-    for (scene, solver), useful in points.items():
+    for (scene, solver), runs in rows_by(rows, "scene", "solver").items():
+        useful = [run for run in runs if USEFUL[0] <= run["error_max"] <= USEFUL[1]]
         slope = ratio = np.nan
         if len(useful) > 2:
-            tolerances, errors = np.transpose(useful)
+            tolerances, errors = (
+                np.array([run[key] for run in useful]) for key in ("tolerance", "error_max")
+            )
             slope = float(np.polyfit(np.log10(tolerances), np.log10(errors), 1)[0])
-            ratio = float(np.exp(np.median(np.log(errors / tolerances))))
-        found.append(
-            {
-                "scene": scene,
-                "solver": solver,
-                "slope": slope,
-                "median_error_per_tolerance": ratio if not solver.startswith("rk4") else np.nan,
-                "points": len(useful),
-            }
-        )
+            if not solver.startswith("rk4"):
+                ratio = float(np.exp(np.median(np.log(errors / tolerances))))
+        row = {"scene": scene, "solver": solver, "slope": slope}
+        found.append({**row, "median_error_per_tolerance": ratio, "points": len(useful)})
     return found
 
 

@@ -10,25 +10,17 @@ from scripts.files.tsv import read_table
 from scripts.namelists.write_namelist import end_at_horizons
 from scripts.studies.work_precision import figure as drawing
 from scripts.studies.work_precision.horizons_table import horizon, row_of
-from scripts.studies.work_precision.plan import case_of, measured_study, measurement_groups
+from scripts.studies.work_precision.plan import cases_of, measurement_groups
 from scripts.studies.work_precision.table import proportionality
-from scripts.tables.accuracy import (
-    Reference,
-)
+from scripts.tables.accuracy import Reference
 from scripts.workflow.plan import read_plan
 
 
 @pytest.fixture
 def reference() -> Reference:
-    time = np.arange(5.0)
-    uncertainty = np.full(5, 1e-17)
-    return Reference(
-        status="ok",
-        time=time,
-        state=np.zeros((3, 5)),
-        uncertainty=uncertainty,
-        amplification=10.0**time,
-    )
+    time, state, uncertainty = np.arange(5.0), np.zeros((3, 5)), np.full(5, 1e-17)
+    found = {"time": time, "state": state, "uncertainty": uncertainty}
+    return Reference(status="ok", amplification=10.0**time, **found)
 
 
 def made_up_run(errors: list[float]) -> dict:
@@ -112,9 +104,9 @@ def test_numbers_of_work_and_precision():
 def test_scenes_of_the_paper_are_measured_as_they_are(config):
     """With the parameters and the history of the scene, whatever these are."""
     config["scenes"]["torus"] |= {"epsilon": 0.4, "history": {"v": 1.3}}
-    cases = measured_study(checked(config))["cases"]
+    cases = cases_of(checked(config))
     assert list(cases) == ["fixed_point", "oscillation", "torus", "chaos", "stick", "stiff"]
-    measured = case_of("torus", cases["torus"])
+    measured = cases["torus"]
     assert (measured["tau"], measured["epsilon"]) == (10.0, 0.4)
     assert measured["history"] == {"theta": 0.0, "u": 0.0, "v": 1.3}
     assert measured["t_end"] == 1000.0

@@ -8,10 +8,9 @@ module dde
    use dde_kinds, only: wp
    use dde_outcome, only: event_met, integration_result, interrupted, out_of_memory, reached_end, &
                           refused, step_underflow, stop_requested, too_many_steps, value_not_finite
-   use dde_problem, only: dde_problem_type
+   use dde_problem, only: dde_problem_type, problem_with_tangents
    use dde_request, only: integration_options, methods
    use dde_sampler, only: sampler_type, table_sampler
-   use dde_tangents, only: problem_with_tangents
    use dde_time, only: elapsed, instant
    implicit none (type, external)
    private
@@ -22,6 +21,7 @@ module dde
    public :: event_table, event_watcher_type
    public :: sampler_type, table_sampler
    public :: integrate, integration_options, integration_result, methods
-   public :: event_met, out_of_memory, reached_end, refused, step_underflow, too_many_steps
-   public :: interrupted, stop_requested, value_not_finite
+   public :: event_met, interrupted, out_of_memory, reached_end, refused, step_underflow
+   public :: stop_requested, too_many_steps
+   public :: value_not_finite
 end module dde

@@ -109,18 +109,12 @@ module dde_events
 
 contains
 
-   !> An empty table; not terminal and not of slopes where not said.
+   !> An empty table, with one of each for every function; not terminal and not of slopes where not
+   !> said.
    pure function new_table(component, level, direction, terminal, of_slope) result(table)
-      !> Component that each function looks at
-      integer, intent(in) :: component(:)
-      !> Level whose passages are events, one each
+      integer, intent(in) :: component(:), direction(:)
       real(wp), intent(in) :: level(:)
-      !> Passages wanted: -1 falling, 1 rising, 0 both, one each
-      integer, intent(in) :: direction(:)
-      !> Whether an event ends the run, one each
-      logical, intent(in), optional :: terminal(:)
-      !> Whether the function looks at the slope of the component, one each
-      logical, intent(in), optional :: of_slope(:)
+      logical, intent(in), optional :: terminal(:), of_slope(:)
       type(event_table) :: table
 
       allocate (table%component, source=component)
@@ -291,11 +285,7 @@ contains
       integer :: i
 
       do i = 1, size(g)
-         if (self%of_slope(i)) then
-            g(i) = slope(self%component(i)) - self%level(i)
-         else
-            g(i) = y(self%component(i)) - self%level(i)
-         end if
+         g(i) = distance(self, i, y, slope)
       end do
    end subroutine less_level
 
@@ -306,14 +296,25 @@ contains
       real(wp), intent(in) :: t, y(:), slope(:)
       type(event_table) :: plain
 
-      if (.not. same_type_as(self, plain)) then
+      if (same_type_as(self, plain)) then
+         value = distance(self, which, y, slope)
+      else
          value = one_of_values(self, which, t, y, slope)
-      else if (self%of_slope(which)) then
+      end if
+   end function one_less_level
+
+   !> A component or slope, less its level.
+   pure real(wp) function distance(self, which, y, slope) result(value)
+      class(event_table), intent(in) :: self
+      integer, intent(in) :: which
+      real(wp), intent(in) :: y(:), slope(:)
+
+      if (self%of_slope(which)) then
          value = slope(self%component(which)) - self%level(which)
       else
          value = y(self%component(which)) - self%level(which)
       end if
-   end function one_less_level
+   end function distance
 
    !> Fill the next row.
    subroutine take_row(self, which, t, y, slope)

@@ -5,41 +5,35 @@ module dde_memory
    use, intrinsic :: iso_fortran_env, only: int8
    implicit none (type, external)
    private
-   public :: bytes_of, lacks, small
+   public :: find_lacking, small
 
    !> Bytes of a real number.
    integer, parameter :: bytes_of_real = storage_size(1.0_wp)/8
-   !> Amounts up to this one are not asked for: that would take too long.
-   real(wp), parameter :: small = 65536.0_wp
+   !> Up to so many real numbers are not asked for: that would take too long.
+   real(wp), parameter :: small = 8192.0_wp
    !> Where Linux tells how many kilobytes a program can fill: it lets programs allocate more.
    character(len=*), parameter :: meminfo = "/proc/meminfo", name_there = "MemAvailable:"
 
 contains
 
-   !> Bytes of some real numbers; their count may be larger than the largest integer.
-   pure real(wp) function bytes_of(reals) result(bytes)
-      !> Number of real numbers
+   !> Bytes of some real numbers if there is not as much memory now, else 0. A system that promises
+   !> more than it has, and does not tell what it has, may still end the program when the memory is
+   !> filled.
+   real(wp) function find_lacking(reals) result(lacking)
+      !> Number of real numbers, which may be larger than the largest integer
       real(wp), intent(in) :: reals
-
-      bytes = bytes_of_real*reals
-   end function bytes_of
-
-   !> Whether there is not as much memory now. A system that promises more than it has, and does
-   !> not tell what it has, may still end the program when the memory is filled.
-   logical function lacks(bytes) result(value)
-      !> Bytes needed
-      real(wp), intent(in) :: bytes
       ! volatile, or the compiler leaves out memory that nobody reads
       integer(int8), allocatable, volatile :: memory(:)
+      real(wp) :: bytes
       integer :: status
 
-      value = .false.
-      if (bytes <= small) return
-      value = bytes > available()
-      if (value) return
-      allocate (memory(int(bytes, int64)), stat=status)
-      value = status /= 0
-   end function lacks
+      lacking = 0.0_wp
+      if (reals <= small) return
+      bytes = bytes_of_real*reals
+      status = 0
+      if (bytes <= available()) allocate (memory(int(bytes, int64)), stat=status)
+      if (status /= 0 .or. .not. allocated(memory)) lacking = bytes
+   end function find_lacking
 
    !> Bytes that a program can fill now; where the system does not tell, the largest integer.
    real(wp) function available() result(bytes)

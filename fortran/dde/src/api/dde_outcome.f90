@@ -1,13 +1,10 @@
 !> The result of an integration, and why it ended.
 module dde_outcome
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use, intrinsic :: iso_c_binding, only: c_int
-   use dde_request, only: integration_options
-   use dde_errors, only: error_type, raise, text
    use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: explain, integration_result, limit_met
+   public :: integration_result
    public :: event_met, interrupted, out_of_memory, reached_end, refused, step_underflow
    public :: stop_requested, too_many_steps, value_not_finite
 
@@ -44,72 +41,5 @@ module dde_outcome
       integer(int64) :: switches = 0
       !> Breaking points landed on
       integer :: breaking_points = 0
-      !> Accepted steps that were shorter than the spacing of times: f was evaluated at one time
-      !> only
-      integer(int64) :: unresolved = 0
    end type integration_result
-
-contains
-
-   !> The limit that forbids another attempt, or `reached_end` if none does.
-   integer function limit_met(outcome, last_error, options, h, shortest) result(reason)
-      !> Counts so far
-      type(integration_result), intent(in) :: outcome
-      !> Error estimate of the last attempt
-      real(wp), intent(in) :: last_error
-      !> Limits
-      type(integration_options), intent(in) :: options
-      !> Length of the next attempt
-      real(wp), intent(in) :: h
-      !> Length up to which a step is too short
-      real(wp), intent(in) :: shortest
-
-      reason = reached_end
-      if (h <= shortest) then
-         reason = step_underflow
-         if (.not. ieee_is_finite(last_error)) reason = value_not_finite
-      else if (outcome%accepted + outcome%rejected >= options%most_steps) then
-         reason = too_many_steps
-      else if (stop_requested /= 0) then
-         reason = interrupted
-      end if
-   end function limit_met
-
-   !> The error of an integration that ended early: where and why.
-   pure subroutine explain(outcome, t_end, h, options, culprit, lacking, error)
-      !> The result
-      type(integration_result), intent(in) :: outcome
-      !> Final time wanted
-      real(wp), intent(in) :: t_end
-      !> Length of the last step attempted
-      real(wp), intent(in) :: h
-      !> Limits
-      type(integration_options), intent(in) :: options
-      !> Which value is not finite, or whose tolerance is too small; may be empty
-      character(len=*), intent(in) :: culprit
-      !> Bytes that could not be allocated
-      real(wp), intent(in) :: lacking
-      !> The error to set
-      type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: why
-
-      select case (outcome%reason)
-      case (step_underflow)
-         why = "the step had to shrink to "//text(h) &
-               //", too small to change the time; "
-         if (len(culprit) == 0) why = why//"a singularity?"
-      case (too_many_steps)
-         why = text(options%most_steps)//" steps (most_steps) were used up"
-         if (len(culprit) > 0) why = why//"; "
-      case (out_of_memory)
-         why = "no memory for another "//text(lacking)//" bytes"
-      case (interrupted)
-         why = "interrupted"
-      case default
-         why = "a value is not finite at every step length down to "//text(h)//": "
-      end select
-      call raise(error, "integrate: stopped at t = "//text(outcome%t)//" of "//text(t_end) &
-                 //" after "//text(outcome%accepted)//" steps ("//text(outcome%rejected) &
-                 //" rejected): "//why//culprit)
-   end subroutine explain
 end module dde_outcome

@@ -1,9 +1,9 @@
 !> The options of an integration, and the refusal of wrong arguments.
 module dde_request
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
+   use dde_breaking_points, only: kink_type
    use dde_continuation, only: continuation_type
    use dde_events, only: event_watcher_type
-   use dde_kinks, only: kink_type
    use dde_problem, only: dde_problem_type
    use dde_sampler, only: sampler_type
    use dde_time, only: elapsed, instant, too_short
@@ -59,9 +59,10 @@ contains
       type(instant), intent(in) :: origin
       type(kink_type), allocatable :: kinks(:)
 
-      allocate (kinks(0))
-      if (.not. allocated(options%break_at)) return
-      deallocate (kinks)
+      if (.not. allocated(options%break_at)) then
+         allocate (kinks(0))
+         return
+      end if
       allocate (kinks(size(options%break_at)))
       kinks%at%hi = options%break_at
       kinks%passages = merge(-1, 0, options%break_at < origin%hi)
@@ -87,10 +88,9 @@ contains
       type(continuation_type), intent(in), optional :: continuation
       logical :: goes_on
 
-      call check_problem(problem, error)
-      if (.not. allocated(error)) call check_span(t_start, t_end, error, continuation)
+      call check_span(t_start, t_end, error, continuation)
       if (.not. allocated(error)) then
-         call check_delays(problem%lag, too_short(t_start, t_start, t_end), error)
+         call check_problem(problem, too_short(t_start, t_start, t_end), error)
       end if
       if (.not. allocated(error)) call check_options(problem, options, error)
       goes_on = .false.
@@ -104,11 +104,11 @@ contains
       end if
    end subroutine check
 
-   !> Refuse a problem that is not one.
-   pure subroutine check_problem(problem, error)
-      !> The problem
+   !> Refuse a problem that is not one, and delays that no step resolves.
+   pure subroutine check_problem(problem, shortest, error)
       class(dde_problem_type), intent(in) :: problem
-      !> What is wrong
+      !> Length up to which a step is too short
+      real(wp), intent(in) :: shortest
       type(error_type), allocatable, intent(out) :: error
       integer :: k
 
@@ -137,6 +137,10 @@ contains
          if (.not. positive(problem%lag(k))) then
             call raise(error, "integrate: lag("//text(k)//") = "//text(problem%lag(k)) &
                        //"; finite and > 0 expected")
+         else if (problem%lag(k) <= shortest) then
+            call raise(error, "integrate: lag("//text(k)//") = "//text(problem%lag(k)) &
+                       //" is no longer than the shortest step, "//text(shortest) &
+                       //"; a longer one expected")
          else if (problem%component(k) < 1 .or. problem%component(k) > problem%n) then
             call raise(error, "integrate: component("//text(k)//") = " &
                        //text(problem%component(k))//"; 1.."//text(problem%n)//" expected")
@@ -166,21 +170,6 @@ contains
          end do
       end associate
    end subroutine check_rows
-
-   !> Refuse delays that no step resolves.
-   pure subroutine check_delays(lag, shortest, error)
-      !> Delays, and the length up to which a step is too short
-      real(wp), intent(in) :: lag(:), shortest
-      type(error_type), allocatable, intent(out) :: error
-      integer :: k
-
-      do k = 1, size(lag)
-         if (lag(k) > shortest) cycle
-         call raise(error, "integrate: lag("//text(k)//") = "//text(lag(k))//" is no longer than " &
-                    //"the shortest step, "//text(shortest)//"; a longer one expected")
-         return
-      end do
-   end subroutine check_delays
 
    !> Refuse a span that is not finite, not ascending or too long. A continued run starts exactly
    !> where the earlier one ended.
@@ -212,26 +201,21 @@ contains
       character(len=:), allocatable :: names
       integer :: i
 
-      if (.not. ((positive(options%relative) .or. is_zero(options%relative)) &
-                 .and. positive(options%absolute))) then
+      if (.not. (not_negative(options%relative) .and. positive(options%absolute))) then
          call raise(error, "integrate: tolerances relative = "//text(options%relative) &
                     //", absolute = "//text(options%absolute) &
                     //"; finite, >= 0 and > 0 expected")
       end if
-      if (.not. allocated(error)) then
-         call check_list(problem%n, "each_relative", ">= 0", error, options%each_relative)
-      end if
-      if (.not. allocated(error)) then
-         call check_list(problem%n, "each_absolute", "> 0", error, options%each_absolute)
-      end if
+      call check_list(problem%n, "each_relative", ">= 0", error, options%each_relative)
+      call check_list(problem%n, "each_absolute", "> 0", error, options%each_absolute)
       if (allocated(error)) return
-      if (.not. (positive(options%first_step) .or. is_zero(options%first_step))) then
+      if (.not. not_negative(options%first_step)) then
          call raise(error, "integrate: first_step = "//text(options%first_step) &
                     //"; finite and >= 0 expected (0: chosen by the solver)")
       else if (.not. above_zero(options%longest_step)) then
          call raise(error, "integrate: longest_step = "//text(options%longest_step) &
                     //"; > 0 expected")
-      else if (.not. (positive(options%past_kept) .or. is_zero(options%past_kept))) then
+      else if (.not. not_negative(options%past_kept)) then
          call raise(error, "integrate: past_kept = "//text(options%past_kept) &
                     //"; finite and >= 0 expected")
       else if (all(options%method /= methods)) then
@@ -253,18 +237,18 @@ contains
    pure subroutine check_list(n, name, range, error, values)
       integer, intent(in) :: n
       character(len=*), intent(in) :: name, range
-      type(error_type), allocatable, intent(out) :: error
+      type(error_type), allocatable, intent(inout) :: error
       real(wp), intent(in), optional :: values(:)
       integer :: i
 
-      if (.not. present(values)) return
+      if (allocated(error) .or. .not. present(values)) return
       if (size(values) /= n) then
          call raise(error, "integrate: "//text(size(values))//" tolerances "//name//" for " &
                     //text(n)//" equations; "//text(n)//" expected")
          return
       end if
       do i = 1, n
-         if (positive(values(i)) .or. range == ">= 0" .and. is_zero(values(i))) cycle
+         if (positive(values(i)) .or. range == ">= 0" .and. not_negative(values(i))) cycle
          call raise(error, "integrate: "//name//"("//text(i)//") = "//text(values(i)) &
                     //"; finite and "//range//" expected")
          return
@@ -286,11 +270,11 @@ contains
       if (.not. ieee_is_nan(x)) value = x > 0.0_wp
    end function above_zero
 
-   !> Whether a number is 0.
-   elemental logical function is_zero(x) result(value)
+   !> Whether a number is finite and >= 0.
+   elemental logical function not_negative(x) result(value)
       real(wp), intent(in) :: x
 
       value = .false.
-      if (ieee_is_finite(x)) value = .not. abs(x) > 0.0_wp
-   end function is_zero
+      if (ieee_is_finite(x)) value = x >= 0.0_wp
+   end function not_negative
 end module dde_request

@@ -22,38 +22,23 @@ module dde_bogacki_shampine
       c5 = 2.0_wp/3.0_wp, &
       c6 = 0.75_wp
 
-   !> Row 2
+   !> Weights of the stages 2 to 7: row, then column
    real(wp), parameter :: &
-      a21 = 1.0_wp/6.0_wp
-
-   !> Row 3
-   real(wp), parameter :: &
+      a21 = 1.0_wp/6.0_wp, &
       a31 = 2.0_wp/27.0_wp, &
-      a32 = 4.0_wp/27.0_wp
-
-   !> Row 4
-   real(wp), parameter :: &
+      a32 = 4.0_wp/27.0_wp, &
       a41 = 183.0_wp/1372.0_wp, &
       a42 = -162.0_wp/343.0_wp, &
-      a43 = 1053.0_wp/1372.0_wp
-
-   !> Row 5
-   real(wp), parameter :: &
+      a43 = 1053.0_wp/1372.0_wp, &
       a51 = 68.0_wp/297.0_wp, &
       a52 = -4.0_wp/11.0_wp, &
       a53 = 42.0_wp/143.0_wp, &
-      a54 = 1960.0_wp/3861.0_wp
-
-   !> Row 6
-   real(wp), parameter :: &
+      a54 = 1960.0_wp/3861.0_wp, &
       a61 = 597.0_wp/22528.0_wp, &
       a62 = 81.0_wp/352.0_wp, &
       a63 = 63099.0_wp/585728.0_wp, &
       a64 = 58653.0_wp/366080.0_wp, &
-      a65 = 4617.0_wp/20480.0_wp
-
-   !> Row 7
-   real(wp), parameter :: &
+      a65 = 4617.0_wp/20480.0_wp, &
       a71 = 174197.0_wp/959244.0_wp, &
       a72 = -30942.0_wp/79937.0_wp, &
       a73 = 8152137.0_wp/19744439.0_wp, &
@@ -76,8 +61,7 @@ module dde_bogacki_shampine
       e3 = 6561.0_wp/632320.0_wp, &
       e4 = -343.0_wp/20800.0_wp, &
       e5 = 243.0_wp/12800.0_wp, &
-      e6 = -1.0_wp/95.0_wp
-   real(wp), parameter :: &
+      e6 = -1.0_wp/95.0_wp, &
       f1 = 3817.0_wp/1959552.0_wp, &
       f3 = -140181.0_wp/15491840.0_wp, &
       f4 = 4224731.0_wp/272937600.0_wp, &

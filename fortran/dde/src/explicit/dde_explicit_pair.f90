@@ -53,10 +53,8 @@ module dde_explicit_pair
          real(wp), intent(in) :: z(size(context%problem%lag), size(self%places))
          !> Slopes, the first known
          real(wp), intent(inout) :: k(lanes, blocks, slope_count)
-         !> Argument of the last stage
-         real(wp), intent(inout) :: stage(lanes, blocks)
-         !> State at the end
-         real(wp), intent(inout) :: y_new(lanes, blocks)
+         !> Argument of the last stage, and state at the end
+         real(wp), intent(inout) :: stage(lanes, blocks), y_new(lanes, blocks)
          !> Whether all slopes are finite
          logical, intent(inout) :: finite
       end subroutine take_stages
@@ -70,12 +68,8 @@ module dde_explicit_pair
          integer, intent(in) :: n, blocks
          !> Slopes
          real(wp), intent(in) :: k(lanes, blocks, slope_count)
-         !> Length of the step
-         real(wp), intent(in) :: h
-         !> Tolerance of each component, shape (n)
-         real(wp), intent(in) :: scale(n)
-         !> Tolerance level
-         real(wp), intent(in) :: tolerance
+         !> Length of the step, tolerance of each component, and its level
+         real(wp), intent(in) :: h, scale(n), tolerance
          !> Errors of up to two embedded methods
          real(wp), intent(out) :: embedded(lanes, blocks, 2)
          !> Estimated error in units of the tolerance
@@ -87,12 +81,8 @@ module dde_explicit_pair
          import :: explicit_pair, slope_count, wp
          implicit none (type, external)
          class(explicit_pair), intent(in) :: self
-         !> Slopes of the component
-         real(wp), intent(in) :: k(slope_count)
-         !> Length of the step
-         real(wp), intent(in) :: h
-         !> The component at the start of the step, and at its end
-         real(wp), intent(in) :: y, y_new
+         !> Slopes of the component, length of the step, and the component at its start and end
+         real(wp), intent(in) :: k(slope_count), h, y, y_new
          !> Newton coefficients over the nodes 0, 1, 0, 1 and so on
          real(wp), intent(out) :: a(0:size(self%nodes))
       end subroutine find_coefficients
@@ -100,44 +90,25 @@ module dde_explicit_pair
 
 contains
 
-   !> The stages of the dense output.
+   !> The stages of the dense output: as `take_stages`, with delayed values at `dense_places`.
    pure subroutine take_dense_stages(self, context, h, blocks, y, z, k, stage, finite)
       class(explicit_pair), intent(in) :: self
-      !> The context of the step
       type(step_context), intent(inout) :: context
-      !> Length of the step
       real(wp), intent(in) :: h
-      !> Number of blocks of lanes
       integer, intent(in) :: blocks
-      !> State at the start
-      real(wp), intent(in) :: y(lanes, blocks)
-      !> Delayed values at `dense_places`
-      real(wp), intent(in) :: z(size(context%problem%lag), size(self%dense_places))
-      !> Slopes, those of the step and at its end known
-      real(wp), intent(inout) :: k(lanes, blocks, slope_count)
-      !> Argument of a stage
-      real(wp), intent(inout) :: stage(lanes, blocks)
-      !> Whether all slopes are finite
+      real(wp), intent(in) :: y(lanes, blocks), z(size(context%problem%lag), &
+                              size(self%dense_places))
+      real(wp), intent(inout) :: k(lanes, blocks, slope_count), stage(lanes, blocks)
       logical, intent(inout) :: finite
    end subroutine take_dense_stages
 
-   !> Estimated error of the dense output, the largest of all components.
+   !> Estimated error of the dense output: as `find_error`, with the last Newton coefficient of each
+   !> component.
    pure subroutine find_dense_error(self, n, blocks, k, h, scale, tolerance, last, error)
       class(explicit_pair), intent(in) :: self
-      !> Number of equations, and of blocks of lanes
       integer, intent(in) :: n, blocks
-      !> Slopes, those of the dense output too
-      real(wp), intent(in) :: k(lanes, blocks, slope_count)
-      !> Length of the step
-      real(wp), intent(in) :: h
-      !> Tolerance of each component, shape (n)
-      real(wp), intent(in) :: scale(n)
-      !> Tolerance level
-      real(wp), intent(in) :: tolerance
-      !> Last Newton coefficient of each component
-      real(wp), intent(out) :: last(lanes, blocks)
-      !> Estimated error in units of the tolerance
-      real(wp), intent(out) :: error
+      real(wp), intent(in) :: k(lanes, blocks, slope_count), h, scale(n), tolerance
+      real(wp), intent(out) :: last(lanes, blocks), error
 
       last = 0.0_wp
       error = 0.0_wp
@@ -168,12 +139,8 @@ contains
    pure subroutine evaluate(context, t, y, z, slope, finite)
       !> The context of the step
       type(step_context), intent(inout) :: context
-      !> Time
-      real(wp), intent(in) :: t
-      !> State
-      real(wp), intent(in) :: y(context%problem%n)
-      !> Delayed values
-      real(wp), intent(in) :: z(size(context%problem%lag))
+      !> Time, state and delayed values
+      real(wp), intent(in) :: t, y(context%problem%n), z(size(context%problem%lag))
       !> Slope
       real(wp), intent(inout) :: slope(context%problem%n)
       !> Whether all slopes so far are finite

@@ -5,7 +5,7 @@ module dde_explicit_step
    use dde_bogacki_shampine, only: bogacki_shampine
    use dde_dop853, only: dop853
    use dde_explicit_pair, only: evaluate, explicit_pair, lanes, slope_count
-   use dde_method_constants, only: method_constants
+   use dde_controller, only: method_constants
    use dde_problem, only: dde_problem_type
    use dde_step, only: step_type
    use dde_step_context, only: step_context

@@ -115,11 +115,8 @@ contains
       class(cursor_type), intent(inout) :: self
       class(dde_problem_type), intent(in) :: problem
       type(history_type), intent(in) :: past
-      !> Number of the delayed value
       integer, intent(in) :: k
-      !> Times since the start of the step, ascending, 0..length, at most `most_places`
       real(wp), contiguous, intent(in) :: ahead(:)
-      !> The delayed value there
       real(wp), intent(inout) :: z(most_places)
       integer :: first
 
@@ -156,9 +153,7 @@ contains
       integer, intent(in) :: k
       !> The first place to read
       integer, intent(in) :: from
-      !> Times since the start of the step, ascending
       real(wp), contiguous, intent(in) :: ahead(:)
-      !> The delayed value there
       real(wp), intent(inout) :: z(most_places)
       real(wp) :: limit, margin
       integer :: first

@@ -6,20 +6,36 @@
 module dde_history
    use dde_interpolant, only: highest_degree, newton_value, newton_values, stored_degree, &
                               taylor_coefficients, usual_degree
-   use dde_memory, only: bytes_of, lacks, small
+   use dde_memory, only: find_lacking, small
    use dde_problem, only: dde_problem_type
    use dde_time, only: elapsed, instant
    use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: history_type, memory_of_past
+   public :: history_type
 
    !> Slots of a new ring. It is a power of two, as are its doubles.
    integer, parameter :: first_capacity = 64
-   !> Real numbers of a slot beside its nodes and coefficients, at most.
-   integer, parameter :: slot_size = 20
+   !> Real numbers of a slot beside its coefficients, at most.
+   integer, parameter :: slot_size = 40
    !> Share of a step that rounding may hide.
    real(wp), parameter :: hidden = 4.0_wp*epsilon(1.0_wp)
+
+   !> A step.
+   type :: slot_type
+      !> Its start
+      type(instant) :: start
+      !> Its length, and the time from its start for which its polynomial is valid, >= its length
+      real(wp) :: length = 0.0_wp, valid_for = 0.0_wp
+      !> Degree of the polynomial
+      integer :: degree = 0
+      !> Whether all Newton nodes are 0, so that the polynomial is in powers
+      logical :: powers = .false.
+      !> Newton nodes; those between the degree and the usual degree are 0
+      real(wp) :: nodes(highest_degree)
+      !> Number of its polynomials
+      integer :: place = 0
+   end type slot_type
 
    !> The polynomials of a step.
    type :: polynomials
@@ -43,21 +59,8 @@ module dde_history
       integer(int64), private :: spare = 0
       !> Number of polynomials allocated
       integer, private :: used = 0
-      !> Start of each step, per slot
-      type(instant), allocatable, private :: start(:)
-      !> Length of each step, per slot
-      real(wp), allocatable, private :: length(:)
-      !> Time from the start of the step for which its polynomial is valid, >= its length, per slot
-      real(wp), allocatable, private :: valid_for(:)
-      !> Degree of the polynomial, per slot
-      integer, allocatable, private :: degree(:)
-      !> Whether all Newton nodes are 0, so that the polynomial is in powers, per slot
-      logical, allocatable, private :: powers(:)
-      !> Newton nodes, shape (highest degree, slot); those between the degree and the usual degree
-      !> are 0
-      real(wp), allocatable, private :: nodes(:, :)
-      !> Number of the polynomials of each step, per slot, and these
-      integer, allocatable, private :: place(:)
+      !> The ring, and the polynomials of its steps
+      type(slot_type), allocatable, private :: slots(:)
       type(polynomials), allocatable, private :: stored(:)
    contains
       procedure, non_overridable :: start_of, length_of, validity_of, value, values, series
@@ -91,11 +94,7 @@ contains
       allocate (row_of(problem%n))
       row_of(past%kept) = [(i, i=1, size(past%kept))]
       past%row = [(row_of(problem%component(k)), k=1, size(problem%lag))]
-      allocate (past%start(first_capacity), past%length(first_capacity))
-      allocate (past%valid_for(first_capacity), past%degree(first_capacity))
-      allocate (past%powers(first_capacity))
-      allocate (past%nodes(highest_degree, first_capacity))
-      allocate (past%place(first_capacity), past%stored(first_capacity))
+      allocate (past%slots(first_capacity), past%stored(first_capacity))
    end function new_history
 
    !> Slot of step number `step`.
@@ -103,7 +102,7 @@ contains
       class(history_type), intent(in) :: self
       integer(int64), intent(in) :: step
 
-      slot = 1 + int(iand(step, size(self%start, kind=int64) - 1_int64))
+      slot = 1 + int(iand(step, size(self%slots, kind=int64) - 1_int64))
    end function slot_of
 
    !> Start of a step.
@@ -111,7 +110,7 @@ contains
       class(history_type), intent(in) :: self
       integer(int64), intent(in) :: step
 
-      start = self%start(self%slot_of(step))
+      start = self%slots(self%slot_of(step))%start
    end function start_of
 
    !> Length of a step.
@@ -119,7 +118,7 @@ contains
       class(history_type), intent(in) :: self
       integer(int64), intent(in) :: step
 
-      length = self%length(self%slot_of(step))
+      length = self%slots(self%slot_of(step))%length
    end function length_of
 
    !> Time from the start of a step for which its polynomial is valid, >= its length.
@@ -127,7 +126,7 @@ contains
       class(history_type), intent(in) :: self
       integer(int64), intent(in) :: step
 
-      time = self%valid_for(self%slot_of(step))
+      time = self%slots(self%slot_of(step))%valid_for
    end function validity_of
 
    !> Delayed value number k by the polynomial of a step, at a time since the start of that step.
@@ -136,11 +135,11 @@ contains
       integer(int64), intent(in) :: step
       integer, intent(in) :: k
       real(wp), intent(in) :: time
-      integer :: slot
 
-      slot = self%slot_of(step)
-      z = newton_value(self%degree(slot), self%nodes(:, slot), &
-                       self%stored(self%place(slot))%a(:, self%row(k)), time/self%length(slot))
+      associate (slot => self%slots(self%slot_of(step)))
+         z = newton_value(slot%degree, slot%nodes, self%stored(slot%place)%a(:, self%row(k)), &
+                          time/slot%length)
+      end associate
    end function value
 
    !> Delayed value number k by the polynomial of a step, at ascending times up to a limit.
@@ -157,12 +156,11 @@ contains
       integer, intent(inout) :: first
       !> The delayed value at all times, shape (size(ahead))
       real(wp), contiguous, intent(inout) :: z(:)
-      integer :: slot
 
-      slot = self%slot_of(step)
-      call newton_values(self%degree(slot), self%nodes(:, slot), &
-                         self%stored(self%place(slot))%a(:, self%row(k)), offset, &
-                         self%length(slot), limit, size(ahead), ahead, first, z)
+      associate (slot => self%slots(self%slot_of(step)))
+         call newton_values(slot%degree, slot%nodes, self%stored(slot%place)%a(:, self%row(k)), &
+                            offset, slot%length, limit, size(ahead), ahead, first, z)
+      end associate
    end subroutine values
 
    !> Delayed value number k as a series in powers of a unit of time, by the polynomial of a step.
@@ -176,14 +174,14 @@ contains
       !> Coefficients; higher ones than its size are left out
       real(wp), contiguous, intent(out) :: coefficients(0:)
       real(wp) :: place
-      integer :: slot
 
-      slot = self%slot_of(step)
-      place = time/self%length(slot)
-      if (abs(place) < hidden) place = 0.0_wp
-      call taylor_coefficients(self%degree(slot), self%nodes(:, slot), self%powers(slot), &
-                               self%stored(self%place(slot))%a(:, self%row(k)), place, &
-                               unit/self%length(slot), coefficients)
+      associate (slot => self%slots(self%slot_of(step)))
+         place = time/slot%length
+         if (abs(place) < hidden) place = 0.0_wp
+         call taylor_coefficients(slot%degree, slot%nodes, slot%powers, &
+                                  self%stored(slot%place)%a(:, self%row(k)), place, &
+                                  unit/slot%length, coefficients)
+      end associate
    end subroutine series
 
    !> Store the polynomials of the step from `start`, `length` long.
@@ -205,21 +203,6 @@ contains
       end do
    end subroutine append
 
-   !> Bytes of a past.
-   pure real(wp) function memory_of_past(slots, steps, kept, degree) result(bytes)
-      !> Number of slots; a smaller ring than the first one is not made
-      integer, intent(in) :: slots
-      !> Number of steps whose polynomials are allocated
-      integer, intent(in) :: steps
-      !> Number of components kept
-      integer, intent(in) :: kept
-      !> Degree of the polynomials
-      integer, intent(in) :: degree
-
-      bytes = bytes_of(real(max(slots, first_capacity), wp)*(slot_size + highest_degree) &
-                       + real(steps, wp)*kept*(1 + stored_degree(degree)))
-   end function memory_of_past
-
    !> Make room for a step, if there is memory for it.
    subroutine make_room(self, degree, lacking)
       class(history_type), intent(inout) :: self
@@ -227,28 +210,25 @@ contains
       integer, intent(in) :: degree
       !> Bytes that could not be allocated, or 0
       real(wp), intent(out) :: lacking
-      integer :: slots, steps
+      real(wp) :: reals
 
       lacking = 0.0_wp
       if (self%spare < self%oldest) return
-      slots = 0
-      steps = 1
+      reals = real(size(self%kept), wp)*(1 + stored_degree(degree))
       if (self%is_full()) then
-         slots = 2*size(self%start)
          ! small ones are asked for together
-         if (memory_of_past(0, 1, size(self%kept), degree) <= small) steps = size(self%start)
+         if (reals <= small) reals = reals*size(self%slots)
+         reals = reals + 2.0_wp*slot_size*size(self%slots)
       end if
-      lacking = memory_of_past(slots, steps, size(self%kept), degree)
-      if (lacks(lacking)) return
-      lacking = 0.0_wp
-      if (slots > 0) call self%double_capacity()
+      lacking = find_lacking(reals)
+      if (self%is_full() .and. .not. lacking > 0.0_wp) call self%double_capacity()
    end subroutine make_room
 
    !> Whether no slot is free.
    pure logical function is_full(self) result(full)
       class(history_type), intent(in) :: self
 
-      full = self%newest - self%oldest + 1 == size(self%start)
+      full = self%newest - self%oldest + 1 == size(self%slots)
    end function is_full
 
    !> Store the step from `start`, `length` long. The caller fills in its coefficients.
@@ -260,16 +240,16 @@ contains
       !> Whether all of them are 0
       logical, intent(in) :: powers
       real(wp), intent(in) :: valid_for
-      integer :: from, place, slot
+      integer :: place
 
       if (self%is_full()) call self%double_capacity()
       self%newest = self%newest + 1
-      slot = self%slot_of(self%newest)
       if (self%spare < self%oldest) then
-         from = self%slot_of(self%spare)
+         associate (dropped => self%slots(self%slot_of(self%spare)))
+            place = dropped%place
+            if (dropped%degree /= size(nodes)) deallocate (self%stored(place)%a)
+         end associate
          self%spare = self%spare + 1
-         place = self%place(from)
-         if (self%degree(from) /= size(nodes)) deallocate (self%stored(place)%a)
       else
          self%used = self%used + 1
          place = self%used
@@ -278,14 +258,16 @@ contains
          allocate (self%stored(place)%a(0:stored_degree(size(nodes)), size(self%kept)), &
                    source=0.0_wp)
       end if
-      self%place(slot) = place
-      self%start(slot) = start
-      self%length(slot) = length
-      self%valid_for(slot) = max(length, valid_for)
-      self%degree(slot) = size(nodes)
-      self%powers(slot) = powers
-      self%nodes(:size(nodes), slot) = nodes
-      self%nodes(size(nodes) + 1:usual_degree, slot) = 0.0_wp
+      associate (slot => self%slots(self%slot_of(self%newest)))
+         slot%place = place
+         slot%start = start
+         slot%length = length
+         slot%valid_for = max(length, valid_for)
+         slot%degree = size(nodes)
+         slot%powers = powers
+         slot%nodes(:size(nodes)) = nodes
+         slot%nodes(size(nodes) + 1:usual_degree) = 0.0_wp
+      end associate
    end subroutine open_step
 
    !> Fill in one polynomial of the newest step.
@@ -295,10 +277,10 @@ contains
       integer, intent(in) :: i
       !> Newton coefficients, shape (0:degree)
       real(wp), contiguous, intent(in) :: coefficients(0:)
-      integer :: place
 
-      place = self%place(self%slot_of(self%newest))
-      self%stored(place)%a(:ubound(coefficients, 1), i) = coefficients
+      associate (place => self%slots(self%slot_of(self%newest))%place)
+         self%stored(place)%a(:ubound(coefficients, 1), i) = coefficients
+      end associate
    end subroutine fill
 
    !> Step number `step`, oldest..newest, as it was stored.
@@ -313,16 +295,16 @@ contains
       real(wp), intent(out) :: nodes(:)
       !> Newton coefficients of the kept components, shape (0:size(nodes), kept)
       real(wp), intent(out) :: coefficients(0:, :)
-      integer :: slot
 
-      slot = self%slot_of(step)
-      start = self%start(slot)
-      length = self%length(slot)
-      valid_for = self%valid_for(slot)
-      nodes = self%nodes(:size(nodes), slot)
-      nodes(self%degree(slot) + 1:) = 0.0_wp
-      coefficients(:self%degree(slot), :) = self%stored(self%place(slot))%a(:self%degree(slot), :)
-      coefficients(self%degree(slot) + 1:, :) = 0.0_wp
+      associate (slot => self%slots(self%slot_of(step)))
+         start = slot%start
+         length = slot%length
+         valid_for = slot%valid_for
+         nodes = slot%nodes(:size(nodes))
+         nodes(slot%degree + 1:) = 0.0_wp
+         coefficients(:slot%degree, :) = self%stored(slot%place)%a(:slot%degree, :)
+         coefficients(slot%degree + 1:, :) = 0.0_wp
+      end associate
    end subroutine recall
 
    !> Drop the steps that ended before `horizon`. The newest step stays. A step ends where the next
@@ -333,7 +315,7 @@ contains
       type(instant), intent(in) :: horizon
 
       do while (self%oldest < self%newest)
-         if (elapsed(self%start(self%slot_of(self%oldest + 1)), horizon) < 0.0_wp) exit
+         if (elapsed(self%start_of(self%oldest + 1), horizon) < 0.0_wp) exit
          self%oldest = self%oldest + 1
       end do
    end subroutine forget
@@ -345,7 +327,7 @@ contains
 
       degree = 0
       do step = self%oldest, self%newest
-         degree = max(degree, self%degree(self%slot_of(step)))
+         degree = max(degree, self%slots(self%slot_of(step))%degree)
       end do
    end function degree_in_use
 
@@ -354,24 +336,13 @@ contains
    pure subroutine double_capacity(self)
       class(history_type), intent(inout) :: self
       type(polynomials), allocatable :: stored(:)
-      real(wp), allocatable :: nodes(:, :)
-      integer :: i, slots
+      integer :: i
 
-      slots = size(self%start)
-      self%start = [self%start, self%start]
-      self%length = [self%length, self%length]
-      self%valid_for = [self%valid_for, self%valid_for]
-      self%degree = [self%degree, self%degree]
-      self%powers = [self%powers, self%powers]
-      self%place = [self%place, self%place]
-      allocate (nodes(highest_degree, 2*slots))
-      nodes(:, :slots) = self%nodes
-      nodes(:, slots + 1:) = self%nodes
-      call move_alloc(nodes, self%nodes)
-      allocate (stored(2*slots))
-      do i = 1, slots
+      allocate (stored(2*size(self%slots)))
+      do i = 1, size(self%slots)
          call move_alloc(self%stored(i)%a, stored(i)%a)
       end do
       call move_alloc(stored, self%stored)
+      self%slots = [self%slots, self%slots]
    end subroutine double_capacity
 end module dde_history

@@ -9,12 +9,11 @@
 !> estimate covers the kink then: if the step is accepted, the kink is below the tolerance, and so
 !> are the smoother kinks that it would cause.
 module dde_breaking_points
-   use dde_kinks, only: coincide, each_once, kink_type, same_point, sorted
-   use dde_time, only: elapsed, instant, later
+   use dde_time, only: ascending, elapsed, instant, later
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: breaking_points, stretch
+   public :: breaking_points, kink_type, stretch
 
    !> A step below this share of the proposed step size is short.
    real(wp), parameter :: short = 0.5_wp
@@ -24,6 +23,21 @@ module dde_breaking_points
    integer, parameter :: most_ahead = 1000
    !> Passages and generation of the end of a run, which is no kink.
    integer, parameter :: no_kink = huge(1)
+
+   !> Points are one if their distance is below this share of their distance from the first kink.
+   real(wp), parameter :: same_point = 16.0_wp*epsilon(1.0_wp)
+
+   !> A time where a derivative of the solution jumps.
+   type :: kink_type
+      !> When
+      type(instant) :: at
+      !> Passages through a delay since the first derivative jumped; -1 where the solution does
+      integer :: passages = 0
+      !> Passages since its cause, which is the initial time or a time that the user gave
+      integer :: generation = 0
+   contains
+      procedure :: take_in
+   end type kink_type
 
    !> The kinks of a run.
    type :: breaking_points
@@ -280,4 +294,54 @@ contains
          self%met = self%met(1 + count(elapsed(self%met%at, horizon) > 0.0_wp):)
       end if
    end subroutine forget
+
+   !> Take in another kink at the same time.
+   pure subroutine take_in(self, other)
+      class(kink_type), intent(inout) :: self
+      type(kink_type), intent(in) :: other
+
+      self%passages = min(self%passages, other%passages)
+      self%generation = min(self%generation, other%generation)
+   end subroutine take_in
+
+   !> Whether a kink and the next one are the same point.
+   pure logical function coincide(kink, next, origin) result(value)
+      !> A kink, and one that is not before it
+      type(kink_type), intent(in) :: kink, next
+      !> Where their rounding is measured from
+      type(instant), intent(in) :: origin
+
+      value = elapsed(kink%at, next%at) <= same_point*abs(elapsed(origin, next%at))
+   end function coincide
+
+   !> An ascending list in which points that coincide become one, with the fewest passages.
+   pure function each_once(ordered, origin) result(points)
+      type(kink_type), intent(in) :: ordered(:)
+      type(instant), intent(in) :: origin
+      type(kink_type), allocatable :: points(:)
+      integer :: count, i
+
+      points = ordered
+      count = 0
+      do i = 1, size(ordered)
+         if (count > 0) then
+            if (coincide(points(count), ordered(i), origin)) then
+               call points(count)%take_in(ordered(i))
+               cycle
+            end if
+         end if
+         count = count + 1
+         points(count) = ordered(i)
+      end do
+      points = points(:count)
+   end function each_once
+
+   !> Points in any order as an ascending list, each once.
+   pure function sorted(points, origin) result(list)
+      type(kink_type), intent(in) :: points(:)
+      type(instant), intent(in) :: origin
+      type(kink_type), allocatable :: list(:)
+
+      list = each_once(points(ascending(elapsed(origin, points%at))), origin)
+   end function sorted
 end module dde_breaking_points

@@ -2,11 +2,10 @@
 !> Gustafsson (Hairer and Wanner 1996, "Solving Ordinary Differential Equations II", sec. IV.2).
 module dde_controller
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use dde_method_constants, only: method_constants
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: controller_type
+   public :: controller_type, method_constants
 
    !> Weight of the last accepted error (integral part).
    real(wp), parameter :: beta = 0.04_wp
@@ -21,6 +20,24 @@ module dde_controller
    !> Lower bounds on the logarithms of accepted errors in proportional and in predictive control:
    !> errors of 1e-4 and 1e-2.
    real(wp), parameter :: least_log_error = -9.2_wp, least_log_predicted = -4.6_wp
+
+   !> Constants of a method that the run needs.
+   type :: method_constants
+      !> Name
+      character(len=8) :: name = ""
+      !> Order of the method
+      integer :: order = 0
+      !> The error estimate is proportional to this power of the step size
+      integer :: error_order = 0
+      !> Whether the method is implicit: its steps may then be longer than the shortest delay
+      logical :: implicit = .false.
+      !> Cost of one evaluation, in evaluations of the explicit pair
+      real(wp) :: evaluation_cost = 1.0_wp
+      !> Whether step control extrapolates the error from the last two steps (predictive control)
+      logical :: predictive = .false.
+      !> The step size is kept if the proposed ratio lies between 1 and this
+      real(wp) :: largest_kept_ratio = 1.0_wp
+   end type method_constants
 
    !> Step control of one integration.
    type :: controller_type

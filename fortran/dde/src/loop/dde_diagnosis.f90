@@ -1,36 +1,57 @@
-!> The cause of a run that could not continue.
+!> The error of a run that could not continue.
 module dde_diagnosis
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use dde_outcome, only: step_underflow, too_many_steps, value_not_finite
+   use dde_outcome, only: integration_result, interrupted, out_of_memory, step_underflow, &
+                          too_many_steps
+   use dde_request, only: integration_options
    use dde_run, only: run_type
-   use dde_errors, only: text
+   use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: find_culprit
+   public :: explain
 
 contains
 
-   !> Which value is not finite, or which tolerance cannot be met; empty if there is none.
-   subroutine find_culprit(run, h, reason, words)
+   !> The error of an integration that ended early: where and why.
+   subroutine explain(run, outcome, t_end, h, options, error)
       !> The run at the start of the step
       class(run_type), intent(inout) :: run
-      !> Length of the step
+      !> The result
+      type(integration_result), intent(in) :: outcome
+      !> Final time wanted
+      real(wp), intent(in) :: t_end
+      !> Length of the last step attempted
       real(wp), intent(in) :: h
-      !> Why the run ended
-      integer, intent(in) :: reason
-      !> What is wrong, with its value
-      character(len=:), allocatable, intent(out) :: words
+      !> Limits
+      type(integration_options), intent(in) :: options
+      !> The error to set
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: culprit, why
 
-      select case (reason)
-      case (value_not_finite)
-         call find_not_finite(run, h, words)
-      case (step_underflow, too_many_steps)
-         call find_below_rounding(run, h, words)
+      select case (outcome%reason)
+      case (interrupted)
+         culprit = ""
+         why = "interrupted"
+      case (out_of_memory)
+         culprit = ""
+         why = "no memory for another "//text(run%lacking)//" bytes"
+      case (step_underflow)
+         call find_below_rounding(run, h, culprit)
+         why = "the step had to shrink to "//text(h)//", too small to change the time; "
+         if (len(culprit) == 0) why = why//"a singularity?"
+      case (too_many_steps)
+         call find_below_rounding(run, h, culprit)
+         why = text(options%most_steps)//" steps (most_steps) were used up"
+         if (len(culprit) > 0) why = why//"; "
       case default
-         words = ""
+         call find_not_finite(run, h, culprit)
+         why = "a value is not finite at every step length down to "//text(h)//": "
       end select
-   end subroutine find_culprit
+      call raise(error, "integrate: stopped at t = "//text(outcome%t)//" of "//text(t_end) &
+                 //" after "//text(outcome%accepted)//" steps ("//text(outcome%rejected) &
+                 //" rejected): "//why//culprit)
+   end subroutine explain
 
    !> Which component has a tolerance below the rounding error of a step of length `h` from here.
    subroutine find_below_rounding(run, h, words)

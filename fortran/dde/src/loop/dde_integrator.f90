@@ -3,12 +3,12 @@
 module dde_integrator
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_continuation, only: continuation_type
-   use dde_diagnosis, only: find_culprit
+   use dde_diagnosis, only: explain
    use dde_event_search, only: endless, most_places
    use dde_events, only: event_watcher_type
    use dde_methods, only: longest_step, price_of_trial
-   use dde_outcome, only: event_met, explain, integration_result, limit_met, out_of_memory, &
-                          reached_end, refused
+   use dde_outcome, only: event_met, integration_result, interrupted, out_of_memory, reached_end, &
+                          refused, step_underflow, stop_requested, too_many_steps, value_not_finite
    use dde_output, only: deliver, is_read
    use dde_problem, only: dde_problem_type
    use dde_request, only: check, integration_options
@@ -54,8 +54,7 @@ contains
       type(run_type) :: run
       type(switch_type) :: switch
       type(instant) :: step_end
-      real(wp) :: error_estimate, h, lacking, left, longest, longest_of_all
-      character(len=:), allocatable :: culprit
+      real(wp) :: error_estimate, h, left, longest, longest_of_all
       integer :: goal
       logical :: automatic, ended, landing, last, other, unseen
 
@@ -69,12 +68,12 @@ contains
       end if
       call check(problem, t_start, t_end, options, error, sampler, watcher, continuation)
       if (allocated(error)) return
-      call run%begin(problem, t_start, t_end, options, lacking, error, continuation)
+      call run%begin(problem, t_start, t_end, options, error, continuation)
       if (allocated(error)) return
-      if (lacking > 0.0_wp) then
+      if (run%lacking > 0.0_wp) then
          outcome%reason = out_of_memory
          outcome%t = t_start
-         call explain(outcome, t_end, 0.0_wp, options, "", lacking, error)
+         call explain(run, outcome, t_end, 0.0_wp, options, error)
          return
       end if
       if (present(sampler)) then
@@ -97,8 +96,8 @@ contains
       unseen = .true.
       last = .not. run%points%time_to_end(run%now) > 0.0_wp
       do while (.not. last)
-         call run%context%past%make_room(size(run%step%nodes), lacking)
-         if (lacking > 0.0_wp) then
+         call run%context%past%make_room(size(run%step%nodes), run%lacking)
+         if (run%lacking > 0.0_wp) then
             outcome%reason = out_of_memory
             exit
          end if
@@ -129,8 +128,6 @@ contains
          end if
          unseen = landing
          if (run%step%constants%implicit) outcome%implicit_steps = outcome%implicit_steps + 1
-         call run%step%complete(run%context)
-         if (.not. run%now%hi + h > run%now%hi) outcome%unresolved = outcome%unresolved + 1
          call deliver(run, step_end, ended, sampler, watcher)
          if (ended) then
             call run%arrive(goal, .false., step_end)
@@ -153,8 +150,8 @@ contains
          run%h = merge(max(run%h, h), h, landing)
          if (landing .and. .not. last) outcome%breaking_points = outcome%breaking_points + 1
          if (other) then
-            call run%change_to_other(switch%returned, lacking)
-            if (lacking > 0.0_wp) then
+            call run%change_to_other(switch%returned)
+            if (run%lacking > 0.0_wp) then
                outcome%reason = out_of_memory
                exit
             end if
@@ -172,10 +169,25 @@ contains
       outcome%work = run%context%work%total()
       outcome%factorisations = run%context%work%factorisations
       if (all(outcome%reason /= [reached_end, event_met, refused])) then
-         call find_culprit(run, h, outcome%reason, culprit)
-         call explain(outcome, t_end, h, options, culprit, lacking, error)
+         call explain(run, outcome, t_end, h, options, error)
       end if
    end subroutine integrate
+
+   !> The limit that forbids an attempt of length h, or `reached_end` if none does.
+   integer function limit_met(outcome, last_error, options, h, shortest) result(reason)
+      type(integration_result), intent(in) :: outcome
+      real(wp), intent(in) :: last_error, h, shortest
+      type(integration_options), intent(in) :: options
+
+      reason = reached_end
+      if (h <= shortest) then
+         reason = merge(step_underflow, value_not_finite, ieee_is_finite(last_error))
+      else if (outcome%accepted + outcome%rejected >= options%most_steps) then
+         reason = too_many_steps
+      else if (stop_requested /= 0) then
+         reason = interrupted
+      end if
+   end function limit_met
 
    !> Whether the error of a step is finite and within the tolerance.
    pure logical function accepted(error_estimate) result(value)

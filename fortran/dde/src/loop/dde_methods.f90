@@ -3,7 +3,7 @@ module dde_methods
    use dde_explicit_step, only: explicit_step_type
    use dde_implicit_step, only: implicit_cost, implicit_step_type, stages_of
    use dde_interpolant, only: highest_degree
-   use dde_memory, only: bytes_of, lacks
+   use dde_memory, only: find_lacking
    use dde_orders, only: explicit_method, radau_method
    use dde_problem, only: dde_problem_type
    use dde_step, only: step_type
@@ -13,7 +13,7 @@ module dde_methods
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: choose_method, longest_step, matching_method, memory_of_state, price_of_trial
+   public :: choose_method, longest_step, matching_method, price_of_trial
 
    !> Iterations of a usual implicit step.
    integer, parameter :: usual_iterations = 3
@@ -35,25 +35,16 @@ contains
       price = implicit_cost*(columns + least_trial*(usual_iterations*stages + 2))
    end function price_of_trial
 
-   !> Bytes of the state and its tolerances.
-   pure real(wp) function memory_of_state(problem) result(bytes)
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-
-      bytes = bytes_of(16.0_wp*problem%n)
-   end function memory_of_state
-
-   !> Bytes that a step of a method takes, at most, counted from its components. It is made as a
-   !> copy of another one.
-   pure real(wp) function memory_of(problem, method) result(bytes)
+   !> Real numbers of a step of a method, at most, counted from its components. It is made as a copy
+   !> of another one.
+   pure real(wp) function size_of_step(problem, method) result(reals)
       class(dde_problem_type), intent(in) :: problem
       character(len=8), intent(in) :: method
       integer :: stages
       real(wp) :: above, below, delays, height, n
 
       n = problem%n
-      delays = 0
-      if (allocated(problem%lag)) delays = size(problem%lag)
+      delays = size(problem%lag)
       select case (method)
       case ("radau5", "radau9", "radau13")
          stages = stages_of(method)
@@ -71,18 +62,17 @@ contains
             above = max(above, real(maxval(problem%component - problem%rows(1, :)), wp))
          end if
          ! two Jacobians, a real system for each, and a complex one for each pair of stages
-         bytes = 2*(n*min(n, 1 + below + above) + height*delays) &
+         reals = 2*(n*min(n, 1 + below + above) + height*delays) &
                  + n*min(n, 1 + 2*below + above)*(2 + (stages - 1)) + n*2*(8*stages + 16) &
                  + delays*2*stages**2
          ! and one of all stages
-         if (delays > 0) bytes = bytes + n*stages*min(n*stages, stages*(2*below + above + 3))
+         if (delays > 0) reals = reals + n*stages*min(n*stages, stages*(2*below + above + 3))
       case ("taylor")
-         bytes = (n + delays)*4*(2 + highest_degree)
+         reals = (n + delays)*4*(2 + highest_degree)
       case default
-         bytes = (n + delays)*2*26
+         reals = (n + delays)*2*26
       end select
-      bytes = bytes_of(bytes)
-   end function memory_of
+   end function size_of_step
 
    !> A step of the chosen method; `auto` begins with an explicit one.
    subroutine choose_method(problem, method, tolerance, step, lacking)
@@ -99,9 +89,8 @@ contains
       character(len=8) :: name
 
       name = name_of(problem, method, tolerance)
-      lacking = memory_of(problem, name)
-      if (lacks(lacking)) return
-      lacking = 0.0_wp
+      lacking = find_lacking(size_of_step(problem, name))
+      if (lacking > 0.0_wp) return
       select case (name)
       case ("radau5", "radau9", "radau13")
          allocate (implicit_step_type :: step)

@@ -1,24 +1,22 @@
 !> The state of a run between two steps: how it begins, how the next step is planned, and what is
 !> kept when it ends.
 module dde_run
-   use dde_breaking_points, only: breaking_points, stretch
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use dde_breaking_points, only: breaking_points, kink_type, stretch
    use dde_continuation, only: continuation_type
    use dde_controller, only: controller_type
    use dde_cursor, only: cursor_type
    use dde_errors, only: check_finite, error_type
    use dde_event_search, only: event_search
-   use dde_first_step, only: choose_first_step
-   use dde_history, only: history_type, memory_of_past
-   use dde_kinks, only: kink_type
-   use dde_memory, only: lacks
-   use dde_methods, only: choose_method, longest_step, matching_method, &
-                          memory_of_state
+   use dde_history, only: history_type
+   use dde_memory, only: find_lacking
+   use dde_methods, only: choose_method, longest_step, matching_method
    use dde_problem, only: dde_problem_type
    use dde_request, only: causes, implicit_methods, integration_options
    use dde_step, only: step_type
    use dde_step_context, only: step_context
    use dde_time, only: elapsed, instant
-   use dde_tolerance, only: tolerance_type
+   use dde_tolerance, only: hopeless, scaled_norm, tolerance_type
    use dde_work, only: work_type
    use dde_kinds, only: wp
    implicit none (type, external)
@@ -63,6 +61,8 @@ module dde_run
       type(breaking_points) :: points
       !> Time that the past reaches back
       real(wp) :: reach = 0.0_wp
+      !> Bytes that could not be allocated, or 0
+      real(wp) :: lacking = 0.0_wp
       !> Whether the right-hand side may jump somewhere, and now
       logical, private :: may_jump = .false., at_cause = .false.
       !> Time derivative of the state at the start of the run, as event functions see it, shape (n)
@@ -74,35 +74,28 @@ module dde_run
 
 contains
 
-   !> Begin, or continue an earlier run.
-   subroutine begin(self, problem, t_start, t_end, options, lacking, error, continuation)
+   !> Begin, or continue an earlier run, unless memory is lacking.
+   subroutine begin(self, problem, t_start, t_end, options, error, continuation)
       class(run_type), intent(inout) :: self
       !> The problem, which lives as long as the run
       class(dde_problem_type), intent(in), target :: problem
       real(wp), intent(in) :: t_start, t_end
       type(integration_options), intent(in) :: options
-      !> Bytes that could not be allocated, or 0
-      real(wp), intent(out) :: lacking
       !> What is wrong with values of the problem at the start
       type(error_type), allocatable, intent(out) :: error
       !> Where an earlier run ended, if one did
       type(continuation_type), intent(in), optional :: continuation
       logical :: continued
-      integer :: degree, kept, steps
+      real(wp) :: reals
 
       continued = .false.
       if (present(continuation)) continued = allocated(continuation%y)
-      degree = 0
-      kept = 0
-      steps = 0
-      if (continued) then
-         degree = size(continuation%nodes, 1)
-         kept = size(continuation%kept)
-         steps = size(continuation%step_length)
-      end if
-      ! the state and its tolerances, and a ring of up to twice as many slots as steps
-      lacking = memory_of_state(problem) + memory_of_past(2*steps, steps, kept, degree)
-      if (lacks(lacking)) return
+      ! the state with its tolerances, and at most so many for each number and step that is restored
+      reals = 16.0_wp*problem%n
+      if (continued) reals = reals + 2.0_wp*size(continuation%coefficients) &
+                             + 80.0_wp*size(continuation%step_length)
+      self%lacking = find_lacking(reals)
+      if (self%lacking > 0.0_wp) return
       self%context%problem => problem
       self%context%tolerance = tolerance_type(problem%n, options%relative, options%absolute, &
                                               options%each_relative, options%each_absolute)
@@ -111,11 +104,11 @@ contains
       self%reach = maxval([problem%lag, options%past_kept])
       if (options%keep_all) self%reach = huge(1.0_wp)
       if (continued) then
-         call self%continue_run(instant(t_end), options, lacking, continuation)
+         call self%continue_run(instant(t_end), options, continuation)
       else
-         call self%start_anew(instant(t_start), instant(t_end), options, lacking, error)
+         call self%start_anew(instant(t_start), instant(t_end), options, error)
       end if
-      if (lacking > 0.0_wp .or. allocated(error)) return
+      if (self%lacking > 0.0_wp .or. allocated(error)) return
       if (options%first_step > 0.0_wp) then
          self%h = options%first_step
       else if (.not. self%h > 0.0_wp .and. t_end > t_start) then
@@ -124,21 +117,63 @@ contains
       end if
    end subroutine begin
 
+   !> First step length: about a hundredth of |y|/|y'|, refined by the second derivative (Hairer,
+   !> Norsett and Wanner 1993, sec. II.4).
+   pure subroutine choose_first_step(context, step, longest, h)
+      type(step_context), intent(inout) :: context
+      !> The step, its first slope known
+      class(step_type), intent(inout) :: step
+      !> Time to the end of the run, or the longest step allowed, the shorter
+      real(wp), intent(in) :: longest
+      real(wp), intent(out) :: h
+      real(wp), allocatable :: scale(:), slope_ahead(:)
+      real(wp) :: bend, slope
+
+      allocate (scale(size(step%y)), slope_ahead(size(step%y)))
+      call context%tolerance%scale(step%y, scale)
+      h = 1.0e-6_wp*longest
+      slope = length_of(step%slope, scale)
+      if (slope > hopeless) return
+      h = 1.0e-6_wp
+      if (slope > 1.0e-5_wp .and. length_of(step%y, scale) > 1.0e-5_wp) then
+         h = 0.01_wp*length_of(step%y, scale)/slope
+      end if
+      h = minval([h, longest, context%problem%lag])
+      call context%delayed_values([h], step%z)
+      call context%evaluate(context%cursor%t + h, step%y + h*step%slope, step%z, slope_ahead)
+      bend = length_of(slope_ahead - step%slope, scale)
+      if (bend > hopeless) return
+      bend = bend/h
+      if (max(slope, bend) > 1.0e-15_wp) then
+         h = min(100.0_wp*h, (0.01_wp/max(slope, bend))**(1.0_wp/step%constants%error_order))
+      else
+         h = min(100.0_wp*h, max(1.0e-6_wp, 1.0e-3_wp*h))
+      end if
+   end subroutine choose_first_step
+
+   !> The norm of x; huge if x is not finite.
+   pure function length_of(x, scale) result(length)
+      real(wp), intent(in) :: x(:), scale(:)
+      real(wp) :: length
+
+      length = scaled_norm(size(x), x, scale)
+      if (.not. ieee_is_finite(length)) length = huge(1.0_wp)
+   end function length_of
+
    !> The first run. Its initial time is a kink, or a jump if a delayed component differs from its
    !> history there.
-   subroutine start_anew(self, start, finish, options, lacking, error)
+   subroutine start_anew(self, start, finish, options, error)
       class(run_type), intent(inout) :: self
       type(instant), intent(in) :: start, finish
       type(integration_options), intent(in) :: options
-      real(wp), intent(out) :: lacking
       type(error_type), allocatable, intent(out) :: error
       type(kink_type) :: first
       integer :: k
 
       self%now = start
       associate (context => self%context, problem => self%context%problem)
-         call choose_method(problem, options%method, context%tolerance, self%step, lacking)
-         if (lacking > 0.0_wp) return
+         call choose_method(problem, options%method, context%tolerance, self%step, self%lacking)
+         if (self%lacking > 0.0_wp) return
          call check_finite("integrate: the initial state has y", self%step%y, error)
          if (allocated(error)) return
          call context%work%set_cost(self%step%constants%evaluation_cost)
@@ -161,11 +196,10 @@ contains
 
    !> Another run, with the past of the one before. If the right-hand side differs from that at the
    !> end of the earlier run, there is a kink here.
-   subroutine continue_run(self, finish, options, lacking, continuation)
+   subroutine continue_run(self, finish, options, continuation)
       class(run_type), intent(inout) :: self
       type(instant), intent(in) :: finish
       type(integration_options), intent(in) :: options
-      real(wp), intent(out) :: lacking
       type(continuation_type), intent(in) :: continuation
       character(len=8) :: method
       type(kink_type), allocatable :: kinks(:)
@@ -179,8 +213,8 @@ contains
             method = matching_method(problem, context%tolerance, &
                                      implicit=any(continuation%method == implicit_methods))
          end if
-         call choose_method(problem, method, context%tolerance, self%step, lacking)
-         if (lacking > 0.0_wp) return
+         call choose_method(problem, method, context%tolerance, self%step, self%lacking)
+         if (self%lacking > 0.0_wp) return
          call context%work%set_cost(self%step%constants%evaluation_cost)
          self%step%y = continuation%y
          self%first_slope = continuation%slope
@@ -267,25 +301,22 @@ contains
       if (landing) call bound_times(self, goal)
    end subroutine plan
 
-   !> Continue by the other method of `auto`.
-   subroutine change_to_other(self, returned, lacking)
+   !> Continue by the other method of `auto`; if memory is lacking, the step is the same as before.
+   subroutine change_to_other(self, returned)
       class(run_type), intent(inout) :: self
       !> Whether it was left a few steps ago: if in these the solution hardly moved on, its steps
       !> are as long as they were
       logical, intent(in) :: returned
-      !> Bytes that could not be allocated, or 0: the step is then the same as before
-      real(wp), intent(out) :: lacking
       class(step_type), allocatable :: last
       real(wp) :: h
 
-      lacking = 0.0_wp
       if (.not. allocated(self%other)) then
          associate (problem => self%context%problem, tolerance => self%context%tolerance, &
                     implicit => .not. self%step%constants%implicit)
             call choose_method(problem, matching_method(problem, tolerance, implicit), tolerance, &
-                               self%other, lacking)
+                               self%other, self%lacking)
          end associate
-         if (lacking > 0.0_wp) return
+         if (self%lacking > 0.0_wp) return
       end if
       self%other%y = self%step%y
       self%other%slope = self%step%slope_here()

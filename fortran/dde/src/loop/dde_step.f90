@@ -2,9 +2,8 @@
 !> error, and gives the polynomial of an accepted step. The run chooses the step size, counts the
 !> steps and stores the polynomials. METHODS.md tells how to write a method.
 module dde_step
-   use dde_controller, only: controller_type
+   use dde_controller, only: controller_type, method_constants
    use dde_errors, only: error_type
-   use dde_method_constants, only: method_constants
    use dde_problem, only: dde_problem_type
    use dde_step_context, only: step_context
    use dde_kinds, only: wp
@@ -38,7 +37,7 @@ module dde_step
       !> Time from the start of the step for which its polynomial is valid, if longer than the step
       real(wp) :: valid_for = 0.0_wp
    contains
-      procedure :: allocate_state, restart, renew, reset, propose, complete, next_length
+      procedure :: allocate_state, restart, renew, reset, propose, next_length
       procedure :: check_series, slope_here, stiff
       procedure(attempt_step), deferred :: attempt
       procedure(give_polynomial), deferred :: interpolant
@@ -129,12 +128,6 @@ contains
       !> Step size: proposed so far, then by the method
       real(wp), intent(inout) :: h
    end subroutine propose
-
-   !> An accepted step is finished unless a method says otherwise.
-   pure subroutine complete(self, context)
-      class(step_type), intent(inout) :: self
-      type(step_context), intent(inout) :: context
-   end subroutine complete
 
    !> Step control proposes the next step size from the error, unless a method knows better.
    pure subroutine next_length(self, control, h, error)

@@ -44,7 +44,7 @@ contains
 
    !> Pass on the dense output of an accepted step, as far as it is read.
    subroutine deliver(run, step_end, ended, sampler, watcher)
-      !> The run at the start of the step, its step accepted and complete
+      !> The run at the start of the step, which is accepted
       class(run_type), intent(inout) :: run
       !> End of the step; the event that ends the run, if one does
       type(instant), intent(inout) :: step_end

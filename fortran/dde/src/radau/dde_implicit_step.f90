@@ -6,7 +6,7 @@ module dde_implicit_step
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    use dde_collocation, only: add_up, difference_weights, shape_bump
    use dde_jacobian, only: jacobian_type
-   use dde_method_constants, only: method_constants
+   use dde_controller, only: method_constants
    use dde_problem, only: dde_problem_type
    use dde_radau_tableau, only: radau_iia, radau_tableau
    use dde_stage_iteration, only: stage_iteration
@@ -226,8 +226,8 @@ contains
          call self%jacobian_at_end%evaluate(context%problem, context%tolerance, context%work, &
                                             t_end, y_end, stages%delayed(:, last), .false., finite)
          if (.not. finite) return
-         call self%system_at_end%prepare(self%jacobian_at_end, self%method%real_eigenvalue/self%h, &
-                                         singular)
+         call self%system_at_end%fill(self%jacobian_at_end, self%method%real_eigenvalue/self%h)
+         call self%system_at_end%factorise(singular)
          context%work%operations = context%work%operations &
                                    + self%system_at_end%factor_operations
          if (singular) return

@@ -110,11 +110,13 @@ contains
          call self%couple(method, jacobian, component, own_place, own_weights, work, singular)
          return
       end if
-      call self%of_real%prepare(jacobian, method%real_eigenvalue/h, singular)
+      call self%of_real%fill(jacobian, method%real_eigenvalue/h)
+      call self%of_real%factorise(singular)
       call work%count_factors(self%of_real%factor_operations)
       if (singular) return
       do pair = 1, size(self%of_pairs)
-         call self%of_pairs(pair)%prepare(jacobian, method%complex_eigenvalues(pair)/h, singular)
+         call self%of_pairs(pair)%fill(jacobian, method%complex_eigenvalues(pair)/h)
+         call self%of_pairs(pair)%factorise(singular)
          call work%count_factors(self%of_pairs(pair)%factor_operations)
          if (singular) return
       end do

@@ -3,9 +3,8 @@
 !> dense output. As far as it converges it is also valid beyond the end of the step.
 module dde_taylor_step
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
-   use dde_controller, only: controller_type
+   use dde_controller, only: controller_type, method_constants
    use dde_errors, only: error_type
-   use dde_method_constants, only: method_constants
    use dde_orders, only: taylor_degree
    use dde_problem, only: dde_problem_type
    use dde_series_check, only: check_residual

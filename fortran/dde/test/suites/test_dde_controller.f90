@@ -2,8 +2,7 @@
 !> 6), no growth after a rejection, few rejections at a near-jump, where the closed loop settles.
 module test_dde_controller
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use dde_controller, only: controller_type
-   use dde_method_constants, only: method_constants
+   use dde_controller, only: controller_type, method_constants
    use expectations, only: expect, expect_between, expect_close
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type

@@ -2,8 +2,7 @@
 !> need more memory than there is, which end with an error.
 module test_dde_history
    use, intrinsic :: iso_c_binding, only: c_int, c_long
-   use dde, only: dde_problem_type, integrate, integration_options, integration_result, &
-                  out_of_memory, reached_end
+   use dde, only: integrate, integration_options, integration_result, methods, out_of_memory
    use dde_cursor, only: cursor_type
    use dde_history, only: history_type
    use dde_time, only: instant, later
@@ -12,8 +11,7 @@ module test_dde_history
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use solving, only: at_tolerance, run
-   use test_problems, only: fill, linear, wille_baker
-   use undelayed_problems, only: undelayed
+   use test_problems, only: linear, wille_baker
    implicit none (type, external)
    private
    public :: collect_dde_history
@@ -22,8 +20,8 @@ module test_dde_history
    real(wp), parameter :: odd_nodes(1) = [1.0_wp], even_nodes(3) = [0.0_wp, 1.0_wp, 0.0_wp]
    !> Places of a step in an order that goes forth and back.
    real(wp), parameter :: places(5) = [0.0_wp, 0.05_wp, 0.3_wp, 0.9_wp, 1.0_wp]
-   !> Explicit pairs.
-   character(len=8), parameter :: pairs(2) = [character(len=8) :: "bs5", "dop853"]
+   !> Memory that this process may take, in bytes.
+   integer(c_long), parameter :: limit = 64*1024*1024_c_long
    !> Memory that counts as growth, in kibibytes.
    integer(c_long), parameter :: growth = 4096_c_long
 
@@ -51,10 +49,9 @@ contains
                    new_unittest("what is forgotten", test_forget), &
                    new_unittest("what is given back", test_recall), &
                    new_unittest("memory of an integration", test_memory_of_integration), &
-                   new_unittest("no memory for matrices", test_matrices), &
+                   new_unittest("no memory for steps", test_steps), &
                    new_unittest("no memory for the past", test_past), &
-                   new_unittest("the memory of each degree", test_degree), &
-                   new_unittest("any memory", test_any_memory)]
+                   new_unittest("the memory of each degree", test_degree)]
    end subroutine collect_dde_history
 
    !> Three delays of two components over 2000 steps of different lengths, of which 50 at a time
@@ -239,45 +236,47 @@ contains
                             first=[0.0_wp, 0.0_wp, 0.0_wp])
    end function delayed
 
-   !> Matrices of 2e6 rows take more bytes than a process can address.
-   subroutine test_matrices(error)
+   !> The step of no method, with 300 000 delays, finds place in 64 MB.
+   subroutine test_steps(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
-      character(len=8), parameter :: methods(3) = [character(len=8) :: "radau5", "radau9", &
-                                                   "radau13"]
-      integer, parameter :: n = 2000000
-      type(undelayed) :: problem
+      integer, parameter :: n = 300000
       integer :: i
 
-      call fill(problem, n, spread(0.0_wp, 1, n), spread(0.0_wp, 1, n))
       do i = 1, size(methods)
-         call integrate(problem, 0.0_wp, 1.0_wp, at_tolerance(1.0e-6_wp, methods(i)), outcome, &
-                        failure)
+         if (limit_memory(limit) == 0) return
+         call integrate(many_delays(n), 0.0_wp, 1.0_wp, at_tolerance(1.0e-6_wp, methods(i)), &
+                        outcome, failure)
+         call expect(error, limit_memory(-1_c_long) == 1, "the limit is lifted")
          call expect_failure(error, failure, "no memory for another ")
          call expect(error, outcome%reason == out_of_memory, "the reason, of "//methods(i))
          call expect(error, .not. allocated(outcome%y), "no state of "//methods(i))
       end do
-   end subroutine test_matrices
+   end subroutine test_steps
+
+   !> As many equations, each with its own delay of 1.
+   type(linear) function many_delays(n) result(problem)
+      integer, intent(in) :: n
+      integer :: i
+
+      problem = linear(n, spread(1.0_wp, 1, n), [(i, i=1, n)], spread(0.0_wp, 1, n), &
+                       spread(0.0_wp, 1, n))
+   end function many_delays
 
    !> The past doubles until there is no memory for it. The state of the last step is kept.
    subroutine test_past(error)
       type(error_type), allocatable, intent(out) :: error
       integer, parameter :: n = 64
-      integer(c_long), parameter :: limit = 64*1024*1024_c_long
       type(failure_type), allocatable :: failure
       type(integration_options) :: options
       type(integration_result) :: outcome
-      type(linear) :: problem
-      integer :: i
 
-      problem = linear(n, spread(1.0_wp, 1, n), [(i, i=1, n)], spread(0.0_wp, 1, n), &
-                       spread(0.0_wp, 1, n))
       options = at_tolerance(1.0e-6_wp)
       options%longest_step = 1.0e-5_wp
       ! an address sanitizer cannot be limited
       if (limit_memory(limit) == 0) return
-      call integrate(problem, 0.0_wp, 1.0_wp, options, outcome, failure)
+      call integrate(many_delays(n), 0.0_wp, 1.0_wp, options, outcome, failure)
       call expect(error, limit_memory(-1_c_long) == 1, "the limit is lifted")
       call expect_failure(error, failure, "no memory for another ")
       call expect(error, outcome%reason == out_of_memory, "the reason")
@@ -289,16 +288,12 @@ contains
    subroutine test_degree(error)
       type(error_type), allocatable, intent(out) :: error
       integer, parameter :: n = 10000
-      integer(c_long), parameter :: limit = 115*1000*1000_c_long
       type(history_type) :: past
-      type(linear) :: problem
       real(wp) :: lacking
       integer :: degree, i
 
-      problem = linear(n=n, lag=spread(1.0_wp, 1, n), component=[(i, i=1, n)], &
-                       past=spread(0.0_wp, 1, n), first=spread(0.0_wp, 1, n))
-      past = history_type(problem, instant(0.0_wp))
-      if (limit_memory(limit) == 0) return
+      past = history_type(many_delays(n), instant(0.0_wp))
+      if (limit_memory(115*1000*1000_c_long) == 0) return
       do degree = 7, 12, 5
          do i = 0, 99
             call past%make_room(degree, lacking)
@@ -311,44 +306,4 @@ contains
       end do
       call expect(error, limit_memory(-1_c_long) == 1, "the limit is lifted")
    end subroutine test_degree
-
-   !> A run of 300 000 delays that is given more and more memory ends with an error up to some
-   !> amount, and well from there on. 2000 delays of one component need little: one past is kept.
-   subroutine test_any_memory(error)
-      type(error_type), allocatable, intent(out) :: error
-      integer, parameter :: n = 300000, most = 6
-      integer(c_long), parameter :: megabyte = 1000000_c_long
-      integer :: i, k, reasons(most)
-      type(integration_result) :: outcome
-      type(linear) :: problem
-
-      problem = linear(n=n, lag=spread(1.0_wp, 1, n), component=[(i, i=1, n)], &
-                       past=spread(1.0_wp, 1, n), first=spread(1.0_wp, 1, n))
-      do i = 1, size(pairs)
-         do k = 1, most
-            if (limit_memory(4**k*megabyte) == 0) return
-            call try(problem, pairs(i), outcome)
-            reasons(k) = outcome%reason
-         end do
-         call expect(error, all(reasons == out_of_memory .or. reasons == reached_end), pairs(i))
-         call expect(error, reasons(1) == out_of_memory .and. reasons(most) == reached_end .and. &
-                     all(reasons(2:) == reached_end .or. reasons(:most - 1) == out_of_memory), &
-                     "the order of ends of "//pairs(i))
-      end do
-      if (limit_memory(10*megabyte) == 0) return
-      call try(wille_baker(lag=[(real(i, wp), i=1, 2000)], component=spread(1, 1, 2000)), "bs5", &
-               outcome)
-      call expect(error, limit_memory(-1_c_long) == 1, "the limit is lifted")
-      call expect(error, outcome%reason == reached_end, "one past is kept")
-   end subroutine test_any_memory
-
-   !> Three units of time.
-   subroutine try(problem, method, outcome)
-      class(dde_problem_type), intent(in) :: problem
-      character(len=*), intent(in) :: method
-      type(integration_result), intent(out) :: outcome
-      type(failure_type), allocatable :: failure
-
-      call integrate(problem, 0.0_wp, 3.0_wp, at_tolerance(1.0e-6_wp, method), outcome, failure)
-   end subroutine try
 end module test_dde_history

@@ -3,13 +3,13 @@ module test_dde_implicit_order
    use dde_collocation, only: combine, lagrange_factors, lagrange_weights
    use dde_implicit_step, only: implicit_step_type
    use dde_jacobian, only: jacobian_type
-   use dde_linear, only: factorise, matrix_layout, solve
    use dde_radau_tableau, only: radau_iia, radau_tableau
    use dde_stage_systems, only: stage_systems
+   use dde_systems, only: complex_system, real_system
    use dde_work, only: work_type
    use dde_errors, only: text
    use expectations, only: expect, expect_between, expect_close
-   use dde_kinds, only: int64, wp
+   use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use pseudo_random, only: uniform
    use single_step, only: interpolated, take_step
@@ -43,11 +43,10 @@ contains
    subroutine test_conditions(error)
       type(error_type), allocatable, intent(out) :: error
       type(radau_tableau) :: method
+      type(real_system) :: transposed
       type(stage_systems) :: systems
-      real(wp), allocatable :: a_inverse(:, :), b(:), factors(:), row_scale(:)
-      integer, allocatable, dimension(:) :: first, last, pivot
+      real(wp), allocatable :: a_inverse(:, :), b(:)
       integer :: i, q
-      real(wp) :: operations(2)
       logical :: singular
 
       do i = 1, size(stages)
@@ -56,16 +55,10 @@ contains
          associate (c => method%c, s => stages(i))
             a_inverse = systems%a_inverse(:s, :)
             ! b is the last row of A
-            factors = reshape(transpose(a_inverse), [s*s])
-            b = spread(0.0_wp, 1, s)
-            b(s) = 1.0_wp
-            row_scale = b
-            pivot = spread(0, 1, s)
-            first = pivot
-            last = pivot
-            call factorise(matrix_layout(s, s, s), factors, pivot, first, last, row_scale, &
-                           operations(1), operations(2), singular)
-            call solve(matrix_layout(s, s, s), factors, pivot, first, last, b)
+            call transposed%fill(full_matrix(-transpose(a_inverse)), 0.0_wp)
+            call transposed%factorise(singular)
+            b = [spread(0.0_wp, 1, s - 1), 1.0_wp]
+            call transposed%solve(b)
             do q = 1, 2*s - 1
                call expect_close(error, sum(b*c**(q - 1)), 1.0_wp/q, 1.0e-13_wp, "B "//text(q))
             end do
@@ -119,54 +112,66 @@ contains
    !> Real and complex systems are solved, full and banded, with rows exchanged.
    subroutine test_elimination(error)
       type(error_type), allocatable, intent(out) :: error
-      integer, parameter :: n = 20, lower(3) = [2, 1, n], upper(3) = [1, 3, n]
-      real(wp) :: a(n, n), row_scale(n), side(n), x(n)
-      complex(wp) :: shifted(n, n), z(n)
-      complex(wp), allocatable :: complex_factors(:)
-      real(wp), allocatable :: factors(:)
-      integer, dimension(n) :: first, last, pivot
-      integer :: i, j, k
-      integer(int64) :: at
-      real(wp) :: operations(2)
+      integer, parameter :: n = 20, lower(3) = [2, 1, n - 1], upper(3) = [1, 3, n - 1]
+      type(complex_system) :: complex
+      type(jacobian_type) :: jacobian
+      type(real_system) :: real_one
+      real(wp) :: a(n, n), side(n), x(n)
+      complex(wp) :: z(n)
+      integer :: i, k
       logical :: singular
-      type(matrix_layout) :: layout
 
       side = uniform(5, n, -1.0_wp, 1.0_wp)
       do k = 1, size(lower)
          a = reshape(uniform(6, n*n, -1.0_wp, 1.0_wp), [n, n])
-         layout = matrix_layout(n, lower(k), upper(k))
-         allocate (factors(layout%length), source=0.0_wp)
-         allocate (complex_factors(layout%length), source=(0.0_wp, 0.0_wp))
-         shifted = a
-         do j = 1, n
-            at = layout%origin + j*layout%stride
-            shifted(j, j) = shifted(j, j) + (0.0_wp, 2.0_wp)
-            do i = 1, n
-               if (i - j > lower(k) .or. j - i > upper(k)) then
-                  a(i, j) = 0.0_wp
-                  shifted(i, j) = 0.0_wp
-               else
-                  factors(at + i) = a(i, j)
-                  complex_factors(at + i) = shifted(i, j)
-               end if
-            end do
-         end do
+         jacobian = full_matrix(a)
+         if (k < 3) call cut_band(a, lower(k), upper(k), jacobian)
          x = side
-         call factorise(layout, factors, pivot, first, last, row_scale, operations(1), &
-                        operations(2), singular)
-         call solve(layout, factors, pivot, first, last, x)
-         call expect(error, any(pivot /= [(i, i=1, n)]), "rows are exchanged")
-         call expect_close(error, matmul(a, x), side, 1.0e-12_wp, "real")
+         call real_one%fill(jacobian, 0.0_wp)
+         call real_one%factorise(singular)
+         call real_one%solve(x)
+         call expect(error, any(real_one%pivot /= [(i, i=1, n)]), "rows are exchanged")
+         call expect_close(error, -matmul(a, x), side, 1.0e-12_wp, "real")
          z = side
-         call factorise(layout, complex_factors, pivot, first, last, row_scale, operations(1), &
-                        operations(2), singular)
-         call solve(layout, complex_factors, pivot, first, last, z)
-         z = matmul(shifted, z)
+         call complex%fill(jacobian, (0.0_wp, 2.0_wp))
+         call complex%factorise(singular)
+         call complex%solve(z)
+         z = (0.0_wp, 2.0_wp)*z - matmul(a, z)
          call expect_close(error, real(z), side, 1.0e-12_wp, "complex")
          call expect_close(error, aimag(z), 0.0_wp*side, 1.0e-12_wp, "complex")
-         deallocate (complex_factors, factors)
       end do
    end subroutine test_elimination
+
+   !> A full matrix as the Jacobian of a problem with one delayed value.
+   pure type(jacobian_type) function full_matrix(a) result(jacobian)
+      real(wp), intent(in) :: a(:, :)
+
+      jacobian%by_y = a
+      jacobian%lower = size(a, 1) - 1
+      jacobian%upper = size(a, 1) - 1
+   end function full_matrix
+
+   !> Cut a matrix to a band, and store that as a Jacobian.
+   pure subroutine cut_band(a, lower, upper, jacobian)
+      real(wp), intent(inout) :: a(:, :)
+      integer, intent(in) :: lower, upper
+      type(jacobian_type), intent(inout) :: jacobian
+      integer :: i, j
+
+      jacobian%banded = .true.
+      jacobian%lower = lower
+      jacobian%upper = upper
+      jacobian%by_y = spread(spread(0.0_wp, 1, 1 + lower + upper), 2, size(a, 2))
+      do j = 1, size(a, 2)
+         do i = 1, size(a, 1)
+            if (i - j > lower .or. j - i > upper) then
+               a(i, j) = 0.0_wp
+            else
+               jacobian%by_y(1 + upper + i - j, j) = a(i, j)
+            end if
+         end do
+      end do
+   end subroutine cut_band
 
    !> One Newton correction of a block deep in stick (stiffness 1e23, near balance of forces), alone
    !> and with the delay inside the step: theta stays, u falls by h c. The row of ln v must not
@@ -182,29 +187,25 @@ contains
       logical :: singular
       type(work_type) :: work
 
-      allocate (jacobian%by_y(3, 3), jacobian%by_z(3, 1), source=0.0_wp)
+      jacobian = full_matrix(spread(spread(0.0_wp, 1, 3), 2, 3))
+      allocate (jacobian%by_z(3, 1), source=0.0_wp)
       jacobian%rows = reshape([1, 3], [2, 1])
-      jacobian%lower = 2
-      jacobian%upper = 2
       jacobian%by_y(3, :) = -stiffness*[2.0_wp, 1.0_wp, 2.0_wp - 2.0e-8_wp]
       do i = 1, size(stages)
          do lag = 0, 1
             method = radau_iia(stages(i))
             systems = stage_systems(method, 3)
-            allocate (own_place, source=reshape(method%c - (0.35_wp + lag), [1, stages(i)]))
-            allocate (slopes(3, stages(i)))
-            slopes(1, :) = 0.0_wp
-            slopes(2, :) = -1.0_wp
-            slopes(3, :) = -2.0e-8_wp*stiffness
+            own_place = reshape(method%c - (0.35_wp + lag), [1, stages(i)])
+            slopes = spread([0.0_wp, -1.0_wp, -2.0e-8_wp*stiffness], 2, stages(i))
+            change = slopes
+            correction = slopes
             call systems%prepare(method, h, jacobian, [3], own_place, &
                                  weights_at(method, own_place), work, singular)
-            allocate (change(3, stages(i)), correction(3, stages(i)))
             call systems%correct(method, slopes, 0.0_wp*slopes, work, correction)
             call combine(3, stages(i), systems%t, correction, change)
             call expect(error, systems%coupled .neqv. lag == 1, "coupled by a short delay")
             call expect_close(error, change(1, :), 0.0_wp*method%c, 1.0e-15_wp, "theta")
             call expect_close(error, change(2, :), -h*method%c, 1.0e-15_wp, "u")
-            deallocate (change, correction, own_place, slopes)
          end do
       end do
    end subroutine test_huge_row
@@ -213,49 +214,30 @@ contains
    !> delays that lie in the step at all stages, at some and at none; full and banded.
    subroutine test_coupling(error)
       type(error_type), allocatable, intent(out) :: error
-      type(radau_tableau) :: method
-      type(jacobian_type) :: full, banded
+      type(jacobian_type) :: banded, full
       integer, parameter :: n = 6
       real(wp), parameter :: lags(2, 3) = reshape([0.01_wp, 0.3_wp, 0.5_wp, 0.02_wp, 0.4_wp, &
                                                    0.9_wp], [2, 3])
-      real(wp) :: by_y(n, n), by_z(n, 2)
-      integer :: i, j, lag
+      real(wp) :: band_by_z(n, 2), by_y(n, n), by_z(n, 2), in_band(n, n)
+      integer :: i, lag
 
       by_y = reshape(uniform(1, n*n, -2.0_wp, 2.0_wp), [n, n])
       by_z = reshape(uniform(2, n*2, -2.0_wp, 2.0_wp), [n, 2])
-      full%by_y = by_y
+      full = full_matrix(by_y)
       full%by_z = by_z
       full%rows = reshape([1, n, 1, n], [2, 2])
-      full%lower = n - 1
-      full%upper = n - 1
-      banded%banded = .true.
-      banded%lower = 1
-      banded%upper = 2
-      banded%rows = reshape([4, 6, 2, 3], [2, 2])
-      allocate (banded%by_y(4, n), source=0.0_wp)
-      do j = 1, n
-         do i = max(1, j - 2), min(n, j + 1)
-            banded%by_y(3 + i - j, j) = by_y(i, j)
-         end do
-      end do
+      in_band = by_y
+      call cut_band(in_band, 1, 2, banded)
       banded%by_z = by_z(:3, :)
+      banded%rows = reshape([4, 6, 2, 3], [2, 2])
+      band_by_z = 0.0_wp
+      band_by_z(4:6, 1) = by_z(:3, 1)
+      band_by_z(2:3, 2) = by_z(:2, 2)
       do i = 1, size(stages)
-         method = radau_iia(stages(i))
          do lag = 1, size(lags, 2)
-            call check_systems(error, method, full, by_y, by_z, lags(:, lag))
-         end do
-      end do
-      do j = 1, n
-         by_y(:j - 3, j) = 0.0_wp
-         by_y(j + 2:, j) = 0.0_wp
-      end do
-      by_z = 0.0_wp
-      by_z(4:6, 1) = banded%by_z(:, 1)
-      by_z(2:3, 2) = banded%by_z(:2, 2)
-      do i = 1, size(stages)
-         method = radau_iia(stages(i))
-         do lag = 1, size(lags, 2)
-            call check_systems(error, method, banded, by_y, by_z, lags(:, lag))
+            call check_systems(error, radau_iia(stages(i)), full, by_y, by_z, lags(:, lag))
+            call check_systems(error, radau_iia(stages(i)), banded, in_band, band_by_z, &
+                               lags(:, lag))
          end do
       end do
    end subroutine test_coupling

@@ -1,13 +1,15 @@
-!> Layers: dense output where a component decays within a step, and the unit of the state.
+!> Layers and stiff runs: dense output where a component decays within a step, accuracy at and
+!> between the ends of stiff steps, steps longer than the delay, and the unit of the state.
 module test_dde_layers
    use dde, only: integration_options, integration_result
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close, expect_success
-   use layer_problems, only: layer, measure_errors, relaxation, stages
+   use layer_problems, only: layer, measure_errors, relaxation
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use published_problems, only: enzyme
-   use solving, only: at_tolerance, run
+   use solving, only: at_tolerance, run, solve
+   use stiff_problems, only: exponential_decay, prothero_robinson
    implicit none (type, external)
    private
    public :: collect_dde_layers
@@ -18,6 +20,8 @@ module test_dde_layers
       [character(len=8) :: "auto", "dop853", "bs5", "radau5", "radau9", "radau13"]
    real(wp), parameter :: largest_rate(6) = [1.0e6_wp, 1.0e3_wp, 1.0e3_wp, 1.0e6_wp, 1.0e6_wp, &
                                              1.0e6_wp]
+   !> Methods of stiff runs.
+   character(len=8), parameter :: stiff(4) = [methods(4:), "auto    "]
 
 contains
 
@@ -26,9 +30,11 @@ contains
 
       testsuite = [new_unittest("a pulse, and one that returns", test_pulses), &
                    new_unittest("a decay without delay", test_decay), &
-                   new_unittest("a population", test_population), &
                    new_unittest("the unit of the state", test_unit), &
-                   new_unittest("one loose component", test_loose)]
+                   new_unittest("one loose component", test_loose), &
+                   new_unittest("stiff accuracy", test_prothero_robinson), &
+                   new_unittest("between the ends of stiff steps", test_inside), &
+                   new_unittest("steps longer than the delay", test_overlap)]
    end subroutine collect_dde_layers
 
    !> The pulse that y1 leaves behind is in y2 a delay later, at rates over six decades. An error of
@@ -100,32 +106,6 @@ contains
       end do
    end subroutine test_decay
 
-   !> Of 648 runs without series none is wrong by more than 1e-4: a rate of 40 at 1e-6 by `auto`
-   !> gave 0.033 for 0.124, one of 1122 at 1e-9 by `dop853` 620 for 0.123.
-   subroutine test_population(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(integration_result) :: outcome
-      type(layer) :: problem
-      real(wp), parameter :: t_end = 2.9_wp
-      real(wp) :: rate
-      integer :: digits, i, j
-
-      do i = 1, 3
-         do digits = 6, 9, 3
-            do j = 0, 107
-               rate = 10.0_wp**(1.0_wp + 3.0_wp*j/108)
-               problem = stages(rate)
-               problem%analytic = .false.
-               call run(error, problem, 0.0_wp, t_end, &
-                        at_tolerance(10.0_wp**(-digits), methods(i)), outcome)
-               if (allocated(error)) return
-               call expect_close(error, outcome%y, problem%exact(t_end), 1.0e-4_wp, &
-                                 trim(methods(i))//" at 1e-"//text(digits)//", rate "//text(rate))
-            end do
-         end do
-      end do
-   end subroutine test_population
-
    !> With state and absolute tolerance in another unit the results are the same: bit by bit if it
    !> is a power of two.
    subroutine test_unit(error)
@@ -176,4 +156,57 @@ contains
                              methods(i))
       end do
    end subroutine test_loose
+
+   !> y = cos t at rates up to -1e12, in steps that the solution needs and not the rate. Here the
+   !> order falls to s + 1 (order reduction); the error stays within a hundred tolerances.
+   subroutine test_prothero_robinson(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(integration_result) :: outcome
+      integer :: i, power
+
+      do power = 2, 12, 5
+         do i = 1, size(stiff)
+            call run(error, prothero_robinson(-10.0_wp**power), 0.0_wp, 10.0_wp, &
+                     at_tolerance(1.0e-8_wp, stiff(i)), outcome)
+            call expect_close(error, outcome%y, [cos(10.0_wp)], 1.0e-6_wp, trim(stiff(i)))
+            call expect_between(error, real(outcome%accepted, wp), 5.0_wp, 800.0_wp, "steps")
+         end do
+      end do
+   end subroutine test_prothero_robinson
+
+   !> Samples between the ends of steps that are far longer than the time in which y follows cos t.
+   !> As rounding goes, radau5 ends at 5 to 20 times the smaller tolerance, the others below 1.
+   subroutine test_inside(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), allocatable :: y(:, :)
+      real(wp), parameter :: tolerance(2) = [1.0e-6_wp, 1.0e-10_wp]
+      real(wp) :: time(1000)
+      integer :: i, j
+
+      time = [(0.02_wp*i, i=1, size(time))]
+      do j = 1, size(tolerance)
+         do i = 1, size(stiff)
+            call solve(prothero_robinson(-1.0e6_wp), time, at_tolerance(tolerance(j), stiff(i)), &
+                       y, error)
+            call expect_close(error, y(1, :), cos(time), 30.0_wp*tolerance(j), trim(stiff(i)))
+         end do
+      end do
+   end subroutine test_inside
+
+   !> With a delay of 1e-4 and changes on a scale of 1, ten units of time take a few dozen steps,
+   !> and the exact solution is met.
+   subroutine test_overlap(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(exponential_decay) :: problem
+      type(integration_result) :: outcome
+      integer :: i
+
+      problem = exponential_decay(1.0e-4_wp)
+      do i = 1, size(stiff)
+         call run(error, problem, 0.0_wp, 10.0_wp, at_tolerance(1.0e-8_wp, stiff(i)), outcome)
+         call expect_close(error, outcome%y, [exp(10.0_wp*problem%root)], 1.0e-8_wp, &
+                           trim(stiff(i)))
+         call expect_between(error, real(outcome%accepted, wp), 10.0_wp, 300.0_wp, "steps")
+      end do
+   end subroutine test_overlap
 end module test_dde_layers

@@ -28,7 +28,6 @@ contains
       testsuite = [new_unittest("taylor series", test_series), &
                    new_unittest("a second node at 0", test_second_node), &
                    new_unittest("series of the next step", test_next), &
-                   new_unittest("series beyond its step", test_disagreement), &
                    new_unittest("series behind a layer", test_layer), &
                    new_unittest("the last 1e-17 of a step", test_hidden_rest), &
                    new_unittest("series over many steps", test_fit)]
@@ -88,12 +87,16 @@ contains
    end subroutine test_second_node
 
    !> If the next step begins nearer, its series is read, unless there is a kink between them. Its
-   !> departure from the past before it begins must not exceed the tolerance.
+   !> departure from the past before it begins must not exceed the tolerance. A series is used
+   !> beyond its step as far as it agrees with what followed.
    subroutine test_next(error)
       type(error_type), allocatable, intent(out) :: error
       type(delayed_series) :: series
       type(step_context) :: context
       type(wille_baker), target :: problem
+      real(wp), parameter :: tolerances(2) = [1.0e-2_wp, 1.0e-4_wp]
+      real(wp), parameter :: lengths(2) = [1.0_wp, 0.75_wp]
+      integer :: i
 
       problem = delayed()
       context = with_two_steps(problem, valid_for=1.5_wp)
@@ -103,28 +106,15 @@ contains
       call expect_length(error, context, series, 0.5_wp, 1.0e-4_wp, 0.0_wp)
       call expect_series(error, context, 0.75_wp, 0.5_wp, 0.5_wp, .false., &
                          [1.75_wp, 0.5_wp, 0.0_wp], "the step itself", series)
-      context = with_two_steps(problem, valid_for=1.0_wp)
-      call expect_series(error, context, 0.75_wp, 0.25_wp, 0.25_wp, .true., &
-                         [1.75_wp, 0.25_wp, 0.0_wp], "not beyond a kink", series)
-   end subroutine test_next
-
-   !> A series is used beyond its step as far as it agrees with what followed.
-   subroutine test_disagreement(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(delayed_series) :: series
-      type(step_context) :: context
-      type(wille_baker), target :: problem
-      real(wp), parameter :: tolerances(2) = [1.0e-2_wp, 1.0e-4_wp], lengths(2) = [1.0_wp, 0.75_wp]
-      integer :: i
-
-      problem = delayed()
-      context = with_two_steps(problem, valid_for=1.5_wp)
       do i = 1, 2
          call expect_series(error, context, 0.25_wp, 1.0_wp, 1.0_wp, .true., &
                             [1.25_wp, 1.0_wp, 0.0_wp], "the step itself", series)
          call expect_length(error, context, series, 1.0_wp, tolerances(i), lengths(i))
       end do
-   end subroutine test_disagreement
+      context = with_two_steps(problem, valid_for=1.0_wp)
+      call expect_series(error, context, 0.75_wp, 0.25_wp, 0.25_wp, .true., &
+                         [1.75_wp, 0.25_wp, 0.0_wp], "not beyond a kink", series)
+   end subroutine test_next
 
    !> Ten steps of 1e-5 that are 0.1 above what follows: skipped if a step of 0.5 is expected and
    !> 1e-5 is less than half the tolerance times its length, not if one of 1e-3 is.

@@ -11,7 +11,7 @@ module test_dde_taylor
    use dde_taylor_step, only: taylor_step_type
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close
-   use fast_problems, only: follower, pulse
+   use fast_problems, only: follower
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use single_step, only: interpolated, new_context
    use solving, only: at_tolerance, run, solve
@@ -35,7 +35,6 @@ contains
                    new_unittest("how far series reach", test_reach), &
                    new_unittest("a follower", test_follower), &
                    new_unittest("a transient", test_transient), &
-                   new_unittest("a pulse", test_pulse), &
                    new_unittest("chains", test_chains)]
    end subroutine collect_dde_taylor
 
@@ -213,20 +212,4 @@ contains
          end do
       end do
    end subroutine test_transient
-
-   !> A pulse that comes and goes within a step of what follows it is not overlooked.
-   subroutine test_pulse(error)
-      type(error_type), allocatable, intent(out) :: error
-      real(wp), allocatable :: y(:, :)
-      real(wp), parameter :: width = 1.0e-3_wp
-      integer :: i, j
-
-      do i = 1, size(both)
-         do j = 4, 10, 2
-            call solve(pulse(width), [2.0_wp], at_tolerance(10.0_wp**(-j), both(i)), y, error)
-            call expect_close(error, y(2, :), [2*width*atan(0.5_wp/width)], 10*10.0_wp**(-j), &
-                              both(i)//" at 1e-"//text(j))
-         end do
-      end do
-   end subroutine test_pulse
 end module test_dde_taylor

@@ -4,7 +4,7 @@ module fast_problems
    use test_problems, only: constant_past, fill
    implicit none (type, external)
    private
-   public :: follower, pulse
+   public :: follower
 
    !> y1' = -rate (y1 - cos t), y2' = y1(t - 1): y1 follows cos t.
    type, extends(constant_past) :: follower
@@ -19,19 +19,6 @@ module fast_problems
    interface follower
       module procedure :: new_follower
    end interface follower
-
-   !> y1' is that of 1/(1 + x^2) with x = (t - 1/2)/width, y2' = y1(t - 1).
-   type, extends(constant_past) :: pulse
-      !> Width
-      real(wp) :: width = 1.0_wp
-   contains
-      procedure :: rhs => pulse_rhs
-      procedure :: series => pulse_series
-   end type pulse
-
-   interface pulse
-      module procedure :: new_pulse
-   end interface pulse
 
 contains
 
@@ -129,45 +116,4 @@ contains
          y(k, 2) = unit/k*z(k - 1, 1)
       end do
    end subroutine follower_slow_series
-
-   !> The problem, y1 = 0 before t = 0.
-   pure type(pulse) function new_pulse(width) result(problem)
-      real(wp), intent(in) :: width
-
-      call fill(problem, 2, [0.0_wp, 0.0_wp], [1.0_wp/(1.0_wp + 0.25_wp/width**2), 0.0_wp], &
-                [1.0_wp], [1])
-      problem%analytic = .true.
-      problem%width = width
-   end function new_pulse
-
-   !> The quadrature, and y2' = y1(t - 1).
-   pure subroutine pulse_rhs(self, t, y, z, dydt)
-      class(pulse), intent(in) :: self
-      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
-      real(wp), intent(out) :: dydt(self%n)
-
-      associate (x => (t - 0.5_wp)/self%width)
-         dydt = [-2*x/self%width/(1.0_wp + x**2)**2, z(1)]
-      end associate
-   end subroutine pulse_rhs
-
-   !> Coefficients of 1/(1 + x^2): times 1 + x^2 they are 1.
-   pure subroutine pulse_series(self, t, unit, degree, z, y)
-      class(pulse), intent(in) :: self
-      real(wp), intent(in) :: t, unit
-      integer, intent(in) :: degree
-      real(wp), intent(in) :: z(0:degree, size(self%lag))
-      real(wp), intent(inout) :: y(0:degree, self%n)
-      real(wp) :: shape(-1:degree), step, x
-      integer :: k
-
-      x = (t - 0.5_wp)/self%width
-      step = unit/self%width
-      shape(-1:0) = [0.0_wp, 1.0_wp/(1.0_wp + x**2)]
-      do k = 1, degree
-         shape(k) = -(2*x*step*shape(k - 1) + step**2*shape(k - 2))/(1.0_wp + x**2)
-         y(k, 1) = shape(k)
-         y(k, 2) = unit/k*z(k - 1, 1)
-      end do
-   end subroutine pulse_series
 end module fast_problems

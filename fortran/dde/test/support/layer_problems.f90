@@ -8,7 +8,7 @@ module layer_problems
    use test_problems, only: constant_past, fill
    implicit none (type, external)
    private
-   public :: layer, measure_errors, relaxation, solved, stages
+   public :: layer, measure_errors, relaxation, solved
 
    !> A problem that knows its solution.
    type, extends(constant_past), abstract :: solved
@@ -41,12 +41,10 @@ module layer_problems
       module procedure :: new_relaxation
    end interface relaxation
 
-   !> u1' = -r u1 + back u2(t - 1), u2' = share r u1(t - 1) - death u2, with u1(0) = 1 and else 0 up
-   !> to t = 0.
+   !> u1' = -r u1 + back u2(t - 1), u2' = r u1(t - 1), with u1(0) = 1 and else 0 up to t = 0.
    type, extends(solved) :: layer
-      !> Share of the pulse that returns, share of it that the second component takes, rate at which
-      !> that dies
-      real(wp) :: back = 0.0_wp, share = 1.0_wp, death = 0.0_wp
+      !> Share of the pulse that returns
+      real(wp) :: back = 0.0_wp
    contains
       procedure :: rhs => layer_rhs
       procedure :: series => layer_series
@@ -80,23 +78,13 @@ contains
       if (present(back)) problem%back = back
    end function new_layer
 
-   !> A population: eggs hatch at the rate r, larvae live for one unit of time, a share of them
-   !> become adults, which die at the rate 1.
-   pure type(layer) function stages(rate) result(problem)
-      real(wp), intent(in) :: rate
-
-      problem = layer(rate)
-      problem%share = 0.3_wp
-      problem%death = 1.0_wp
-   end function stages
-
    !> The equations.
    pure subroutine layer_rhs(self, t, y, z, dydt)
       class(layer), intent(in) :: self
       real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
 
-      dydt = [-self%rate*y(1) + self%back*z(2), self%share*self%rate*z(1) - self%death*y(2)]
+      dydt = [-self%rate*y(1) + self%back*z(2), self%rate*z(1)]
    end subroutine layer_rhs
 
    !> Term by term.
@@ -110,25 +98,19 @@ contains
 
       do k = 0, degree - 1
          y(k + 1, 1) = unit/(k + 1)*(-self%rate*y(k, 1) + self%back*z(k, 2))
-         y(k + 1, 2) = unit/(k + 1)*(self%share*self%rate*z(k, 1) - self%death*y(k, 2))
+         y(k + 1, 2) = unit/(k + 1)*(self%rate*z(k, 1))
       end do
    end subroutine layer_series
 
-   !> The solution of a population, with a rate other than that of death, or of a layer whose pulse
-   !> may return.
+   !> The solution.
    pure function layer_exact(self, t) result(u)
       class(layer), intent(in) :: self
       real(wp), intent(in) :: t
       real(wp) :: u(self%n)
-      real(wp) :: s
 
-      associate (r => self%rate, x => max(0.0_wp, t - 1.0_wp), w => max(0.0_wp, t - 2.0_wp))
+      associate (r => self%rate, x => max(0.0_wp, t - 1.0_wp), w => max(0.0_wp, t - 2.0_wp), &
+                 s => max(0.0_wp, t - 3.0_wp))
          u(1) = decay(r*t) + self%back*((1.0_wp - decay(r*w))/r - w*decay(r*w))
-         if (self%death > 0.0_wp) then
-            u(2) = self%share*r/(r - self%death)*(decay(self%death*x) - decay(r*x))
-            return
-         end if
-         s = max(0.0_wp, t - 3.0_wp)
          u(2) = 1.0_wp - decay(r*x) + self%back*(s*(1.0_wp + decay(r*s)) &
                                                  - 2.0_wp/r*(1.0_wp - decay(r*s)))
       end associate

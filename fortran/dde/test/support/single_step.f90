@@ -53,7 +53,6 @@ contains
       context = new_context(problem, t, h, r, a)
       call step%restart(context)
       call step%attempt(context, estimate)
-      call step%complete(context)
    end subroutine take_step
 
    !> Whether a step from the start is held back.

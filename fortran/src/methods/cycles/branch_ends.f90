@@ -5,8 +5,7 @@ module branch_ends
    use periodic_orbit, only: periodic_orbit_type
    implicit none (type, external)
    private
-   public :: follow_settings_type, has_ended, is_closed, longer_step, most_rounds, &
-             refinement_type, shorter
+   public :: follow_settings_type, has_ended, is_closed, longer_step, refinement_type, shorter
 
    !> Factors of the step after one that was easy, or failed
    real(wp), parameter :: longer = 1.5_wp, shorter = 0.5_wp
@@ -18,8 +17,8 @@ module branch_ends
       !> Distance of the trivial multiplier from 1 beyond which the mesh is adapted and gets more
       !> intervals
       real(wp) :: accuracy = 1.0e-7_wp
-      !> Most intervals
-      integer :: most_intervals = 200
+      !> Most intervals, and adaptions of a mesh that is not accurate
+      integer :: most_intervals = 200, most_rounds = 4
    contains
       procedure :: next_intervals
    end type refinement_type
@@ -44,8 +43,7 @@ module branch_ends
       procedure :: is_outside
    end type follow_settings_type
 
-   !> Adaptions of a mesh that is not accurate, and how its intervals grow after the second
-   integer, parameter :: most_rounds = 4
+   !> How the intervals of a mesh that is not accurate grow after its second adaption
    real(wp), parameter :: growth = 1.3_wp
    !> A smaller amplitude counts as this one: near a Hopf point the parameters make the step.
    real(wp), parameter :: amplitude_of_steps = 2.0_wp

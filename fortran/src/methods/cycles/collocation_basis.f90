@@ -1,14 +1,10 @@
 !> Polynomials on the unit interval by their values at nodes, and the points at which they fulfil an
-!> equation. Collocation at Gauss points has the highest order. Collocation at the points of Radau
-!> IIA damps fast components, which Gauss points leave undamped.
+!> equation: those of Radau IIA, which damp fast components. Gauss points leave them undamped.
 module collocation_basis
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: collocation_basis_type, gauss_points, radau_points
-
-   !> Kinds of points.
-   integer, parameter :: gauss_points = 0, radau_points = 1
+   public :: collocation_basis_type
 
    !> Polynomials of one degree. Node 1 is 0, the last node is 1.
    type :: collocation_basis_type
@@ -34,10 +30,9 @@ module collocation_basis
 
 contains
 
-   !> The basis of a degree with points of a kind.
-   pure function new_basis(degree, kind) result(basis)
-      !> Degree m >= 1, gauss_points or radau_points
-      integer, intent(in) :: degree, kind
+   !> The basis of a degree m >= 1.
+   pure function new_basis(degree) result(basis)
+      integer, intent(in) :: degree
       type(collocation_basis_type) :: basis
       real(wp), parameter :: pi = acos(-1.0_wp)
       integer :: i, k
@@ -51,7 +46,7 @@ contains
          basis%leading(i) = 1.0_wp/product(basis%node(i) - pack(basis%node, &
                                                                 [(k /= i, k=1, degree + 1)]))
       end do
-      basis%point = points_of(degree, real(kind, wp))
+      basis%point = points_of(degree)
       basis%weight = weights_of(basis%point)
       allocate (basis%value(degree + 1, degree), basis%slope(degree + 1, degree))
       do k = 1, degree
@@ -104,12 +99,10 @@ contains
       end do
    end function slopes_at
 
-   !> Zeros of P_m(x) - share P_{m-1}(x) with x = 2 point - 1, by Newton's method from the right,
-   !> where zeros already found are divided out (Maehly).
-   pure function points_of(degree, share) result(points)
+   !> Zeros of P_m(x) - P_{m-1}(x) with x = 2 point - 1, by Newton's method from the right, where
+   !> zeros already found are divided out (Maehly). The last one is 1.
+   pure function points_of(degree) result(points)
       integer, intent(in) :: degree
-      !> 0 for Gauss points, 1 for those of Radau IIA
-      real(wp), intent(in) :: share
       real(wp) :: points(degree)
       real(wp) :: move, p(0:degree), slope(0:degree), x
       integer, parameter :: most_iterations = 60
@@ -126,8 +119,8 @@ contains
                p(k) = ((2*k - 1)*x*p(k - 1) - (k - 1)*p(k - 2))/k
                slope(k) = slope(k - 2) + (2*k - 1)*p(k - 1)
             end do
-            associate (f => p(degree) - share*p(degree - 1), &
-                       df => slope(degree) - share*slope(degree - 1), &
+            associate (f => p(degree) - p(degree - 1), &
+                       df => slope(degree) - slope(degree - 1), &
                        found => 2.0_wp*points(i + 1:) - 1.0_wp)
                move = f/(df - f*sum(1.0_wp/(x - found)))
             end associate
@@ -136,7 +129,7 @@ contains
          end do
          points(i) = 0.5_wp*(x + 1.0_wp)
       end do
-      if (share > 0.0_wp) points(degree) = 1.0_wp
+      points(degree) = 1.0_wp
    end function points_of
 
    !> Weights w with which polynomials up to degree 2m - 2 are integrated exactly. So 1, ...,

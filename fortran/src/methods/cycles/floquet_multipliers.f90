@@ -4,13 +4,10 @@ module floquet_multipliers
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use linear_map, only: leading_eigenvalues, linear_map_type
-   use model_family, only: family_type
-   use orbit_linearisation, only: linearise_orbit
    use orbit_passes, only: orbit_passes_type
-   use periodic_orbit, only: periodic_orbit_type
    implicit none (type, external)
    private
-   public :: find_largest_multiplier, find_multipliers, multipliers_type
+   public :: find_multipliers, multipliers_type
 
    !> Multipliers of an orbit.
    type :: multipliers_type
@@ -19,6 +16,8 @@ module floquet_multipliers
       complex(wp), allocatable :: values(:)
       !> Distance of the trivial multiplier from 1: the accuracy
       real(wp) :: trivial_error = 0.0_wp
+      !> Greatest modulus of all. Where no disturbance is the flow, none of them is trivial.
+      real(wp) :: greatest = 0.0_wp
    contains
       procedure :: unstable
    end type multipliers_type
@@ -37,11 +36,9 @@ module floquet_multipliers
 contains
 
    !> Multipliers of greatest modulus.
-   subroutine find_multipliers(family, orbit, wanted, found, error, disturbances, linear)
-      !> The model and its free parameters
-      type(family_type), intent(in) :: family
-      !> The orbit
-      type(periodic_orbit_type), intent(in) :: orbit
+   subroutine find_multipliers(linear, wanted, found, error, disturbances)
+      !> Linear equations about the orbit
+      type(orbit_passes_type), intent(in) :: linear
       !> Number of multipliers
       integer, intent(in) :: wanted
       !> What was found
@@ -50,82 +47,40 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Disturbances over the period at the nodes of the orbit, shape (n, nodes, multipliers)
       complex(wp), allocatable, intent(out), optional :: disturbances(:, :, :)
-      !> Linear equations about the orbit, if they are known
-      type(orbit_passes_type), intent(in), optional :: linear
       complex(wp), allocatable :: pasts(:, :), values(:)
       type(period_map_type) :: map
+      real(wp) :: no_sums(linear%n, linear%intervals*linear%degree + 1, 0)
       integer :: i, kept, trivial
 
-      call find_eigenvalues(family, orbit, wanted + 1, map, values, pasts, error, linear)
+      map%linear = linear
+      call map%linear%reach_back()
+      call map%linear%prepare(no_sums)
+      call leading_eigenvalues(map, map%linear%past_size(), wanted + 1, tolerance, values, pasts, &
+                               error)
       if (allocated(error)) return
+      found%greatest = abs(values(1))
       trivial = minloc(abs(values - 1.0_wp), dim=1)
       found%trivial_error = abs(values(trivial) - 1.0_wp)
       found%values = pack(values, [(i /= trivial, i=1, size(values))])
       if (.not. present(disturbances)) return
-      allocate (disturbances(size(orbit%nodes, 1), size(orbit%nodes, 2), size(found%values)))
+      allocate (disturbances(size(no_sums, 1), size(no_sums, 2), size(found%values)))
       kept = 0
       do i = 1, size(values)
          if (i == trivial) cycle
          kept = kept + 1
-         disturbances(:, :, kept) = cmplx(over_period(map, real(pasts(:, i)), orbit), &
-                                          over_period(map, aimag(pasts(:, i)), orbit), kind=wp)
+         disturbances(:, :, kept) = cmplx(over_period(map%linear, real(pasts(:, i))), &
+                                          over_period(map%linear, aimag(pasts(:, i))), kind=wp)
       end do
    end subroutine find_multipliers
 
-   !> The largest modulus of all multipliers. They may be those of disturbances of which none is the
-   !> flow: then no multiplier is trivial.
-   subroutine find_largest_multiplier(family, orbit, modulus, error)
-      !> Problems; a solution of them is the orbit
-      type(family_type), intent(in) :: family
-      !> The orbit
-      type(periodic_orbit_type), intent(in) :: orbit
-      !> The modulus
-      real(wp), intent(out) :: modulus
-      !> No convergence
-      type(error_type), allocatable, intent(out) :: error
-      complex(wp), allocatable :: pasts(:, :), values(:)
-      type(period_map_type) :: map
-
-      modulus = 0.0_wp
-      call find_eigenvalues(family, orbit, 1, map, values, pasts, error)
-      if (allocated(error)) return
-      modulus = abs(values(1))
-   end subroutine find_largest_multiplier
-
-   !> Eigenvalues of greatest modulus of the map of the past, and their eigenvectors.
-   subroutine find_eigenvalues(family, orbit, wanted, map, values, pasts, error, linear)
-      type(family_type), intent(in) :: family
-      type(periodic_orbit_type), intent(in) :: orbit
-      integer, intent(in) :: wanted
-      !> The map
-      type(period_map_type), intent(out) :: map
-      complex(wp), allocatable, intent(out) :: values(:)
-      !> Eigenvectors, shape (numbers of a past, size(values))
-      complex(wp), allocatable, intent(out) :: pasts(:, :)
-      type(error_type), allocatable, intent(out) :: error
-      type(orbit_passes_type), intent(in), optional :: linear
-      real(wp) :: no_sums(size(orbit%nodes, 1), size(orbit%nodes, 2), 0)
-
-      if (present(linear)) then
-         map%linear = linear
-         call map%linear%reach_back()
-      else
-         call linearise_orbit(family, orbit, .true., map%linear, error)
-         if (allocated(error)) return
-      end if
-      call map%linear%prepare(no_sums)
-      call leading_eigenvalues(map, map%linear%past_size(), wanted, tolerance, values, pasts, error)
-   end subroutine find_eigenvalues
-
    !> A disturbance over the period.
-   function over_period(map, past, orbit) result(disturbance)
-      type(period_map_type), intent(inout) :: map
+   pure function over_period(linear, past) result(disturbance)
+      type(orbit_passes_type), intent(in) :: linear
       real(wp), intent(in) :: past(:)
-      type(periodic_orbit_type), intent(in) :: orbit
-      real(wp) :: disturbance(size(orbit%nodes, 1), size(orbit%nodes, 2)), later(size(past))
+      real(wp) :: disturbance(linear%n, linear%intervals*linear%degree + 1), later(size(past))
       real(wp) :: no_sums(0)
 
-      call map%linear%pass(past, [real(wp) ::], later, no_sums, disturbance)
+      call linear%pass(past, [real(wp) ::], later, no_sums, disturbance)
    end function over_period
 
    !> The past a period later.

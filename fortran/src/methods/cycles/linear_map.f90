@@ -61,8 +61,8 @@ contains
       solution = 0.0_wp
       size_of_right = norm2(right)
       if (size_of_right <= 0.0_wp) return
-      allocate (basis(n, most + 1), h(most + 1, most), image(n), cosine(most), sine(most))
-      allocate (rotated(most + 1), source=0.0_wp)
+      allocate (h(most + 1, most), image(n), cosine(most), sine(most))
+      allocate (basis(n, most + together), rotated(most + 1), source=0.0_wp)
       rotated(1) = size_of_right
       basis(:, 1) = right/size_of_right
       do k = 1, most
@@ -117,7 +117,7 @@ contains
       integer :: count, i, k
       logical :: complete
 
-      allocate (basis(n, n + 1), h(n + 1, n), image(n))
+      allocate (basis(n, n + together), h(n + 1, n), image(n), source=0.0_wp)
       ! no eigenvector should be orthogonal to it
       basis(:, 1) = [(1.0_wp + sin(1.0_wp*i*i), i=1, n)]
       basis(:, 1) = basis(:, 1)/norm2(basis(:, 1))
@@ -127,7 +127,7 @@ contains
          complete = k == n .or. .not. h(k + 1, k) > 0.0_wp
          if (.not. complete .and. &
              (k < first_check .or. mod(k - first_check, steps_between) > 0)) cycle
-         call eigenvectors(upper_hessenberg(h(:k, :k)), small_values, small_vectors, error)
+         call eigenvectors(h(:k, :k), small_values, small_vectors, error)
          if (allocated(error)) return
          count = min(wanted, k)
          if (count < k) then
@@ -147,23 +147,9 @@ contains
       end do
    end subroutine leading_eigenvalues
 
-   !> The part of a matrix on and above its first subdiagonal.
-   pure function upper_hessenberg(h) result(matrix)
-      real(wp), intent(in) :: h(:, :)
-      real(wp) :: matrix(size(h, 1), size(h, 2))
-      integer :: k
-
-      matrix = 0.0_wp
-      do k = 1, size(h, 2)
-         associate (last => min(k + 1, size(h, 1)))
-            matrix(:last, k) = h(:last, k)
-         end associate
-      end do
-   end function upper_hessenberg
-
    !> Make an image orthogonal to the basis, twice where that leaves little of it, and append it.
    pure subroutine extend_basis(basis, k, image, h)
-      !> Orthonormal vectors, shape (n, at least k + 1)
+      !> Orthonormal vectors, shape (n, at least k + together); those after k are 0
       real(wp), contiguous, intent(inout) :: basis(:, :)
       integer, intent(in) :: k
       !> The image, replaced by what is left of it
@@ -177,27 +163,18 @@ contains
       h(:k) = 0.0_wp
       do turn = 1, 2
          do j = 0, k - 1, together
-            last = min(together, k - j)
             parts = 0.0_wp
-            if (last == together) then
-               do i = 1, size(image)
-                  do l = 1, together
-                     parts(l) = parts(l) + basis(i, j + l)*image(i)
-                  end do
+            do i = 1, size(image)
+               do l = 1, together
+                  parts(l) = parts(l) + basis(i, j + l)*image(i)
                end do
-               do i = 1, size(image)
-                  do l = 1, together
-                     image(i) = image(i) - parts(l)*basis(i, j + l)
-                  end do
+            end do
+            do i = 1, size(image)
+               do l = 1, together
+                  image(i) = image(i) - parts(l)*basis(i, j + l)
                end do
-            else
-               do l = 1, last
-                  parts(l) = dot_product(basis(:, j + l), image)
-               end do
-               do l = 1, last
-                  image = image - parts(l)*basis(:, j + l)
-               end do
-            end if
+            end do
+            last = min(together, k - j)
             h(j + 1:j + last) = h(j + 1:j + last) + parts(:last)
          end do
          h(k + 1) = norm2(image)

@@ -1,7 +1,7 @@
 !> Branches of periodic orbits in one parameter by pseudo-arclength continuation, through folds. The
 !> step is controlled by the effort of Newton's method.
 module orbit_branch
-   use branch_ends, only: follow_settings_type, has_ended, longer_step, most_rounds, shorter
+   use branch_ends, only: follow_settings_type, has_ended, longer_step, refinement_type, shorter
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use floquet_multipliers, only: find_multipliers, multipliers_type
@@ -13,7 +13,7 @@ module orbit_branch
    use periodic_orbit, only: periodic_orbit_type
    implicit none (type, external)
    private
-   public :: branch_type, follow_branch
+   public :: branch_type, follow_branch, make_accurate
 
    !> Orbits in the order of the branch.
    type :: branch_type
@@ -87,11 +87,11 @@ contains
          end if
          allocate (branch%orbits(settings%most_points), branch%tangents(settings%most_points), &
                    branch%multipliers(settings%most_points))
-         branch%orbits(1) = orbit
-         branch%tangents(1) = along(1)
-         call make_accurate(settings, branch%orbits(1), branch%tangents(1), newton, &
+         call make_accurate(family, settings%refinement, orbit, along, newton, &
                             branch%multipliers(1), .true., error)
          if (allocated(error)) return
+         branch%orbits(1) = orbit
+         branch%tangents(1) = along(1)
          step = settings%first_step
          i = 1
          branch%ending = "orbits"
@@ -101,7 +101,8 @@ contains
             branch%iterations = branch%iterations + newton%iterations
             if (.not. allocated(failure)) then
                iterations = newton%iterations
-               call make_accurate(settings, branch%orbits(i + 1), branch%tangents(i + 1), newton, &
+               call make_accurate(family, settings%refinement, branch%orbits(i + 1), &
+                                  branch%tangents(i + 1:i + 1), newton, &
                                   branch%multipliers(i + 1), mod(i, adapt_every) == 0, failure)
             end if
             if (allocated(failure)) then
@@ -154,7 +155,7 @@ contains
          if (allocated(error)) return
       end if
       along = directions(1)
-      call turn_to_tangent(family, orbit, along, error, newton%linear)
+      call turn_to_tangent(orbit, newton%linear, along, error)
    end subroutine first_orbit
 
    !> The next orbit of a branch.
@@ -180,7 +181,7 @@ contains
          call correct_orbit(family, before, along, [step], orbit, newton, error)
          if (allocated(error)) return
          move = along(1)
-         call turn_to_tangent(family, orbit, along(1), error, newton%linear)
+         call turn_to_tangent(orbit, newton%linear, along(1), error)
          if (allocated(error)) return
          passes = orbit%opposite_parts(before) > 0
          if (passes) then
@@ -197,54 +198,61 @@ contains
 
    !> Find the multipliers, on an adapted mesh where that is due or where the trivial multiplier is
    !> not accurate, and on more intervals where that is not enough.
-   subroutine make_accurate(settings, orbit, along, newton, multipliers, due, error)
-      type(follow_settings_type), intent(in) :: settings
+   subroutine make_accurate(family, refinement, orbit, along, newton, multipliers, due, error)
+      !> The model and its free parameters
+      type(family_type), intent(in) :: family
+      !> What is accurate
+      type(refinement_type), intent(in) :: refinement
+      !> The orbit
       type(periodic_orbit_type), intent(inout) :: orbit
-      type(orbit_change_type), intent(inout) :: along
+      !> The tangent there, if a parameter is free
+      type(orbit_change_type), intent(inout) :: along(:)
       !> What corrected the orbit
       type(newton_type), intent(inout) :: newton
+      !> The multipliers
       type(multipliers_type), intent(out) :: multipliers
       !> Whether the mesh is to be adapted anyway
       logical, intent(in) :: due
+      !> There are no multipliers on the first mesh
       type(error_type), allocatable, intent(out) :: error
       type(error_type), allocatable :: failure
       type(multipliers_type) :: better
-      type(orbit_change_type) :: direction(1)
+      type(orbit_change_type) :: direction(size(along))
       type(periodic_orbit_type) :: adapted, reference
       real(wp) :: before
-      integer :: intervals, round
+      integer :: i, intervals, round
 
-      associate (family => settings%family, refinement => settings%refinement)
-         call find_multipliers(family, orbit, refinement%multipliers, multipliers, error, &
-                               linear=newton%linear)
-         if (allocated(error)) return
-         intervals = orbit%intervals()
-         newton = newton_type()
-         before = huge(before)
-         do round = 1, most_rounds
-            if (multipliers%trivial_error <= refinement%accuracy) then
-               if (round > 1 .or. .not. due) return
-            end if
-            if (round > 2 .and. intervals == orbit%intervals() &
-                .and. multipliers%trivial_error > gain*before) return
-            before = multipliers%trivial_error
-            reference = orbit%on_mesh(adapted_mesh(orbit, intervals))
-            direction(1) = along%on_mesh(orbit, reference%mesh)
-            adapted = reference
-            call correct_orbit(family, reference, direction, [0.0_wp], adapted, newton, &
-                               failure)
-            if (allocated(failure)) return
-            call turn_to_tangent(family, adapted, direction(1), failure, newton%linear)
-            if (allocated(failure)) return
-            call find_multipliers(family, adapted, refinement%multipliers, better, failure, &
-                                  linear=newton%linear)
-            if (allocated(failure)) return
-            orbit = adapted
-            along = direction(1)
-            multipliers = better
-            if (round > 1) intervals = refinement%next_intervals(intervals)
+      call find_multipliers(newton%linear, refinement%multipliers, multipliers, error)
+      if (allocated(error)) return
+      intervals = orbit%intervals()
+      newton = newton_type()
+      before = huge(before)
+      do round = 1, refinement%most_rounds
+         if (multipliers%trivial_error <= refinement%accuracy) then
+            if (round > 1 .or. .not. due) return
+         end if
+         if (round > 2 .and. intervals == orbit%intervals() &
+             .and. multipliers%trivial_error > gain*before) return
+         before = multipliers%trivial_error
+         reference = orbit%on_mesh(adapted_mesh(orbit, intervals))
+         do i = 1, size(along)
+            direction(i) = along(i)%on_mesh(orbit, reference%mesh)
          end do
-      end associate
+         adapted = reference
+         call correct_orbit(family, reference, direction, [(0.0_wp, i=1, size(along))], adapted, &
+                            newton, failure)
+         if (allocated(failure)) return
+         do i = 1, size(along)
+            call turn_to_tangent(adapted, newton%linear, direction(i), failure)
+            if (allocated(failure)) return
+         end do
+         call find_multipliers(newton%linear, refinement%multipliers, better, failure)
+         if (allocated(failure)) return
+         orbit = adapted
+         along = direction
+         multipliers = better
+         if (round > 1) intervals = refinement%next_intervals(intervals)
+      end do
    end subroutine make_accurate
 
    !> Replace the last orbit by that at the edge of the window.
@@ -273,11 +281,12 @@ contains
             call correct_orbit(family, reference, fixed, [0.0_wp], orbit, newton, error)
             if (allocated(error)) return
             orbit%parameters(p) = edge
-            call turn_to_tangent(family, orbit, along(1), error, newton%linear)
+            call turn_to_tangent(orbit, newton%linear, along(1), error)
             if (allocated(error)) return
             if (i == 2) exit
             ! a finer mesh changes the parameter a little
-            call make_accurate(settings, orbit, along(1), newton, multipliers, .false., error)
+            call make_accurate(family, settings%refinement, orbit, along, newton, multipliers, &
+                               .false., error)
             if (allocated(error)) return
          end do
          branch%orbits(last) = orbit

@@ -2,10 +2,9 @@
 !> over the tangent plane of two parameters; the next point is sought on it beside the direction of
 !> the curve, by the secant method.
 module orbit_curve_steps
-   use branch_ends, only: follow_settings_type, most_rounds, refinement_type
+   use branch_ends, only: follow_settings_type, refinement_type
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use model_family, only: family_type
    use orbit_change, only: amplitude_direction, inner_product, orbit_change_type, &
                            parameter_direction
    use orbit_equations, only: correct_orbit, find_tangents, newton_type
@@ -65,7 +64,7 @@ contains
       most_beside = most_bend*max(step, settings%least_step)
       associate (refinement => settings%refinement)
          intervals = point%orbit%intervals()
-         do round = 1, most_rounds
+         do round = 1, refinement%most_rounds
             before = point%orbit%on_mesh(adapted_mesh(point%orbit, intervals))
             frame = frame_on(frame, point%orbit, before)
             call find_beside(settings, before, frame, ahead, most_beside, point, newton, g_found, &
@@ -87,7 +86,7 @@ contains
             if (round > 1) intervals = refinement%next_intervals(intervals)
             ahead = 0.0_wp
          end do
-         call turn_along(settings, point, frame, error, g_found, newton%linear)
+         call turn_along(settings, point, newton%linear, frame, error, g_found)
       end associate
    end subroutine take_step
 
@@ -159,24 +158,24 @@ contains
    end function is_accurate
 
    !> Turn the directions at a point: along the first the test function does not change.
-   subroutine turn_along(settings, point, frame, error, known, linear)
+   subroutine turn_along(settings, point, linear, frame, error, known)
       !> Problems and number of multipliers
       type(follow_settings_type), intent(in) :: settings
       !> The point
       type(special_point_type), intent(in) :: point
+      !> Linear equations about its orbit
+      type(orbit_passes_type), intent(in) :: linear
       !> Orthonormal directions, near the tangent plane; the first keeps its sense
       type(frame_type), intent(inout) :: frame
       !> There are none
       type(error_type), allocatable, intent(out) :: error
       !> The test function there, if it is known
       real(wp), intent(in), optional :: known
-      !> Linear equations about its orbit, if they are known
-      type(orbit_passes_type), intent(in), optional :: linear
       type(orbit_change_type) :: plane(2)
       real(wp) :: g, g_here, slope(2)
       integer :: i
 
-      call turn_frame(settings%family, point%orbit, frame%directions, error, linear)
+      call turn_frame(point%orbit, linear, frame%directions, error)
       if (allocated(error)) return
       if (present(known)) then
          g_here = known
@@ -197,11 +196,11 @@ contains
    end subroutine turn_along
 
    !> Orthonormal directions of the tangent plane at an orbit.
-   subroutine first_plane(family, orbit, plane, error)
-      !> The model and its free parameters
-      type(family_type), intent(in) :: family
+   subroutine first_plane(orbit, linear, plane, error)
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
+      !> Linear equations about it
+      type(orbit_passes_type), intent(in) :: linear
       !> The directions
       type(orbit_change_type), intent(out) :: plane(2)
       !> There are none
@@ -210,20 +209,19 @@ contains
       ! at a fold the amplitude determines the orbit, not the parameter
       plane(1) = amplitude_direction(orbit, 2)
       plane(2) = parameter_direction(orbit, 2)
-      call turn_frame(family, orbit, plane, error)
+      call turn_frame(orbit, linear, plane, error)
    end subroutine first_plane
 
    !> Turn two directions into orthonormal ones of the tangent plane; the first keeps its direction
    !> in it.
-   subroutine turn_frame(family, orbit, directions, error, linear)
-      type(family_type), intent(in) :: family
+   subroutine turn_frame(orbit, linear, directions, error)
       type(periodic_orbit_type), intent(in) :: orbit
+      type(orbit_passes_type), intent(in) :: linear
       type(orbit_change_type), intent(inout) :: directions(2)
       type(error_type), allocatable, intent(out) :: error
-      type(orbit_passes_type), intent(in), optional :: linear
       type(orbit_change_type) :: plane(2)
 
-      call find_tangents(family, orbit, directions, plane, error, linear)
+      call find_tangents(orbit, linear, directions, plane, error)
       if (allocated(error)) return
       associate (first => plane(1), second => plane(2))
          first = first%times(1.0_wp/sqrt(inner_product(orbit, first, first)))
@@ -273,7 +271,7 @@ contains
          return
       end if
       ! at a fold there is a tangent along which no parameter changes
-      call find_tangents(settings%family, point%orbit, directions, plane, error, newton%linear)
+      call find_tangents(point%orbit, newton%linear, directions, plane, error)
       if (allocated(error)) return
       g = plane(1)%parameters(1)*plane(2)%parameters(2) &
           - plane(1)%parameters(2)*plane(2)%parameters(1)

@@ -6,7 +6,9 @@ module orbit_curves
    use dde_kinds, only: wp
    use orbit_curve_steps, only: first_plane, frame_on, frame_type, is_accurate, take_step, &
                                 turn_along
+   use orbit_linearisation, only: linearise_orbit
    use orbit_mesh, only: adapted_mesh
+   use orbit_passes, only: orbit_passes_type
    use sign_change, only: sign_change_type
    use special_points, only: cusp, fold, special_point_type, torus_bifurcation
    implicit none (type, external)
@@ -51,6 +53,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(error_type), allocatable :: failure
       type(frame_type) :: frame, next_frame
+      type(orbit_passes_type) :: linear
       type(special_point_type) :: next
       real(wp) :: step
       integer :: evaluations, i
@@ -58,9 +61,11 @@ contains
 
       allocate (curve%points(settings%most_points), curve%cusps(0))
       curve%points(1) = start
-      call first_plane(settings%family, start%orbit, frame%directions, error)
+      call linearise_orbit(settings%family, start%orbit, linear, error)
       if (allocated(error)) return
-      call turn_along(settings, start, frame, error)
+      call first_plane(start%orbit, linear, frame%directions, error)
+      if (allocated(error)) return
+      call turn_along(settings, start, linear, frame, error)
       if (allocated(error)) return
       associate (along => frame%directions(1))
          if (along%parameters(2)*direction < 0.0_wp) along = along%times(-1.0_wp)

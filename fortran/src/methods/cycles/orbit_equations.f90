@@ -72,12 +72,12 @@ contains
       real(wp) :: before, target(1 + size(directions), 1)
       integer :: i
 
-      call set_conditions(reference, directions, family, conditions)
+      call set_conditions(reference, directions, conditions)
       newton%last_change = huge(1.0_wp)
       do i = 1, newton%most_iterations
          newton%iterations = i
          call find_targets(reference, family, conditions, distances, orbit, target(:, 1))
-         call linearise_orbit(family, orbit, .false., newton%linear, error)
+         call linearise_orbit(family, orbit, newton%linear, error)
          if (allocated(error)) return
          call solve_conditions(newton%linear, conditions, 1.0_wp, target, change, error)
          if (allocated(error)) return
@@ -88,7 +88,7 @@ contains
          if (newton%last_change <= newton%tolerance &
              .or. (newton%last_change <= rounding .and. newton%last_change >= 0.5_wp*before)) then
             if (newton%last_change <= negligible) return
-            call linearise_orbit(family, orbit, .false., newton%linear, error)
+            call linearise_orbit(family, orbit, newton%linear, error)
             return
          end if
          if (.not. orbit%period > 0.0_wp) exit
@@ -100,19 +100,17 @@ contains
 
    !> Changes that keep an orbit one: tangents. Tangent i has the inner product 1 with
    !> direction i and 0 with the others.
-   subroutine find_tangents(family, orbit, directions, tangents, error, linear)
-      !> The model and its free parameters
-      type(family_type), intent(in) :: family
+   subroutine find_tangents(orbit, linear, directions, tangents, error)
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
+      !> Linear equations about it
+      type(orbit_passes_type), intent(in) :: linear
       !> Directions, one for each free parameter
       type(orbit_change_type), intent(in) :: directions(:)
       !> The tangents
       type(orbit_change_type), intent(out) :: tangents(:)
       !> The directions do not determine them
       type(error_type), allocatable, intent(out) :: error
-      !> Linear equations about the orbit, if they are known
-      type(orbit_passes_type), intent(in), optional :: linear
       type(orbit_change_type) :: conditions(1 + size(directions))
       type(orbit_passes_type) :: equations
       real(wp) :: targets(1 + size(directions), size(directions))
@@ -122,45 +120,37 @@ contains
       do i = 1, size(directions)
          targets(i + 1, i) = 1.0_wp
       end do
-      if (present(linear)) then
-         equations = linear
-      else
-         call linearise_orbit(family, orbit, .false., equations, error)
-         if (allocated(error)) return
-      end if
-      call set_conditions(orbit, directions, family, conditions)
+      equations = linear
+      call set_conditions(orbit, directions, conditions)
       call solve_conditions(equations, conditions, 0.0_wp, targets, tangents, error)
    end subroutine find_tangents
 
    !> The phase condition at an orbit, and a condition for each direction.
-   subroutine set_conditions(orbit, directions, family, conditions)
+   subroutine set_conditions(orbit, directions, conditions)
       type(periodic_orbit_type), intent(in) :: orbit
       type(orbit_change_type), intent(in) :: directions(:)
-      type(family_type), intent(in) :: family
       type(orbit_change_type), intent(out) :: conditions(:)
       integer :: i
 
-      conditions(1) = phase_condition(orbit, size(family%free))
+      conditions(1) = phase_condition(orbit, size(directions))
       do i = 1, size(directions)
          conditions(i + 1) = weights_of(orbit, directions(i))
       end do
    end subroutine set_conditions
 
    !> Turn a direction to the tangent of norm 1 whose inner product with it is positive.
-   subroutine turn_to_tangent(family, orbit, direction, error, linear)
-      !> The model and its free parameters
-      type(family_type), intent(in) :: family
+   subroutine turn_to_tangent(orbit, linear, direction, error)
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
+      !> Linear equations about it
+      type(orbit_passes_type), intent(in) :: linear
       !> The direction, then the tangent
       type(orbit_change_type), intent(inout) :: direction
       !> There is none
       type(error_type), allocatable, intent(out) :: error
-      !> Linear equations about the orbit, if they are known
-      type(orbit_passes_type), intent(in), optional :: linear
       type(orbit_change_type) :: tangent(1)
 
-      call find_tangents(family, orbit, [direction], tangent, error, linear)
+      call find_tangents(orbit, linear, [direction], tangent, error)
       if (allocated(error)) return
       direction = tangent(1)%times(1.0_wp/sqrt(inner_product(orbit, tangent(1), tangent(1))))
    end subroutine turn_to_tangent

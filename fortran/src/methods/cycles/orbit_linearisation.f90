@@ -39,15 +39,12 @@ module orbit_linearisation
 contains
 
    !> The equations about an orbit.
-   subroutine linearise_orbit(family, orbit, whole_past, self, error, further)
+   subroutine linearise_orbit(family, orbit, self, error, further)
       !> The model and its free parameters
       type(family_type), intent(in) :: family
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
-      !> Whether delays reach back over periods and no parameter is free, as is needed for
-      !> multipliers; otherwise delays are taken modulo the period
-      logical, intent(in) :: whole_past
-      !> The equations
+      !> The equations, with delays modulo the period
       type(orbit_passes_type), intent(out) :: self
       !> The right-hand side is not finite somewhere
       type(error_type), allocatable, intent(out) :: error
@@ -62,7 +59,7 @@ contains
       logical :: singular
 
       call family%at(orbit%parameters, problem)
-      allocate (beside(2, merge(0, size(family%free), whole_past)))
+      allocate (beside(2, size(family%free)))
       do p = 1, size(beside, 2)
          do i = 1, 2
             parameters = orbit%parameters
@@ -75,7 +72,7 @@ contains
       self%n = problem%n
       self%degree = orbit%basis%degree
       self%intervals = orbit%intervals()
-      call find_sources(self, problem, orbit, whole_past, slope)
+      call find_sources(self, problem, orbit, slope)
       forcings = 0
       if (present(further)) forcings = size(further, 4)
       associate (n => self%n, m => self%degree, delays => size(problem%lag), &
@@ -109,11 +106,10 @@ contains
    end subroutine linearise_orbit
 
    !> Where delayed values come from.
-   subroutine find_sources(self, problem, orbit, whole_past, slope)
+   subroutine find_sources(self, problem, orbit, slope)
       type(orbit_passes_type), intent(inout) :: self
       class(model_type), intent(in) :: problem
       type(periodic_orbit_type), intent(in) :: orbit
-      logical, intent(in) :: whole_past
       !> Weights of the slope of a delayed value, by the place in its interval; as `weight`
       real(wp), allocatable, intent(out) :: slope(:, :, :, :)
       real(wp) :: place, s, sigma
@@ -141,7 +137,7 @@ contains
                   if (interval > i .or. problem%lag(l) <= 0.0_wp) then
                      interval = i
                      place = (sigma - orbit%mesh(i))/(orbit%mesh(i + 1) - orbit%mesh(i))
-                  else if (interval < i .and. .not. whole_past) then
+                  else if (interval < i) then
                      self%later(l, k, i) = (i - 1 - interval)/self%intervals
                      interval = interval + self%later(l, k, i)*self%intervals
                   end if

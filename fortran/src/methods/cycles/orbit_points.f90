@@ -118,11 +118,10 @@ contains
       if (allocated(error)) deallocate (error)
       call find_orbit_at(settings%family, segment, 0.5_wp, middle, newton, error)
       if (allocated(error)) return
-      call find_multipliers(settings%family, middle, settings%refinement%multipliers, between, &
-                            error, linear=newton%linear)
+      call find_multipliers(newton%linear, settings%refinement%multipliers, between, error)
       if (allocated(error)) return
       tangent = segment%along(1)
-      call turn_to_tangent(settings%family, middle, tangent, error, newton%linear)
+      call turn_to_tangent(middle, newton%linear, tangent, error)
       if (allocated(error)) return
       sign_between = sign(1.0_wp, tangent%parameters(1))
       call search_between(settings, first, middle, [signs(1), sign_between], before, between, &
@@ -266,7 +265,7 @@ contains
       if (allocated(error)) return
       if (point%kind == fold) then
          tangent = segment%along(1)
-         call turn_to_tangent(settings%family, point%orbit, tangent, error, newton%linear)
+         call turn_to_tangent(point%orbit, newton%linear, tangent, error)
          g = tangent%parameters(1)
       else
          call judge_point(settings, point, newton%linear, g, error)

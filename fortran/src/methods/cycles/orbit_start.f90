@@ -12,7 +12,9 @@ module orbit_start
    use model_family, only: family_type
    use model_problem, only: model_type
    use orbit_change, only: orbit_change_type
+   use orbit_linearisation, only: linearise_orbit
    use orbit_mesh, only: adapted_mesh, uniform_mesh
+   use orbit_passes, only: orbit_passes_type
    use periodic_orbit, only: periodic_orbit_type
    use special_points, only: period_doubling, special_point_type
    implicit none (type, external)
@@ -183,6 +185,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       complex(wp), allocatable :: disturbances(:, :, :)
       type(multipliers_type) :: multipliers
+      type(orbit_passes_type) :: linear
       integer :: critical, last
 
       if (point%kind /= period_doubling) then
@@ -190,8 +193,9 @@ contains
                     //period_doubling//" expected")
          return
       end if
-      call find_multipliers(family, point%orbit, multipliers_wanted, multipliers, error, &
-                            disturbances)
+      call linearise_orbit(family, point%orbit, linear, error)
+      if (allocated(error)) return
+      call find_multipliers(linear, multipliers_wanted, multipliers, error, disturbances)
       if (allocated(error)) return
       critical = minloc(abs(multipliers%values + 1.0_wp), dim=1)
       last = size(point%orbit%nodes, 2)

@@ -21,7 +21,7 @@ module periodic_orbit
       real(wp), allocatable :: parameters(:)
    contains
       procedure :: intervals, locate, at, node_times, on_mesh, deviations, amplitude
-      procedure :: opposite_parts, comes_to_shorter, range_of, time_of_highest, functional
+      procedure :: opposite_parts, comes_to_shorter, range_of, find_highest, functional
    end type periodic_orbit_type
 
    !> Most turns of a shorter cycle that an orbit is compared with.
@@ -199,16 +199,7 @@ contains
       call find_highest(self, component, 1.0_wp, range(2), time)
    end function range_of
 
-   !> Time at which a component is greatest, in periods.
-   pure real(wp) function time_of_highest(self, component) result(time)
-      class(periodic_orbit_type), intent(in) :: self
-      integer, intent(in) :: component
-      real(wp) :: value
-
-      call find_highest(self, component, 1.0_wp, value, time)
-   end function time_of_highest
-
-   !> Maximum of a component times a sign.
+   !> Maximum of a component times a sign, and its time in periods.
    pure subroutine find_highest(self, component, sign, value, time)
       class(periodic_orbit_type), intent(in) :: self
       integer, intent(in) :: component

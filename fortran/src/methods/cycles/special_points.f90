@@ -117,8 +117,7 @@ contains
       type(multipliers_type) :: multipliers
 
       g = 0.0_wp
-      call find_multipliers(settings%family, point%orbit, settings%refinement%multipliers, &
-                            multipliers, error, linear=linear)
+      call find_multipliers(linear, settings%refinement%multipliers, multipliers, error)
       if (allocated(error)) return
       call test_value(point%kind, multipliers, point%multiplier, g)
       point%trivial_error = multipliers%trivial_error

@@ -40,8 +40,8 @@ module torus_normal_form
       procedure :: apply => defect_of_term
    end type term_map_type
 
-   !> Numbers of the forcing by the period, and of the one before the first further one.
-   integer, parameter :: of_period = 2, further = 2
+   !> Number of the forcing by the period; those by free parameters and further ones follow.
+   integer, parameter :: of_period = 2
    !> Residual of the linear equations
    real(wp), parameter :: tolerance = 1.0e-11_wp
 
@@ -68,12 +68,16 @@ contains
       type(multipliers_type) :: found
       type(orbit_change_type) :: phase
       type(term_map_type) :: map
-      integer :: critical, i
+      integer :: critical, further, i
+      real(wp) :: highest, time
 
       coefficient = 0.0_wp
       disturbed = 0.0_wp
-      call find_multipliers(family, orbit, wanted, found, error, disturbances)
+      call linearise_orbit(family, orbit, map%linear, error)
       if (allocated(error)) return
+      call find_multipliers(map%linear, wanted, found, error, disturbances)
+      if (allocated(error)) return
+      further = of_period + size(family%free)
       critical = minloc(abs(found%values - multiplier), dim=1)
       call family%at(orbit%parameters, x%problem)
       x%orbit = orbit
@@ -84,11 +88,12 @@ contains
          x%nodes(:, :, q) = q_nodes/sqrt(real(sum(weights_with(orbit, q_nodes)*q_nodes)))
       end associate
       do i = 1, size(disturbed)
-         terms = x%terms_at(orbit%time_of_highest(i))
+         call orbit%find_highest(i, 1.0_wp, highest, time)
+         terms = x%terms_at(time)
          disturbed(i) = abs(terms(i, q))
       end do
 
-      call linearise_orbit(family, orbit, .true., map%linear, error, x%second_order())
+      call linearise_orbit(family, orbit, map%linear, error, x%second_order())
       if (allocated(error)) return
       map%multiplier = x%multiplier(h20)
       map%given = further + [1, 2]
@@ -104,7 +109,7 @@ contains
       if (allocated(error)) return
       x%a = -real(a)
 
-      call linearise_orbit(family, orbit, .true., map%linear, error, x%third_order())
+      call linearise_orbit(family, orbit, map%linear, error, x%third_order())
       if (allocated(error)) return
       map%multiplier = x%multiplier(q)
       map%given = further + [1, 2]
@@ -141,6 +146,7 @@ contains
       real(wp), allocatable :: parts(:, :, :), right(:), solution(:)
 
       associate (linear => map%linear)
+         call linear%reach_back()
          allocate (parts(size(nodes, 1), size(nodes, 2), 2), source=0.0_wp)
          if (allocated(map%condition)) then
             parts(:, :, 1) = real(map%condition)
@@ -178,8 +184,9 @@ contains
       !> Real and imaginary part of the nodes, shape (n, nodes, 2)
       real(wp), intent(out), optional :: nodes(:, :, :)
       complex(wp) :: past(self%linear%past_size()), unknown
-      real(wp) :: factor(0:6, 2), later(size(past), 2), sums(2, 2)
-      integer :: i, last
+      real(wp) :: factor(0:size(self%linear%response, 1) - self%linear%inputs(), 2)
+      real(wp) :: later(size(past), 2), sums(2, 2)
+      integer :: i
 
       associate (n => size(past))
          past = cmplx(vector(:n), vector(n + 1:2*n), kind=wp)
@@ -189,13 +196,12 @@ contains
          factor(self%unknown, 2) = [aimag(unknown), real(unknown)]
          factor(self%given(1), 1) = given
          factor(self%given(2), 2) = given
-         last = size(self%linear%response, 1) - self%linear%inputs()
          do i = 1, 2
             if (present(nodes)) then
-               call self%linear%pass(vector((i - 1)*n + 1:i*n), factor(1:last, i), later(:, i), &
+               call self%linear%pass(vector((i - 1)*n + 1:i*n), factor(1:, i), later(:, i), &
                                      sums(:, i), nodes(:, :, i))
             else
-               call self%linear%pass(vector((i - 1)*n + 1:i*n), factor(1:last, i), later(:, i), &
+               call self%linear%pass(vector((i - 1)*n + 1:i*n), factor(1:, i), later(:, i), &
                                      sums(:, i))
             end if
          end do

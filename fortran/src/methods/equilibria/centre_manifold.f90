@@ -99,8 +99,7 @@ contains
          unit_index(i) = 1
          j = series%place(unit_index)
          series%polynomial(:, 0, j) = q
-         series%history(:, :, j) = values_at_lags(series%polynomial(:, :, j), series%s(i), &
-                                                  linear%lag)
+         series%history(:, :, j) = linear%history(series%polynomial(:, :, j), series%s(i))
       end do
    end subroutine set_first_order
 
@@ -127,7 +126,7 @@ contains
          end do
          right = -rest(:, 0)
          call add_products(model, series, m, [integer ::], right)
-         at_lags = values_at_lags(integral, s, linear%lag)
+         at_lags = linear%history(integral, s)
          do i = 1, size(linear%lag)
             right = right + matmul(linear%a(:, :, i), at_lags(:, i))
          end do
@@ -138,7 +137,7 @@ contains
             call solve_resonant()
          end if
          series%polynomial(:, :, term) = integral
-         series%history(:, :, term) = values_at_lags(integral, s, linear%lag)
+         series%history(:, :, term) = linear%history(integral, s)
       end associate
 
    contains
@@ -235,24 +234,6 @@ contains
                  reshape(right/row_size, shape(answer)), answer, error)
       solution = answer(:, 1)
    end subroutine solve_scaled
-
-   !> exp(s a) sum_d polynomial(:, d) a^d at a = -lag for all lags.
-   pure function values_at_lags(polynomial, s, lag) result(values)
-      !> Coefficients, shape (n, 0:degree)
-      complex(wp), intent(in) :: polynomial(:, 0:)
-      complex(wp), intent(in) :: s
-      real(wp), intent(in) :: lag(:)
-      complex(wp) :: values(size(polynomial, 1), size(lag))
-      integer :: d, i
-
-      values = 0.0_wp
-      do i = 1, size(lag)
-         do d = ubound(polynomial, 2), 0, -1
-            values(:, i) = polynomial(:, d) - lag(i)*values(:, i)
-         end do
-         values(:, i) = exp(-s*lag(i))*values(:, i)
-      end do
-   end function values_at_lags
 
    !> Position of a multi-index among the terms.
    pure integer function place(self, m) result(number)

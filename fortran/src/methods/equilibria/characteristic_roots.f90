@@ -1,7 +1,6 @@
 !> Characteristic roots of a linear delay system: Chebyshev collocation of the infinitesimal
 !> generator (Breda, Maset and Vermiglio 2005), each eigenvalue refined by Newton's method on
-!> det Delta(s). The number of nodes grows until the expected number of roots is found or, if that
-!> number is not known, until twice as many nodes change nothing.
+!> det Delta(s). The number of nodes grows until the expected number of roots is found.
 module characteristic_roots
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
@@ -28,47 +27,37 @@ contains
 
    !> All simple roots with real part above `bound`, the rightmost first; of a pair, the one above
    !> the real axis first.
-   subroutine find_roots(system, bound, roots, error, expected)
+   subroutine find_roots(system, bound, expected, roots, error)
       !> The system
       type(linear_system_type), intent(in) :: system
       !> Least real part
       real(wp), intent(in) :: bound
+      !> Number of roots by the principle of the argument
+      integer, intent(in) :: expected
       !> The roots
       complex(wp), allocatable, intent(out) :: roots(:)
-      !> The expected number is not found, or twice the nodes give other roots
+      !> Another number is found
       type(error_type), allocatable, intent(out) :: error
-      !> Number of roots, if it is known
-      integer, intent(in), optional :: expected
-      complex(wp), allocatable :: approximate(:), before(:)
+      complex(wp), allocatable :: approximate(:)
       integer :: intervals
 
       intervals = first_intervals
-      if (present(expected)) then
-         ! with one delayed component, fewer intervals do not resolve all roots
-         do while (intervals < expected)
-            intervals = 2*intervals
-         end do
-      end if
+      ! with one delayed component, fewer intervals do not resolve all roots
+      do while (intervals < expected)
+         intervals = 2*intervals
+      end do
+      allocate (roots(0))
       do while (intervals <= most_intervals)
          call approximate_roots(system, intervals, approximate, error)
          if (allocated(error)) return
          roots = refine_roots(system, bound, approximate)
-         if (present(expected)) then
-            if (size(roots) == expected) return
-         else if (maxval(system%lag) <= 0.0_wp) then
-            return
-         end if
-         if (allocated(before)) then
-            if (size(before) == size(roots)) then
-               if (all(abs(roots - before) <= same_root*(1.0_wp + abs(roots)))) return
-            end if
-         end if
-         call move_alloc(roots, before)
+         if (size(roots) == expected) return
          intervals = 2*intervals
       end do
-      call raise(error, "find_roots: the roots with real part above "//text(bound) &
-                 //" are not found with "//text(most_intervals)//" intervals and lag " &
-                 //text(maxval(system%lag))//"; a bound nearer to 0 expected")
+      call raise(error, "find_roots: "//text(size(roots))//" simple roots instead of " &
+                 //text(expected)//" with real part above "//text(bound)//" are found with " &
+                 //text(most_intervals)//" intervals and lag "//text(maxval(system%lag)) &
+                 //"; a bound nearer to 0 expected")
    end subroutine find_roots
 
    !> The eigenvalues s of the scaled generator, M s x = G x.
@@ -188,20 +177,10 @@ contains
          after = count(real(roots) >= real(s))
          roots = [roots(:after), s, roots(after + 1:)]
       end do
-      roots = [(with_partner(roots(i)), i=1, size(roots))]
+      ! those above the real axis with their partners
+      roots = pack([(roots(i), conjg(roots(i)), i=1, size(roots))], &
+                   [(.true., aimag(roots(i)) > 0.0_wp, i=1, size(roots))])
    end function refine_roots
-
-   !> A root above the real axis and its conjugate, or a real root alone.
-   pure function with_partner(s) result(both)
-      complex(wp), intent(in) :: s
-      complex(wp), allocatable :: both(:)
-
-      if (aimag(s) > 0.0_wp) then
-         both = [s, conjg(s)]
-      else
-         both = [s]
-      end if
-   end function with_partner
 
    !> Newton's method on det Delta(s), whose logarithm has the derivative trace(Delta^-1 Delta').
    subroutine follow_newton(system, start, s, found)

@@ -16,7 +16,7 @@ module linear_system
       !> Lags, each >= 0
       real(wp), allocatable :: lag(:)
    contains
-      procedure :: characteristic_matrix, characteristic_slope
+      procedure :: characteristic_matrix, characteristic_slope, history
    end type linear_system_type
 
 contains
@@ -105,4 +105,22 @@ contains
          matrix = matrix + self%a(:, :, i)*(self%lag(i)*exp(-s*self%lag(i)))
       end do
    end function characteristic_slope
+
+   !> exp(s a) sum_d polynomial(:, d) a^d at a = -lag for all lags, shape (n, lags).
+   pure function history(self, polynomial, s) result(values)
+      class(linear_system_type), intent(in) :: self
+      !> Coefficients, shape (n, 0:degree)
+      complex(wp), intent(in) :: polynomial(:, 0:)
+      complex(wp), intent(in) :: s
+      complex(wp) :: values(size(polynomial, 1), size(self%lag))
+      integer :: d, i
+
+      values = 0.0_wp
+      do i = 1, size(self%lag)
+         do d = ubound(polynomial, 2), 0, -1
+            values(:, i) = polynomial(:, d) - self%lag(i)*values(:, i)
+         end do
+         values(:, i) = exp(-s*self%lag(i))*values(:, i)
+      end do
+   end function history
 end module linear_system

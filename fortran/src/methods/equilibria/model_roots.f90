@@ -57,8 +57,7 @@ contains
                        //"; a bound nearer to 0 expected")
             return
          end if
-         call find_roots(linear_part(block), bound, of_mode, error, &
-                         expected=roots_right_of(c, bound))
+         call find_roots(linear_part(block), bound, roots_right_of(c, bound), of_mode, error)
          if (allocated(error)) return
          do j = 1, size(of_mode)
             k = count(real(roots) >= real(of_mode(j)))

@@ -38,7 +38,7 @@ contains
       linear = linear_part(model)
       call critical_vectors(linear, s, q, p, error)
       if (allocated(error)) return
-      phi = history_of(q, s, linear%lag)
+      phi = linear%history(reshape(q, [size(q), 1]), s)
       call find_response(linear, 2.0_wp*s, second(phi, phi), history_20, error)
       if (allocated(error)) return
       call find_response(linear, (0.0_wp, 0.0_wp), second(phi, conjg(phi)), history_11, error)
@@ -89,20 +89,6 @@ contains
       complex(wp) :: answer(size(forcing), 1)
 
       call solve(linear%characteristic_matrix(s), reshape(forcing, shape(answer)), answer, error)
-      history = history_of(answer(:, 1), s, linear%lag)
+      history = linear%history(answer, s)
    end subroutine find_response
-
-   !> amplitude exp(-s lag) for all lags.
-   pure function history_of(amplitude, s, lag) result(history)
-      !> Amplitude, shape (n)
-      complex(wp), intent(in) :: amplitude(:)
-      complex(wp), intent(in) :: s
-      real(wp), intent(in) :: lag(:)
-      complex(wp) :: history(size(amplitude), size(lag))
-      integer :: i
-
-      do i = 1, size(lag)
-         history(:, i) = amplitude*exp(-s*lag(i))
-      end do
-   end function history_of
 end module normal_form

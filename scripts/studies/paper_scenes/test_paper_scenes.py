@@ -1,15 +1,15 @@
-"""Power spectra: verdicts on made-up ones, and how they are drawn."""
+"""Power spectra: verdicts on made-up ones, and how they are drawn; numbers of portraits."""
 
 import numpy as np
 import pytest
 import xarray as xr
 from figure_contents import points_in
-from made_up_results import NO, PARTLY, YES, Results, spectrum
+from made_up_results import NO, PARTLY, YES, Results, attractor_row, spectrum
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 
-from scripts.studies.power_spectra import figure as figure_6
-from scripts.studies.power_spectra.claims import single_peak, spectrum_class
+from scripts.studies.paper_scenes import portraits, spectra
+from scripts.studies.paper_scenes.claims import single_peak, spectrum_class
 
 
 @pytest.mark.parametrize(
@@ -66,7 +66,7 @@ def draw_spectrum(*peaks: tuple[float, float, int, int, int]) -> Axes:
     attributes = {"scene": "made_up", "line_share": 0.75, "spectrum_kind": "undecided"}
     spectrum = xr.Dataset(data, {"frequency": frequency}, attributes)
     settings = {"rows": {"a": {"paper": "word"}}, "frequency_shown": 0.5}
-    return figure_6.draw([spectrum], settings).axes[0]
+    return spectra.draw([spectrum], settings).axes[0]
 
 
 def test_peaks_are_named_by_kind():
@@ -89,3 +89,22 @@ def test_peaks_beside_a_higher_one_get_a_dot_only():
     axes = draw_spectrum(BASE, beside, beside_a_dot, beyond)
     assert [text.get_text() for text in axes.texts] == ["$f_1$\n0.1000"]
     assert {x for x, *_ in points_in(axes)} == {0.1, 0.13, 0.155}
+
+
+def test_numbers_of_trajectories():
+    """Maxima on the attractor, not on a part of the run, the class and the period."""
+    time = np.arange(0.0, 20.0, 0.1)
+    v = 1 + np.where(time < 9.9, 3.0, 0.5) * np.cos(2 * np.pi * 0.1 * time)
+    settings = {"rows": {"a": {"scene": "mine"}}, "end_shown": 10.0}
+
+    def row_where(*table: dict) -> dict:
+        trajectory = xr.Dataset({"v": ("t", v)}, {"t": time})
+        return portraits.numbers([trajectory], list(table), settings)["rows"]["a"]
+
+    peaks = {"smallest_maximum": 2e9, "largest_maximum": 2e9}
+    cycle = row_where(attractor_row("cycle", **peaks), attractor_row("chaos", history=2))
+    words = "maxima of v are :math:`2 \\times 10^{9}` with a period of 10"
+    assert cycle == {"motion": "limit cycle", "end": words}
+    rest = row_where(attractor_row("fixed point"))
+    assert rest["end"] == "at the end v is 0.5 or less from steady sliding, :math:`v = 1`"
+    assert row_where(attractor_row("torus", "other"))["motion"] == "unknown"

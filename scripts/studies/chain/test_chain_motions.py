@@ -1,14 +1,25 @@
-"""Motions of chains: the table and its figure."""
+"""Motions of chains: modes, the claim, the table and its figure."""
 
 import numpy as np
 import pytest
+from independent_chain import made_up_chain
 
+from scripts.claims.claims_results import NOT_REPRODUCED, REPRODUCED, Results
 from scripts.config.check_config import checked
 from scripts.namelists.program_groups import scene_groups
 from scripts.plans.studies import studies
-from scripts.studies.chain_motions import figure as chain_exponents
-from scripts.studies.chain_motions.finding import describe
-from scripts.studies.chain_motions.table import exponents_of, motion_of, motion_row
+from scripts.studies.chain import exponents_figure
+from scripts.studies.chain.claims import blocks_differ
+from scripts.studies.chain.finding import describe
+from scripts.studies.chain.table import (
+    exponents_of,
+    motion_of,
+    motion_row,
+    moves_alike,
+    powers_of,
+    rests,
+    strongest_mode,
+)
 
 (EXPONENTS,) = studies()["exponents"].runs
 
@@ -100,16 +111,16 @@ ROWS = [
 def test_figure_has_a_line_for_each_chaotic_chain():
     """Over (number - 1/2)/blocks; the count of positive ones over the blocks."""
     rows = [{**PLACE, "motion": "pattern", "unclear_exponents": 2, **row} for row in ROWS]
-    spectra, counts = chain_exponents.draw(rows).axes
+    spectra, counts = exponents_figure.draw(rows).axes
     lines = [line.get_xdata().tolist() for line in spectra.lines[:2]]
     assert lines == [[0.25, 0.75, 1.25], [0.125, 0.375, 0.625]]
     (line,) = counts.lines
     assert (list(line.get_xdata()), list(line.get_ydata())) == ([2, 4], [1, 3])
     (bars,) = counts.collections
     assert [bar[:, 1].tolist() for bar in bars.get_segments()] == [[1, 3], [3, 5]]
-    (family,) = chain_exponents.numbers(rows)["families"]
+    (family,) = exponents_figure.numbers(rows)["families"]
     assert "1 and 2 unclear of 2 blocks" in family["counts"]
-    assert chain_exponents.numbers(rows)["others"] == [
+    assert exponents_figure.numbers(rows)["others"] == [
         r"torus (2 blocks, :math:`\kappa` = 9): pattern"
     ]
 
@@ -126,3 +137,29 @@ def test_finding_follows_the_table(holds):
     assert found["title"].startswith("In chains" if holds else "Chains of blocks are not")
     assert ("9 blocks with $tau = 7$ have at least 5 positive Lyapunov" in found["words"]) is holds
     assert ("Without delay 11 blocks have at least 2 positive" in found["words"]) is holds
+
+
+def test_chains_that_move_alike_do_not_show_that_more_blocks_differ():
+    """The verdict is what the chains do."""
+    alike = made_up_chain(np.outer(np.sin(np.arange(30.0)), np.ones(4)))
+    still = made_up_chain(np.zeros((30, 4)))
+    differ = made_up_chain(np.outer(np.sin(np.arange(30.0)), [1.0, -1.0, 0.5, 2.0]))
+    assert moves_alike(alike)
+    assert rests(still)
+    for other, verdict in ((still, NOT_REPRODUCED), (differ, REPRODUCED)):
+        results = Results(trajectories={"a": alike, "b": other})
+        assert blocks_differ(results, scenes=["a", "b"]).verdict == verdict
+
+
+@pytest.mark.parametrize("ends", ["free", "ring", "plate"])
+def test_strongest_mode(ends):
+    """A standing wave has all its power in its mode."""
+    j, mode = np.arange(1, 9), 3
+    shapes = {
+        "free": np.cos(np.pi * mode * (j - 0.5) / 8),
+        "ring": np.cos(2 * np.pi * mode * j / 8),
+        "plate": np.sin(np.pi * mode * j / 9),
+    }
+    chain = made_up_chain(np.outer(np.cos(np.linspace(0, 20, 50)), shapes[ends]), ends)
+    assert strongest_mode(chain) == (mode, pytest.approx(1))
+    assert powers_of(chain).max() > 0.1

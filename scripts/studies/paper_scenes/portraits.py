@@ -1,4 +1,4 @@
-"""The drawing of plans/figure_4.py, and the numbers of its caption."""
+"""The drawing of velocity and phase portrait (Figures 4 and 5), and the numbers of its caption."""
 
 import xarray as xr
 from matplotlib import pyplot as plt

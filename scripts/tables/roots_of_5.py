@@ -6,7 +6,7 @@ Written apart from the Fortran programs, which count them by the argument princi
 import numpy as np
 
 
-def unstable_pairs(*, epsilon: float, tau: float, xi: float, gamma: float) -> int:
+def unstable_pairs(epsilon: float, tau: float, xi: float, gamma: float) -> int:
     """Pairs of roots of (5) with a positive real part.
 
     (5) is p(s) = c s exp(-s tau) with p = s^3 + a s^2 + b s + gamma^2. Without delay the criterion

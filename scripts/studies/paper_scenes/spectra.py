@@ -1,4 +1,4 @@
-"""The drawing of plans/figure_6.py, and the numbers of its caption."""
+"""The drawing of power spectra (Figures 6 and 7), and the numbers of its caption."""
 
 import xarray as xr
 from matplotlib import pyplot as plt
