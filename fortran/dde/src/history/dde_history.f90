@@ -66,7 +66,7 @@ module dde_history
       procedure, non_overridable :: start_of, length_of, validity_of, value, values, series
       procedure, non_overridable :: append, open_step, fill, make_room, recall, forget
       procedure, non_overridable :: degree_in_use
-      procedure, non_overridable, private :: double_capacity, is_full, slot_of
+      procedure, non_overridable, private :: double_capacity, is_full
    end type history_type
 
    interface history_type
@@ -110,7 +110,7 @@ contains
       class(history_type), intent(in) :: self
       integer(int64), intent(in) :: step
 
-      start = self%slots(self%slot_of(step))%start
+      start = self%slots(slot_of(self, step))%start
    end function start_of
 
    !> Length of a step.
@@ -118,7 +118,7 @@ contains
       class(history_type), intent(in) :: self
       integer(int64), intent(in) :: step
 
-      length = self%slots(self%slot_of(step))%length
+      length = self%slots(slot_of(self, step))%length
    end function length_of
 
    !> Time from the start of a step for which its polynomial is valid, >= its length.
@@ -126,7 +126,7 @@ contains
       class(history_type), intent(in) :: self
       integer(int64), intent(in) :: step
 
-      time = self%slots(self%slot_of(step))%valid_for
+      time = self%slots(slot_of(self, step))%valid_for
    end function validity_of
 
    !> Delayed value number k by the polynomial of a step, at a time since the start of that step.
@@ -136,7 +136,7 @@ contains
       integer, intent(in) :: k
       real(wp), intent(in) :: time
 
-      associate (slot => self%slots(self%slot_of(step)))
+      associate (slot => self%slots(slot_of(self, step)))
          z = newton_value(slot%degree, slot%nodes, self%stored(slot%place)%a(:, self%row(k)), &
                           time/slot%length)
       end associate
@@ -157,7 +157,7 @@ contains
       !> The delayed value at all times, shape (size(ahead))
       real(wp), contiguous, intent(inout) :: z(:)
 
-      associate (slot => self%slots(self%slot_of(step)))
+      associate (slot => self%slots(slot_of(self, step)))
          call newton_values(slot%degree, slot%nodes, self%stored(slot%place)%a(:, self%row(k)), &
                             offset, slot%length, limit, size(ahead), ahead, first, z)
       end associate
@@ -175,7 +175,7 @@ contains
       real(wp), contiguous, intent(out) :: coefficients(0:)
       real(wp) :: place
 
-      associate (slot => self%slots(self%slot_of(step)))
+      associate (slot => self%slots(slot_of(self, step)))
          place = time/slot%length
          if (abs(place) < hidden) place = 0.0_wp
          call taylor_coefficients(slot%degree, slot%nodes, slot%powers, &
@@ -245,7 +245,7 @@ contains
       if (self%is_full()) call self%double_capacity()
       self%newest = self%newest + 1
       if (self%spare < self%oldest) then
-         associate (dropped => self%slots(self%slot_of(self%spare)))
+         associate (dropped => self%slots(slot_of(self, self%spare)))
             place = dropped%place
             if (dropped%degree /= size(nodes)) deallocate (self%stored(place)%a)
          end associate
@@ -258,7 +258,7 @@ contains
          allocate (self%stored(place)%a(0:stored_degree(size(nodes)), size(self%kept)), &
                    source=0.0_wp)
       end if
-      associate (slot => self%slots(self%slot_of(self%newest)))
+      associate (slot => self%slots(slot_of(self, self%newest)))
          slot%place = place
          slot%start = start
          slot%length = length
@@ -278,7 +278,7 @@ contains
       !> Newton coefficients, shape (0:degree)
       real(wp), contiguous, intent(in) :: coefficients(0:)
 
-      associate (place => self%slots(self%slot_of(self%newest))%place)
+      associate (place => self%slots(slot_of(self, self%newest))%place)
          self%stored(place)%a(:ubound(coefficients, 1), i) = coefficients
       end associate
    end subroutine fill
@@ -296,7 +296,7 @@ contains
       !> Newton coefficients of the kept components, shape (0:size(nodes), kept)
       real(wp), intent(out) :: coefficients(0:, :)
 
-      associate (slot => self%slots(self%slot_of(step)))
+      associate (slot => self%slots(slot_of(self, step)))
          start = slot%start
          length = slot%length
          valid_for = slot%valid_for
@@ -327,7 +327,7 @@ contains
 
       degree = 0
       do step = self%oldest, self%newest
-         degree = max(degree, self%slots(self%slot_of(step))%degree)
+         degree = max(degree, self%slots(slot_of(self, step))%degree)
       end do
    end function degree_in_use
 
