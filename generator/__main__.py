@@ -12,9 +12,9 @@ import argparse
 import sys
 from pathlib import Path
 
-from generator.compile import COMPILER, FLAGS, CompileError, compile_module
-from generator.definition import ModelError, read_files
-from generator.module import write_interface, write_module
+from .compile import COMPILER, FLAGS, CompileError, compile_module
+from .definition import ModelError, read_files
+from .module import write_interface, write_module
 
 
 def main() -> None:

@@ -8,7 +8,7 @@ values are in the same order. What blocks keep between orders has a slot for eac
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from generator.definition import Model
+from .definition import Model
 
 
 @dataclass(frozen=True)

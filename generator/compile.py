@@ -5,7 +5,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from generator.module import SUPPORT
+from .module import SUPPORT
 
 KINDS = Path(__file__).parents[1] / "fortran" / "dde" / "src" / "api" / "dde_kinds.f90"
 SHARED = [

@@ -16,7 +16,7 @@ import sympy
 from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
 
-from generator.fortran import FUNCTIONS, in_words
+from .fortran import FUNCTIONS, in_words
 
 TIME = sympy.Symbol("t", real=True)
 MODE = sympy.Symbol("self%mode", real=True)

@@ -12,12 +12,12 @@ the sums in registers.
 
 from dataclasses import dataclass, field
 
-from generator.address import Address
-from generator.definition import Model
-from generator.flow import Flow, exponential_lines, integral_of
-from generator.fortran import indented
-from generator.graph import Node, in_order
-from generator.recurrences import Constants, Recurrences, weighted_sum
+from .address import Address
+from .definition import Model
+from .flow import Flow, exponential_lines, integral_of
+from .fortran import indented
+from .graph import Node, in_order
+from .recurrences import Constants, Recurrences, weighted_sum
 
 
 @dataclass

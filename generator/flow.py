@@ -10,10 +10,10 @@ from dataclasses import dataclass
 
 import sympy
 
-from generator.definition import LARGEST_EXPONENT, TIME, Model
-from generator.fortran import indented, text_of
-from generator.graph import Graph, Node, convolutions
-from generator.recurrences import Constants, fetch_parameters, names_of_parameters
+from .definition import LARGEST_EXPONENT, TIME, Model
+from .fortran import indented, text_of
+from .graph import Graph, Node, convolutions
+from .recurrences import Constants, fetch_parameters, names_of_parameters
 
 REFUSED = {
     sympy.log: ".not. {} > 0.0_wp",

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import sympy
 from sympy.codegen.cfunctions import expm1, log1p
 
-from generator.definition import Model
+from .definition import Model
 
 
 @dataclass(eq=False)

@@ -5,14 +5,14 @@ from pathlib import Path
 
 import jinja2
 
-from generator import pointwise, rest
-from generator.address import couplings
-from generator.definition import Model
-from generator.flow import Flow, Procedure, flow_of, rate_of_auxiliary, with_parameters
-from generator.fortran import in_words, text_of, wrapped
-from generator.series import series_procedure
-from generator.slow import Balance, balance_of
-from generator.tangents import tangent_series_procedure
+from . import pointwise, rest
+from .address import couplings
+from .definition import Model
+from .flow import Flow, Procedure, flow_of, rate_of_auxiliary, with_parameters
+from .fortran import in_words, text_of, wrapped
+from .series import series_procedure
+from .slow import Balance, balance_of
+from .tangents import tangent_series_procedure
 
 LONGEST = 70
 """Letters of a character constant on one line."""

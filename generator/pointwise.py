@@ -2,12 +2,12 @@
 
 import sympy
 
-from generator.address import Address
-from generator.definition import Model
-from generator.flow import Procedure, guard_names, refusals, with_parameters
-from generator.fortran import indented, text_of
-from generator.recurrences import fetch_parameters, names_of_parameters
-from generator.slow import Balance
+from .address import Address
+from .definition import Model
+from .flow import Procedure, guard_names, refusals, with_parameters
+from .fortran import indented, text_of
+from .recurrences import fetch_parameters, names_of_parameters
+from .slow import Balance
 
 
 def of_all_blocks(model: Model, result: str, lines: list[str], names: list[str]) -> Procedure:

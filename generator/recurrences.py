@@ -20,9 +20,9 @@ from dataclasses import dataclass, field
 
 import sympy
 
-from generator.definition import Model
-from generator.fortran import text_of
-from generator.graph import Node
+from .definition import Model
+from .fortran import text_of
+from .graph import Node
 
 
 @dataclass

@@ -7,9 +7,9 @@ their place where there are any.
 
 import sympy
 
-from generator.definition import MODE, Model
-from generator.flow import Procedure, refusals, with_parameters
-from generator.fortran import indented, text_of
+from .definition import MODE, Model
+from .flow import Procedure, refusals, with_parameters
+from .fortran import indented, text_of
 
 
 def at(model: Model, array: str = "state") -> dict[sympy.Expr, str]:

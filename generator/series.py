@@ -6,9 +6,9 @@ when the front is at i + k: a few tiles are computed in turn and stay in the cac
 within a tile or in the next ones.
 """
 
-from generator.address import Address
-from generator.definition import Model
-from generator.flow import (
+from .address import Address
+from .definition import Model
+from .flow import (
     Procedure,
     exponential_lines,
     flow_of,
@@ -17,10 +17,10 @@ from generator.flow import (
     input_names,
     refusals,
 )
-from generator.fortran import indented
-from generator.graph import in_order
-from generator.recurrences import Constants, Recurrences
-from generator.slow import Balance, inertia_lines
+from .fortran import indented
+from .graph import in_order
+from .recurrences import Constants, Recurrences
+from .slow import Balance, inertia_lines
 
 
 class Series:

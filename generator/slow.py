@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import sympy
 
-from generator.definition import Model
-from generator.recurrences import Constants, weighted_sum
+from .definition import Model
+from .recurrences import Constants, weighted_sum
 
 
 @dataclass

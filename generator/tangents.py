@@ -4,14 +4,14 @@ Blocks of a chain are computed one at a time: block i is at order k when the fro
 i + k reach, where neighbours are up to `reach` places apart.
 """
 
-from generator.address import Address
-from generator.definition import Model
-from generator.disturbances import Disturbances, base_series, lane_inputs
-from generator.flow import Procedure, exponential_lines, flow_of, flow_with, integral_of
-from generator.fortran import indented
-from generator.graph import in_order
-from generator.recurrences import Constants
-from generator.slow import Balance, inertia_lines
+from .address import Address
+from .definition import Model
+from .disturbances import Disturbances, base_series, lane_inputs
+from .flow import Procedure, exponential_lines, flow_of, flow_with, integral_of
+from .fortran import indented
+from .graph import in_order
+from .recurrences import Constants
+from .slow import Balance, inertia_lines
 
 
 def growth_lines(model: Model, balance: Balance, at: Address) -> list[str]:

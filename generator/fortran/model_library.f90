@@ -14,7 +14,10 @@ module model_library
    use model_problem, only: code_type, model_type
    implicit none (type, external)
    private
-   public :: list_models, open_model, open_object
+   public :: folders_given, list_models, open_model, open_object, path_of_model
+
+   !> Folders of models with colons between them, in place of those of the environment.
+   character(len=:), allocatable, save :: folders_given
 
    !> Letters of paths, and of lists of names.
    integer, parameter :: path_length = 4096
@@ -66,7 +69,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: path
 
-      path = path_of(name)
+      path = path_of_model(name)
       if (path == "") then
          call raise(error, "no model '"//name//"' in "//model_folders())
          return
@@ -132,7 +135,7 @@ contains
    end function list_models
 
    !> Path of the object of a model; empty if there is none. A name is no path.
-   function path_of(name) result(path)
+   function path_of_model(name) result(path)
       character(len=*), intent(in) :: name
       character(len=:), allocatable :: path, rest
       integer :: at
@@ -149,7 +152,7 @@ contains
          rest = rest(at + 1:)
       end do
       path = ""
-   end function path_of
+   end function path_of_model
 
    !> The folders of models, with colons between them.
    function model_folders() result(folders)
@@ -158,6 +161,10 @@ contains
       character(kind=c_char, len=path_length) :: program
       integer :: length
 
+      if (allocated(folders_given)) then
+         folders = folders_given
+         return
+      end if
       call get_environment_variable("MODELS", value, length)
       if (length > 0) then
          folders = trim(value)

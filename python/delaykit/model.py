@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from delaykit import objects, runs, scans
+from delaykit import methods, objects, runs, scans
 from delaykit.arguments import ENDS, number_of
 from delaykit.errors import ModelError, check_name
 from delaykit.library import LIBRARY, address, open_object
@@ -78,7 +78,7 @@ class Model:
         """The model that files of the generator define together; later ones replace."""
         from ruamel.yaml import YAML
 
-        from generator.definition import overlaid
+        from delaykit.generator.definition import overlaid
 
         whole: dict = {}
         for path in paths:
@@ -168,6 +168,38 @@ class Model:
     def scan(self, measure="maxima", **options):
         """What is measured of runs over arrays of parameters; `scans.scan` explains it."""
         return scans.scan(self, measure, **options)
+
+    def exponents(self, history, count=4, **options):
+        """Lyapunov exponents; `methods.exponents` explains them."""
+        return methods.exponents(self, history, count, **options)
+
+    def attractor(self, history, **options):
+        """The class of a motion; `methods.attractor` explains it."""
+        return methods.attractor(self, history, **options)
+
+    def roots(self, bound=-1.0, **options):
+        """Characteristic roots at rest; `methods.roots` explains them."""
+        return methods.roots(self, bound, **options)
+
+    def hopf(self, along, window, **options):
+        """Hopf curves in a plane; `methods.hopf` explains them."""
+        return methods.hopf(self, along, window, **options)
+
+    def cycle(self, start, along, window, **options):
+        """Branches of cycles; `methods.cycle` explains them."""
+        return methods.cycle(self, start, along, window, **options)
+
+    def resting(self, near: Mapping | None) -> "Model":
+        """The model with a state at rest, looked for near a guess unless it has one."""
+        if near is None:
+            return self
+        other = object.__new__(type(self))
+        other.__dict__.update(self.__dict__)
+        other.__dict__.pop("path", None)
+        other.__dict__.pop("handle", None)
+        guess = {key: number_of(f"near {key}", value) for key, value in near.items()}
+        other.definition = {**self.definition, "steady_state": {"near": guess}}
+        return other
 
 
 def plain(value):

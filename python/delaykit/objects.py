@@ -44,14 +44,14 @@ def compiled(definition: dict) -> Path:
     digest = hashlib.sha256()
     for part in (__version__, compiler_version(COMPILER), json.dumps(definition)):
         digest.update(part.encode() + b"\0")
-    path = cache() / f"{definition['name']}_{digest.hexdigest()[:24]}.so"
+    path = cache() / f"m{digest.hexdigest()[:24]}.so"
     if path.exists():
         return path
     # SymPy takes half a second, which an object in the cache does not need
-    from generator.compile import CompileError, compile_module
-    from generator.definition import ModelError as DefinitionError
-    from generator.definition import read_model
-    from generator.module import write_module
+    from delaykit.generator.compile import CompileError, compile_module
+    from delaykit.generator.definition import ModelError as DefinitionError
+    from delaykit.generator.definition import read_model
+    from delaykit.generator.module import write_module
 
     try:
         text = write_module(read_model(definition))

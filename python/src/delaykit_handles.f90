@@ -2,7 +2,7 @@
 module delaykit_handles
    use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_int, c_loc, c_null_char, &
                                           c_null_ptr, c_ptr
-   use dataset, only: attribute_type, dataset_type, integers, letters, reals, variable_type
+   use output_file, only: attribute_type, integers, letters, output_file_type, reals, variable_type
    use dde, only: error_type, wp
    use model_library, only: open_object
    use model_problem, only: model_type
@@ -42,7 +42,7 @@ contains
    !> Give results back.
    subroutine dk_free(handle) bind(c)
       type(c_ptr), value :: handle
-      type(dataset_type), pointer :: data
+      type(output_file_type), pointer :: data
 
       call c_f_pointer(handle, data)
       deallocate (data)
@@ -62,7 +62,7 @@ contains
    type(c_ptr) function dk_values(handle, name, length) result(address) bind(c)
       type(c_ptr), value :: handle, name
       integer(c_int), intent(out) :: length
-      type(dataset_type), pointer :: data
+      type(output_file_type), pointer :: data
       type(variable_type), pointer :: variable
       integer :: at
 
@@ -95,7 +95,7 @@ contains
       character(kind=c_char), intent(inout) :: text(*)
       integer(c_int), value :: length
       character(len=:), allocatable :: lines
-      type(dataset_type), pointer :: data
+      type(output_file_type), pointer :: data
 
       call c_f_pointer(handle, data)
       lines = description_of(data)
@@ -105,7 +105,7 @@ contains
 
    !> These lines.
    function description_of(data) result(lines)
-      type(dataset_type), intent(in) :: data
+      type(output_file_type), intent(in) :: data
       character(len=:), allocatable :: lines
       character(len=*), parameter :: tab = achar(9), kinds(3) = ["real   ", "integer", "letters"]
       integer :: i, k

@@ -14,7 +14,7 @@ module attractors_files
    use model_problem, only: model_type
    use motion_classes, only: class_names, cycle_motion, fixed_point, reason_names
    use namelist_input, only: namelist_file_type, word_length
-   use netcdf_output, only: output_file_type
+   use output_file, only: output_file_type
    use points_input, only: points_settings_type
    use value_checks, only: check_number, missing, missing_count, most_samples
    implicit none (type, external)

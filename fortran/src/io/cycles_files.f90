@@ -15,7 +15,7 @@ module cycles_files
    use model_problem, only: model_type
    use model_settings, only: model_settings_type
    use namelist_input, only: elements, namelist_file_type, word_length
-   use netcdf_output, only: output_file_type
+   use output_file, only: output_file_type
    use periodic_orbit, only: periodic_orbit_type
    use special_points, only: kind_length, nearest_resonance, special_point_type
    use value_checks, only: absent, check_choice, check_count, missing, missing_count

@@ -8,7 +8,7 @@ module exponents_files
                                 sign_of, zero
    use lyapunov_spectrum, only: growth_type
    use namelist_input, only: elements, namelist_file_type
-   use netcdf_output, only: output_file_type
+   use output_file, only: output_file_type
    use scene_input, only: scene_settings_type, scene_type
    use value_checks, only: absent, check_count, check_number, missing, missing_count, most_samples
    implicit none (type, external)

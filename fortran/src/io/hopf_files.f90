@@ -11,7 +11,7 @@ module hopf_files
    use model_modes, only: mode_of
    use model_settings, only: model_settings_type
    use namelist_input, only: namelist_file_type
-   use netcdf_output, only: output_file_type
+   use output_file, only: output_file_type
    use value_checks, only: check_choice, check_count, missing, missing_count
    implicit none (type, external)
    private

@@ -6,7 +6,7 @@ module linear_stability_files
    use model_problem, only: model_type
    use model_settings, only: model_settings_type
    use namelist_input, only: namelist_file_type, word_length
-   use netcdf_output, only: output_file_type
+   use output_file, only: output_file_type
    use stability_changes, only: changes_type
    use value_checks, only: check_choice, missing
    implicit none (type, external)

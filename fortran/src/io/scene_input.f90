@@ -9,7 +9,7 @@ module scene_input
    use model_problem, only: model_type
    use model_settings, only: model_settings_type
    use namelist_input, only: element_length, namelist_file_type, word_length
-   use netcdf_output, only: output_file_type
+   use output_file, only: output_file_type
    use value_checks, only: absent, check_number, missing, most_samples
    implicit none (type, external)
    private

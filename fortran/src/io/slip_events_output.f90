@@ -3,7 +3,7 @@ module slip_events_output
    use dde_errors, only: error_type
    use model_chain, only: blocks_in_order
    use model_history, only: signal_name
-   use netcdf_output, only: output_file_type
+   use output_file, only: output_file_type
    use scene_input, only: scene_type
    use slip_events, only: slip_event_type
    implicit none (type, external)

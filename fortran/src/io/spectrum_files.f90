@@ -9,7 +9,7 @@ module spectrum_files
    use netcdf, only: nf90_close, nf90_get_att, nf90_get_var, nf90_global, nf90_inq_dimid, &
                      nf90_inq_varid, nf90_inquire_dimension, nf90_inquire_variable, nf90_noerr, &
                      nf90_nowrite, nf90_open, nf90_strerror
-   use netcdf_output, only: output_file_type
+   use output_file, only: output_file_type
    use spectral_peaks, only: base_peak, combination_peak, harmonic_peak, other_peak, peak_type, &
                              second_base_peak
    use spectrum_verdict, only: continuum_share, line_share, spectrum_kind, spectrum_kind_name

@@ -4,7 +4,7 @@ module synchrony_files
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use namelist_input, only: namelist_file_type
-   use netcdf_output, only: output_file_type
+   use output_file, only: output_file_type
    use scene_input, only: scene_settings_type, scene_type
    use transverse_growth, only: transverse_growth_type, zero_type
    use transverse_multipliers, only: transverse_cycle_type

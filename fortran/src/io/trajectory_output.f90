@@ -9,7 +9,7 @@ module trajectory_output
    use model_chain, only: blocks_in_order
    use model_description, only: description_type
    use model_history, only: display_names, shown_name
-   use netcdf_output, only: output_file_type
+   use output_file, only: output_file_type
    use program_arguments, only: stop_on
    use progress, only: progress_type
    use scene_input, only: scene_type

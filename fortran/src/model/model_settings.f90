@@ -4,7 +4,7 @@ module model_settings
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use model_description, only: description_type, parameter_type, unbounded, word_length
-   use model_library, only: list_models, open_model
+   use model_library, only: list_models, open_model, path_of_model
    use model_problem, only: model_type
    use value_checks, only: absent, check_choice, check_count, check_number
    implicit none (type, external)
@@ -64,8 +64,12 @@ contains
       real(wp), allocatable :: numbers(:), state(:)
       integer :: block, i, number
 
-      call check_choice(error, place, "model", self%name, list_models(""))
-      if (.not. allocated(error)) call open_model(trim(self%name), model, error)
+      if (allocated(error)) return
+      if (path_of_model(trim(self%name)) == "") then
+         call check_choice(error, place, "model", self%name, list_models(""))
+      else
+         call open_model(trim(self%name), model, error)
+      end if
       if (allocated(error)) return
       if (present(at_rest)) then
          if (at_rest .and. .not. associated(model%code%steady_state)) then

@@ -4,13 +4,13 @@ module hopf_points
    use characteristic_function, only: characteristic_of, characteristic_type
    use dde_errors, only: error_type
    use dde_kinds, only: wp
-   use gsl_roots, only: find_root, scalar_function_type
    use hopf_curves, only: curve_point_type
    use hopf_planes, only: axis_point_type, chord_of, curve_plane_type, side, turn
    use hopf_unfoldings, only: unfold_double_hopf, unfold_generalised_hopf, unfolding_type
    use model_problem, only: model_type
    use normal_form, only: first_lyapunov_coefficient
    use root_counts, only: pairs_beside
+   use sign_change, only: sign_change_type
    implicit none (type, external)
    private
    public :: find_hopf_points, hopf_point_type, judge_points, kind_length
@@ -43,17 +43,6 @@ module hopf_points
       type(unfolding_type) :: unfolding
    end type hopf_point_type
 
-   !> The first Lyapunov coefficient between two points of a curve (0 if there is none, which
-   !> `add_point` then reports).
-   type, extends(scalar_function_type) :: coefficient_type
-      !> The plane
-      type(curve_plane_type) :: plane
-      !> The points
-      type(axis_point_type) :: ends(2)
-   contains
-      procedure :: value => coefficient_between
-   end type coefficient_type
-
 contains
 
    !> First Lyapunov coefficients and numbers of unstable pairs of points on curves.
@@ -83,13 +72,11 @@ contains
       type(hopf_point_type), allocatable, intent(out) :: found(:)
       !> A root was not found
       type(error_type), allocatable, intent(out) :: error
-      type(coefficient_type) :: coefficient
       type(axis_point_type) :: at, other
-      real(wp) :: share
+      real(wp) :: l1
       integer :: i, j
 
       allocate (found(0))
-      coefficient%plane = plane
       do i = 1, size(points) - 1
          if (points(i)%piece /= points(i + 1)%piece) cycle
          ! a curve begins or ends where its delay becomes 0
@@ -101,13 +88,11 @@ contains
       do i = 1, size(points) - 1
          if (points(i)%piece /= points(i + 1)%piece) cycle
          if (points(i)%l1*points(i + 1)%l1 < 0.0_wp) then
-            coefficient%ends = points(i:i + 1)%at
-            call find_root(coefficient, 0.0_wp, 1.0_wp, share, error)
+            call find_zero_of_l1(plane, points(i:i + 1), at, l1, error)
             if (allocated(error)) return
-            if (abs(coefficient%value(share)) <= small_coefficient) then
-               at = point_between(plane, coefficient%ends, share)
+            if (abs(l1) <= small_coefficient) then
                call add_point(found, "generalised_hopf", plane, at, [at%omega], error, &
-                              direction_of(coefficient%ends))
+                              direction_of(points(i:i + 1)%at))
                if (allocated(error)) return
             end if
          end if
@@ -156,18 +141,29 @@ contains
       direction = direction/norm2(direction)
    end function direction_of
 
-   !> The coefficient at a share of the way between the points.
-   real(wp) function coefficient_between(self, x) result(value)
-      class(coefficient_type), intent(in) :: self
-      !> The share
-      real(wp), intent(in) :: x
-      type(axis_point_type) :: point
-      type(error_type), allocatable :: error
+   !> The point between two others of a curve at which the coefficient changes its sign.
+   subroutine find_zero_of_l1(plane, ends, at, l1, error)
+      type(curve_plane_type), intent(in) :: plane
+      type(curve_point_type), intent(in) :: ends(2)
+      type(axis_point_type), intent(out) :: at
+      !> The coefficient there: not small at a pole
+      real(wp), intent(out) :: l1
+      type(error_type), allocatable, intent(out) :: error
+      type(sign_change_type) :: change
+      real(wp) :: moved, share
+      integer :: i
 
-      point = point_between(self%plane, self%ends, x)
-      call first_lyapunov_coefficient(self%plane%model_at(self%plane%numbers_at(point%place)), &
-                                      point%omega, value, error)
-   end function coefficient_between
+      change = sign_change_type(values=ends%l1)
+      do i = 1, most_steps
+         share = change%next()
+         at = point_between(plane, ends%at, share)
+         call first_lyapunov_coefficient(plane%model_at(plane%numbers_at(at%place)), at%omega, l1, &
+                                         error)
+         if (allocated(error)) return
+         call change%narrow(share, l1, moved)
+         if (moved <= last_distance .or. abs(l1) <= tiny(l1)) exit
+      end do
+   end subroutine find_zero_of_l1
 
    !> Whether two chords cross in the plane.
    pure logical function cross(one, other) result(value)

@@ -9,7 +9,6 @@ module transverse_multipliers
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use floquet_multipliers, only: find_multipliers, multipliers_type
-   use gsl_roots, only: find_root, scalar_function_type
    use model_family, only: family_type, fixed_model
    use model_problem, only: model_type
    use orbit_branch, only: make_accurate
@@ -19,6 +18,7 @@ module transverse_multipliers
    use orbit_mesh, only: adapted_mesh
    use orbit_passes, only: orbit_passes_type
    use periodic_orbit, only: periodic_orbit_type
+   use sign_change, only: sign_change_type
    use transverse_growth, only: of_mode, transverse_growth_type, zero_type
    implicit none (type, external)
    private
@@ -34,6 +34,9 @@ module transverse_multipliers
    real(wp), parameter :: closed = 1.0e-3_wp
    !> A motion in which no component has a larger range is rest.
    real(wp), parameter :: least_amplitude = 1.0e-3_wp
+   !> A zero is found when it moves by this share, or after so many steps.
+   real(wp), parameter :: last_move = 1.0e-14_wp
+   integer, parameter :: most_steps = 60
    !> The exponent is 0 at s = 1. Its sign beside 1 is taken at this share of the way to the next s.
    real(wp), parameter :: beside = 1.0e-3_wp
 
@@ -50,13 +53,11 @@ module transverse_multipliers
    end type transverse_cycle_type
 
    !> The largest exponent as a function of s.
-   type, extends(scalar_function_type) :: exponent_of_mode_type
+   type :: exponent_of_mode_type
       !> A chain of one block with kappa = 1
       type(model_type) :: model
       !> Its cycle
       type(periodic_orbit_type) :: orbit
-   contains
-      procedure :: value => exponent_at
    end type exponent_of_mode_type
 
 contains
@@ -173,33 +174,34 @@ contains
       real(wp), intent(in) :: s(:)
       type(transverse_cycle_type), intent(inout) :: on_cycle
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: other, places(size(s)), signs(size(s)), value, zeros(2)
+      real(wp), dimension(size(s)) :: on_coarse, on_fine, places
+      real(wp) :: zeros(2)
       integer :: i
 
       places = s
       if (s(1) <= 1.0_wp) places(1) = s(1) + beside*(s(2) - s(1))
       do i = 1, size(s)
-         call find_exponent(coarse, places(i), other, error)
+         call find_exponent(coarse, places(i), on_coarse(i), error)
          if (allocated(error)) return
-         call find_exponent(fine, places(i), value, error)
+         call find_exponent(fine, places(i), on_fine(i), error)
          if (allocated(error)) return
-         signs(i) = value
          if (s(i) <= 1.0_wp) then
             ! the multiplier of the flow, 1, is the largest of a stable cycle
             on_cycle%growth = [on_cycle%growth, transverse_growth_type(s(i))]
          else
             on_cycle%growth = [on_cycle%growth, &
-                               transverse_growth_type(s(i), value, abs(value - other))]
+                               transverse_growth_type(s(i), on_fine(i), &
+                                                       abs(on_fine(i) - on_coarse(i)))]
          end if
       end do
       do i = 1, size(s) - 1
-         if ((signs(i) > 0.0_wp) .eqv. (signs(i + 1) > 0.0_wp)) cycle
-         call find_root(coarse, places(i), places(i + 1), zeros(1), error)
+         if ((on_fine(i) > 0.0_wp) .eqv. (on_fine(i + 1) > 0.0_wp)) cycle
+         call find_zero(coarse, places(i:i + 1), on_coarse(i:i + 1), zeros(1), error)
          if (allocated(error)) return
-         call find_root(fine, places(i), places(i + 1), zeros(2), error)
+         call find_zero(fine, places(i:i + 1), on_fine(i:i + 1), zeros(2), error)
          if (allocated(error)) return
          on_cycle%zeros = [on_cycle%zeros, zero_type(zeros(2), abs(zeros(2) - zeros(1)), &
-                                               signs(i + 1) > 0.0_wp)]
+                                               on_fine(i + 1) > 0.0_wp)]
       end do
    end subroutine find_exponents
 
@@ -221,15 +223,26 @@ contains
       exponent = log(found%greatest)/self%orbit%period
    end subroutine find_exponent
 
-   !> The exponent as GSL asks for it; very negative if it was not found.
-   real(wp) function exponent_at(self, x) result(value)
-      class(exponent_of_mode_type), intent(in) :: self
-      !> Stiffness of the mode over that of one block
-      real(wp), intent(in) :: x
-      type(error_type), allocatable :: error
+   !> Where the exponent is 0 between two places at which its signs differ.
+   subroutine find_zero(of, places, values, zero, error)
+      type(exponent_of_mode_type), intent(in) :: of
+      !> Places, and exponents there, of any of the meshes
+      real(wp), intent(in) :: places(2), values(2)
+      real(wp), intent(out) :: zero
+      type(error_type), allocatable, intent(out) :: error
+      type(sign_change_type) :: change
+      real(wp) :: moved, value
+      integer :: i
 
-      call find_exponent(self, x, value, error)
-   end function exponent_at
+      change = sign_change_type(places, values)
+      do i = 1, most_steps
+         zero = change%next()
+         call find_exponent(of, zero, value, error)
+         if (allocated(error)) return
+         call change%narrow(zero, value, moved)
+         if (moved <= last_move*zero .or. abs(value) <= tiny(value)) return
+      end do
+   end subroutine find_zero
 
    !> A model that keeps delays of 0.
    pure type(model_type) function kept(model) result(keeping)

@@ -3,7 +3,7 @@
 module exponent_averages
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde_kinds, only: wp
-   use gsl_distributions, only: student_quantile
+   use student_distribution, only: student_quantile
    implicit none (type, external)
    private
    public :: average_growth, dimension_of, error_bars, exponent_type, running_averages, &

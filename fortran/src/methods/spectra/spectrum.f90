@@ -1,9 +1,8 @@
 !> Power spectral density after Welch (1967): segments that overlap, windowed, transformed by FFTW,
 !> averaged. One-sided, normalised so that its integral over frequency is the variance.
 module spectrum
-   use, intrinsic :: iso_c_binding, only: c_double, c_double_complex, c_ptr
    use dde_errors, only: error_type, raise, text
-   use fftw, only: fftw_destroy_plan, fftw_estimate, fftw_execute_dft_r2c, fftw_plan_dft_r2c_1d
+   use fourier_transform, only: transform_real
    use dde_kinds, only: wp
    implicit none (type, external)
    private
@@ -45,10 +44,8 @@ contains
       real(wp), allocatable, intent(out) :: power(:)
       !> Too few samples
       type(error_type), allocatable, intent(out) :: error
-      real(c_double), allocatable :: windowed(:)
-      complex(c_double_complex), allocatable :: transform(:)
+      complex(wp), allocatable :: transform(:)
       real(wp), allocatable :: window(:)
-      type(c_ptr) :: plan
       real(wp) :: mean
       integer :: first, i, length, segment
 
@@ -59,24 +56,16 @@ contains
                     //text(fewest_samples)//" expected")
          return
       end if
-      allocate (windowed(length), transform(length/2 + 1), power(length/2 + 1))
-      ! only the execution of plans is safe among threads
-      !$omp critical (fftw_planning)
-      plan = fftw_plan_dft_r2c_1d(length, windowed, transform, fftw_estimate)
-      !$omp end critical (fftw_planning)
+      allocate (transform(length/2 + 1), power(length/2 + 1))
       window = window_of(window_name, length)
       mean = sum(signal)/size(signal)
       power = 0.0_wp
       do segment = 0, segments - 1
          first = nint(segment*(1.0_wp - overlap)*length)
          first = min(first, size(signal) - length)
-         windowed = window*(signal(first + 1:first + length) - mean)
-         call fftw_execute_dft_r2c(plan, windowed, transform)
+         call transform_real(window*(signal(first + 1:first + length) - mean), transform)
          power = power + real(transform)**2 + aimag(transform)**2
       end do
-      !$omp critical (fftw_planning)
-      call fftw_destroy_plan(plan)
-      !$omp end critical (fftw_planning)
       power = power*interval/(sum(window**2)*segments)
       ! one side holds both, but for zero and the Nyquist frequency
       power(2:(length + 1)/2) = 2.0_wp*power(2:(length + 1)/2)

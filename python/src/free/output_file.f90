@@ -1,11 +1,12 @@
-!> Results in memory: dimensions, variables over them and attributes, as NetCDF has them. Who makes
-!> results fills one; who wants them writes it to a file or reads it by names.
-module dataset
+!> Results in memory, in place of the NetCDF files of `fortran/src/io/output_file.f90`: dimensions,
+!> variables over them and attributes, which callers read by names.
+module output_file
+   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_intptr_t, c_null_ptr, c_ptr
+   use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: attribute_type, dataset_type, dimension_type, integers, letters, name_length, reals, &
-             variable_type
+   public :: attribute_type, integers, joined, letters, output_file_type, place_of, reals, variable_type
 
    !> Letters of a name.
    integer, parameter :: name_length = 64
@@ -20,6 +21,8 @@ module dataset
       integer :: length = 0
       !> Names of variables that say where along it a value belongs, with blanks between
       character(len=name_length) :: coordinates = ""
+      !> What the names of variables begin with that have it as their slowest dimension
+      character(len=name_length) :: prefix = ""
    end type dimension_type
 
    !> An attribute: a text, or numbers.
@@ -46,25 +49,68 @@ module dataset
    end type variable_type
 
    !> Results.
-   type :: dataset_type
+   type :: output_file_type
       type(dimension_type), allocatable :: dimensions(:)
       type(attribute_type), allocatable :: attributes(:)
       type(variable_type), allocatable :: variables(:)
+      !> First error met
+      type(error_type), allocatable :: error
+      !> Where the results go when they are complete
+      type(c_ptr), private :: place = c_null_ptr
    contains
       generic :: column => column_of_reals, column_of_integers
-      procedure :: attribute, dimension, flags, table, words
+      procedure :: answers, attribute, create, dimension, finish, flags, table, words
       procedure, private :: add, column_of_integers, column_of_reals
-   end type dataset_type
+   end type output_file_type
 
 contains
 
+   !> The path that stands for results of a caller: the digits of their address.
+   function place_of(results) result(path)
+      type(c_ptr), intent(in) :: results
+      character(len=:), allocatable :: path
+      character(len=24) :: digits
+
+      write (digits, "(i0)") transfer(results, 0_c_intptr_t)
+      path = trim(digits)
+   end function place_of
+
+   !> Begin results that go to a place.
+   subroutine create(self, path, title)
+      class(output_file_type), intent(inout) :: self
+      !> Of `place_of`
+      character(len=*), intent(in) :: path
+      !> What they are
+      character(len=*), intent(in) :: title
+      integer(c_intptr_t) :: address
+
+      read (path, *) address
+      self%place = transfer(address, self%place)
+      call self%attribute("title", title)
+   end subroutine create
+
+   !> Give the results to the caller.
+   subroutine finish(self, error)
+      class(output_file_type), intent(inout) :: self
+      type(error_type), allocatable, intent(out) :: error
+      type(output_file_type), pointer :: results
+
+      call c_f_pointer(self%place, results)
+      call move_alloc(self%dimensions, results%dimensions)
+      call move_alloc(self%attributes, results%attributes)
+      call move_alloc(self%variables, results%variables)
+      if (allocated(self%error)) allocate (error, source=self%error)
+   end subroutine finish
+
    !> The number of a dimension; it is defined if there is none of this name.
-   integer function dimension(self, name, length, coordinates) result(number)
-      class(dataset_type), intent(inout) :: self
+   integer function dimension(self, name, length, coordinates, prefix) result(number)
+      class(output_file_type), intent(inout) :: self
       character(len=*), intent(in) :: name
       integer, intent(in) :: length
       !> Names of variables that say where along it a value belongs, with blanks between
       character(len=*), intent(in), optional :: coordinates
+      !> What the names of variables begin with that have it as their slowest dimension
+      character(len=*), intent(in), optional :: prefix
 
       if (.not. allocated(self%dimensions)) allocate (self%dimensions(0))
       number = findloc(self%dimensions%name == name, .true., dim=1)
@@ -72,11 +118,12 @@ contains
       self%dimensions = [self%dimensions, dimension_type(name, length)]
       number = size(self%dimensions)
       if (present(coordinates)) self%dimensions(number)%coordinates = coordinates
+      if (present(prefix)) self%dimensions(number)%prefix = prefix
    end function dimension
 
    !> Set an attribute of the whole, or of a variable.
    subroutine attribute(self, name, value, variable)
-      class(dataset_type), intent(inout) :: self
+      class(output_file_type), intent(inout) :: self
       character(len=*), intent(in) :: name
       !> Text, a real number, an integer or a long one
       class(*), intent(in) :: value
@@ -109,7 +156,7 @@ contains
 
    !> A variable of real numbers over one dimension; NaN is a missing value.
    subroutine column_of_reals(self, dimension, name, values, long_name, units)
-      class(dataset_type), intent(inout) :: self
+      class(output_file_type), intent(inout) :: self
       !> Number of the dimension
       integer, intent(in) :: dimension
       character(len=*), intent(in) :: name
@@ -131,7 +178,7 @@ contains
 
    !> A variable of nondimensional real numbers over two dimensions; NaN is a missing value.
    subroutine table(self, dimensions, name, values, long_name)
-      class(dataset_type), intent(inout) :: self
+      class(output_file_type), intent(inout) :: self
       !> Numbers of the dimensions, the faster first
       integer, intent(in) :: dimensions(2)
       character(len=*), intent(in) :: name
@@ -147,7 +194,7 @@ contains
 
    !> A variable of integers over one dimension.
    subroutine column_of_integers(self, dimension, name, values, long_name, lengths_along)
-      class(dataset_type), intent(inout) :: self
+      class(output_file_type), intent(inout) :: self
       !> Number of the dimension
       integer, intent(in) :: dimension
       character(len=*), intent(in) :: name
@@ -167,7 +214,7 @@ contains
 
    !> A variable of words over one dimension, filled up with null characters.
    subroutine words(self, dimension, name, values, long_name)
-      class(dataset_type), intent(inout) :: self
+      class(output_file_type), intent(inout) :: self
       !> Number of the dimension
       integer, intent(in) :: dimension
       character(len=*), intent(in) :: name
@@ -176,7 +223,8 @@ contains
       integer :: i, length
 
       length = max(1, maxval(len_trim(values)))
-      call self%add(name, letters, [self%dimension(name//"_letters", length), dimension], long_name)
+      i = self%dimension(trim(self%dimensions(dimension)%prefix)//name//"_letters", length)
+      call self%add(name, letters, [i, dimension], long_name)
       associate (last => self%variables(size(self%variables)))
          last%letters = repeat(achar(0), length*size(values))
          do i = 1, size(values)
@@ -187,7 +235,7 @@ contains
 
    !> A variable of integers that stand for words.
    subroutine flags(self, dimension, name, values, meanings, long_name, codes)
-      class(dataset_type), intent(inout) :: self
+      class(output_file_type), intent(inout) :: self
       !> Number of the dimension
       integer, intent(in) :: dimension
       character(len=*), intent(in) :: name
@@ -212,6 +260,16 @@ contains
       call self%attribute("flag_meanings", joined(meanings), size(self%variables))
    end subroutine flags
 
+   !> A variable of yes and no.
+   subroutine answers(self, dimension, name, values, long_name)
+      class(output_file_type), intent(inout) :: self
+      integer, intent(in) :: dimension
+      character(len=*), intent(in) :: name, long_name
+      logical, intent(in) :: values(:)
+
+      call self%flags(dimension, name, merge(1, 0, values), ["no ", "yes"], long_name)
+   end subroutine answers
+
    !> Words in one line, with underscores for blanks within them.
    pure function joined(words) result(line)
       character(len=*), intent(in) :: words(:)
@@ -229,7 +287,7 @@ contains
 
    !> Begin a variable: its name, dimensions and description.
    subroutine add(self, name, kind, dimensions, long_name)
-      class(dataset_type), intent(inout) :: self
+      class(output_file_type), intent(inout) :: self
       character(len=*), intent(in) :: name
       integer, intent(in) :: kind, dimensions(:)
       character(len=*), intent(in) :: long_name
@@ -242,7 +300,7 @@ contains
       do i = 1, there
          call take(self%variables(i), longer(i))
       end do
-      longer(there + 1)%name = name
+      longer(there + 1)%name = trim(self%dimensions(dimensions(size(dimensions)))%prefix)//name
       longer(there + 1)%kind = kind
       longer(there + 1)%dimensions = dimensions
       call move_alloc(longer, self%variables)
@@ -277,4 +335,4 @@ contains
       longer(there + 1) = one
       call move_alloc(longer, attributes)
    end subroutine append
-end module dataset
+end module output_file

@@ -1,5 +1,5 @@
 !> NetCDF-4 files by the CF conventions, which appear only when they are complete.
-module netcdf_output
+module output_file
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only: compiler_version
    use dde_errors, only: error_type, raise
@@ -321,4 +321,4 @@ contains
       self%id = -1
       call self%place%discard()
    end subroutine discard
-end module netcdf_output
+end module output_file

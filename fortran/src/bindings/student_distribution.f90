@@ -1,5 +1,5 @@
 !> Quantiles of distributions by GSL.
-module gsl_distributions
+module student_distribution
    use, intrinsic :: iso_c_binding, only: c_double
    implicit none (type, external)
    private
@@ -14,4 +14,4 @@ module gsl_distributions
          real(c_double), value :: probability, freedom
       end function student_quantile
    end interface
-end module gsl_distributions
+end module student_distribution

@@ -1,0 +1,239 @@
+"""Exponents, classes of motion, roots, Hopf curves and cycles of a model, by the library's commands.
+
+Each gives an xarray.Dataset whose variables have descriptions (`long_name`). Times and rates are in
+units of the model.
+"""
+
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+
+import f90nml
+import numpy as np
+import xarray as xr
+
+from delaykit.arguments import Arguments
+from delaykit.errors import ModelError, RunError, check_name
+from delaykit.library import LIBRARY, Results, call
+from delaykit.version import __version__
+
+OBSERVATION = {
+    **{"t_lasting": 4000.0, "t_path": 0.0, "interval": 20.0, "exponents": 3, "zero_level": 3e-5},
+    **{"longest_bar": 1e-3, "doublings": 6, "sample_interval": 0.1, "window": "hann"},
+    **{"segments": 8, "overlap": 0.5, "peak_floor": 1e-6, "peak_prominence": 10.0},
+}
+"""How attractors are judged unless the caller says otherwise."""
+TRANSIENT, OBSERVED, TURNING = 100.0, 2000.0, 20.0
+"""Times of exponents and attractors where they are not given, in longest delays."""
+
+
+def command(model, name: str, groups: Mapping, histories: Mapping | None = None) -> xr.Dataset:
+    """Run a command of the library with a namelist of these groups."""
+    LIBRARY.dk_folder(str(model.path.parent).encode())
+    lists = {"settings": groups} | ({"histories": histories} if histories else {})
+    with tempfile.TemporaryDirectory(prefix="delaykit") as folder:
+        path = Path(folder, f"{name}.nml")
+        f90nml.Namelist(lists).write(path)
+        try:
+            found = call(LIBRARY.dk_command, name.encode(), str(path).encode())
+        except RunError as problem:
+            text = str(problem).replace(f"{path}: ", "")
+            text = text.replace(model.path.stem, model.definition["name"])
+            raise type(problem)(text, problem.partial) from None
+    return dataset_of(found)
+
+
+def dataset_of(found: Results) -> xr.Dataset:
+    """Results of the library with words for letters and for flags."""
+    dims, variables, attributes = {}, {}, {}
+    for kind, *words in found.description():
+        match kind:
+            case "dimension":
+                dims[words[0]] = int(words[1])
+            case "variable":
+                variables[words[0]] = (words[1], words[2:])
+            case "attribute":
+                owner, name, value_kind, *values = words
+                attributes.setdefault(owner, {})[name] = value_of(value_kind, values)
+    data = {}
+    for name, (kind, names) in variables.items():
+        shape = [dims[one] for one in names]
+        about = attributes.get(name, {})
+        numpy_kind = {"real": np.float64, "integer": np.int32, "letters": "S1"}[kind]
+        values = found.values(name, numpy_kind).reshape(shape)
+        if kind == "letters":
+            values = np.array(["".join(row.astype("U1")) for row in values], dtype=object)
+            names = names[:-1]
+        elif "flag_meanings" in about:
+            words = about.pop("flag_meanings").split()
+            codes = np.atleast_1d(about.pop("flag_values"))
+            word_of = dict(zip(codes.tolist(), words, strict=True))
+            values = np.array([word_of[code] for code in values.ravel().tolist()], dtype=object)
+            values = values.reshape(shape)
+        data[name] = (names, values, about)
+    whole = attributes.get("", {}) | {"source": f"delaykit {__version__}"}
+    dataset = xr.Dataset(data, attrs=whole)
+    return dataset.set_coords([name for name in dataset if list(dataset[name].dims) == [name]])
+
+
+def value_of(kind: str, values: list[str]):
+    """The value of an attribute."""
+    if kind == "letters":
+        return "\t".join(values)
+    numbers = [float(one) if kind == "real" else int(one) for one in values]
+    return numbers[0] if len(numbers) == 1 else numbers
+
+
+def model_group(own: Arguments, but=()) -> dict:
+    """The model with its parameters, some left out."""
+    model = own.model
+    known = dict(zip(model.definition["parameters"], own.numbers.tolist(), strict=True))
+    known = {key: value for key, value in known.items() if key not in but}
+    group = {"name": model.path.stem}
+    if known:
+        group |= {"parameters": list(known), "values": list(known.values())}
+    if model.blocks > 1:
+        group |= {"blocks": model.blocks, "ends": model.ends}
+    return group
+
+
+def histories_group(own: Arguments, history) -> dict:
+    """A constant history, or the last state of a run."""
+    if getattr(history, "pieces", None) is not None or hasattr(history, "t_events"):
+        values = history.y[..., -1].reshape(own.model.blocks, -1)
+    elif isinstance(history, xr.Dataset):
+        last = history.isel(t=-1)
+        values = np.array([last[state].values for state in own.states]).reshape(len(own.states), -1).T
+    else:
+        given = own.by_name("history", history)
+        if any(callable(one) or isinstance(one, tuple) for one in given.values()):
+            raise ModelError("history: expected numbers here, or a run whose last state is taken")
+        values = own.values("history", given).reshape(own.model.blocks, -1)[np.argsort(own.order)]
+    return {"names": list(own.states), "values": values.T.ravel().tolist()}
+
+
+def longest_delay(own: Arguments) -> float:
+    """The unit of times that are not given."""
+    return max(own.model.delays_of(own.numbers), default=0.0) or 1.0
+
+
+def exponents(model, history, count=4, t_transient=None, t_end=None, *, parameters=None, rtol=1e-8,
+              method="auto", t_turning=None, interval=20.0, batches=20, zero_level=3e-5,
+              longest_bar=1e-3) -> xr.Dataset:
+    """The `count` largest Lyapunov exponents from t_transient to t_end, with standard errors.
+
+    Of a motion that does not end at rest one is that of the flow, 0. Also the Kaplan-Yorke
+    dimension. history: constants, or a run, from whose last state the motion begins.
+    """
+    own = Arguments(model, parameters)
+    unit = longest_delay(own)
+    t_transient = TRANSIENT * unit if t_transient is None else t_transient
+    t_end = t_transient + OBSERVED * unit if t_end is None else t_end
+    t_turning = TURNING * unit if t_turning is None else t_turning
+    groups = {
+        "scene": {
+            **{"name": model.definition["name"], "model": model_group(own), "method": method},
+            **{"t_end": t_end, "t_transient": t_transient, "sample_interval": unit},
+            "tolerance": rtol,
+        },
+        "exponents": {
+            **{"count": count, "t_end": t_end, "t_turning": t_turning, "interval": interval},
+            **{"batches": batches, "zero_level": zero_level, "longest_bar": longest_bar},
+        },
+    }
+    return command(model, "exponents", groups, histories_group(own, history)).isel(run=0)
+
+
+def attractor(model, history, *, parameters=None, near=None, rtol=1e-8, method="auto", max_steps=2 * 10**7,
+              t_transient=None, t_observed=None, t_turning=None, kept=0, **observation) -> xr.Dataset:
+    """The class of the motion from a history, and what it was judged by.
+
+    Class: fixed_point, cycle, torus, three_torus, chaos or undecided, where exponents, section and
+    spectrum do not contradict each other. near: a guess of the state at rest, unless the model has a
+    `steady_state` or a `section`. observation: keys of OBSERVATION.
+    """
+    model = model.resting(near)
+    own = Arguments(model, parameters)
+    for key in observation:
+        check_name("option", key, OBSERVATION)
+    unit = longest_delay(own)
+    times = {
+        "t_transient": TRANSIENT * unit if t_transient is None else t_transient,
+        "t_observed": OBSERVED * unit if t_observed is None else t_observed,
+        "t_turning": TURNING * unit if t_turning is None else t_turning,
+    }
+    groups = {
+        "observation": {**OBSERVATION, **times, **observation},
+        "points": {
+            **{"name": model.definition["name"], "model": model_group(own), "kept": kept},
+            **{"refinements": 0, "sweep": "none"},
+        },
+        "solver": {"method": method, "tolerance": rtol, "most_steps": max_steps},
+    }
+    found = command(model, "attractors", groups, histories_group(own, history)).isel(point=0)
+    if problem := str(found.problem.item()):
+        raise RunError(problem, found)
+    return found
+
+
+def roots(model, bound=-1.0, *, parameters=None, near=None) -> np.ndarray:
+    """Characteristic roots at rest with a real part above the bound, the rightmost first."""
+    own = Arguments(model.resting(near), parameters)
+    groups = {"linear_stability": {"model": model_group(own), "root_bound": bound}}
+    found = command(own.model, "linear_stability", groups)
+    return found.root_real.values + 1j * found.root_imag.values
+
+
+def hopf(model, along, window, *, parameters=None, near=None, cells=40) -> xr.Dataset:
+    """Hopf curves in a plane of two parameters, and their special points.
+
+    Curves: points with frequency `omega`, first Lyapunov coefficient `l1` (negative:
+    supercritical) and the number of unstable pairs beside; `piece` numbers unbroken curves.
+    special_...: double and generalised Hopf points. Also a map of the number of unstable pairs.
+
+    along: names of abscissa and ordinate; window: ((least, most), (least, most)).
+    near: a guess of the state at rest, if the model has no `steady_state`.
+    """
+    model = model.resting(near)
+    for key in along:
+        check_name("parameter", key, model.definition["parameters"])
+    corner = {key: limits[0] for key, limits in zip(along, window, strict=True)}
+    own = Arguments(model, {**(parameters or {}), **corner})
+    groups = {
+        "hopf_curves": {
+            **{"along": list(along), "windows": list(np.ravel(window)), "cells": cells},
+            "model": model_group(own, but=along),
+        }
+    }
+    return command(model, "hopf", groups)
+
+
+def cycle(model, start, along, window, *, parameters=None, near=None, t_transient=None, degree=7,
+          intervals=40, longest_period=None, most_orbits=1000, curves=None) -> xr.Dataset:
+    """Branches of periodic orbits along a parameter, from Hopf points and from a motion.
+
+    start: a run or a history from which a cycle is approached at the model's own parameter; None:
+        from Hopf points alone.
+    curves: {name: window} of two parameters over which folds, period doublings and torus
+        bifurcations are followed.
+
+    Orbits: the parameter, period, least and greatest signal, Floquet multipliers. special_...:
+    folds, period doublings and torus bifurcations of the branches.
+    """
+    model = model.resting(near)
+    check_name("parameter", along, model.definition["parameters"])
+    own = Arguments(model, parameters)
+    here = dict(zip(model.definition["parameters"], own.numbers.tolist(), strict=True))[along]
+    unit = longest_delay(own)
+    group = {
+        **{"along": along, "window": list(window), "model": model_group(own, but=[along])},
+        **{"degree": degree, "intervals": intervals, "most_orbits": most_orbits},
+        "t_transient": TRANSIENT * unit if t_transient is None else t_transient,
+        "longest_period": 50 * unit if longest_period is None else longest_period,
+    }
+    if start is not None:
+        group["starts"] = [here]
+    if curves:
+        group |= {"curves_along": list(curves), "curves_windows": list(np.ravel([*curves.values()]))}
+    start = {state: 0.0 for state in own.states} if start is None else start
+    return command(model, "cycles", {"cycles": group}, histories_group(own, start))
