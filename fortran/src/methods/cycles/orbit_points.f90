@@ -211,6 +211,8 @@ contains
          if (allocated(error)) return
          call change%narrow(at, g, moved)
          if (moved <= share .or. abs(g) <= tiny(g)) exit
+         ! nearer to the point the other branch makes the equations singular
+         if (point%kind == branching .and. abs(g) <= small) exit
       end do
       if (abs(g) > small) then
          call raise(error, "special point "//trim(point%kind)//": test function "//text(g) &
