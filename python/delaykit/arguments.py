@@ -89,9 +89,8 @@ class Arguments:
             if missing:
                 raise ModelError(f"{what}: no value for {missing[0]}; expected one for each state")
             each = [number_of(f"{what} of {state}", value[state]) for state in self.states]
-        else:
-            each = [number_of(what, value)] * len(self.states)
-        return np.tile(each, self.model.blocks)
+            return np.tile(each, self.model.blocks)
+        return np.full(self.n, number_of(what, value))
 
     def component(self, what: str, name: str) -> tuple[int, bool]:
         """Number of a state from 0, and whether the name is that of its exponential."""

@@ -14,9 +14,10 @@ from delaykit.library import LIBRARY, Results, address, call
 
 METHODS = ("auto", "explicit", "bs5", "dop853", "taylor", "radau5", "radau9", "radau13")
 COUNTS = (
-    *("steps_accepted", "steps_rejected", "steps_implicit", "evaluations", "factorisations"),
-    "breaking_points",
+    *("status", "steps_accepted", "steps_rejected", "steps_implicit", "evaluations"),
+    *("factorisations", "breaking_points"),
 )
+"""Names of the numbers in `counts` of the library"""
 
 
 @dataclass
@@ -37,7 +38,7 @@ class Solution:
     status: int
     """0: reached the end; 1: an event ended the run"""
     counts: dict[str, int]
-    """Counts of the solver, and its method at the end"""
+    """Counts of the solver"""
     options: dict = field(default_factory=dict)
     pieces: Pieces | None = None
     """Dense output, if it was asked for"""
@@ -117,19 +118,23 @@ def solution_of(own: Arguments, found: Results, events: list[Event]) -> Solution
     """The arrays of results of the library."""
     model, t = own.model, found.values("t")
     y = own.by_block(found.values("y").reshape(len(t), own.n)).T
-    which = found.values("event_which", np.int32)
-    times = found.values("event_time")
-    states = own.by_block(found.values("event_y").reshape(len(times), own.n))
-    words = {line[2]: line[4] for line in found.description() if line[:2] == ["attribute", ""]}
+    counts = dict(zip(COUNTS, found.values("counts").astype(int).tolist(), strict=False))
+    t_events, y_events = [], []
+    if events:
+        which = found.values("event_which", np.int32)
+        times = found.values("event_time")
+        states = own.by_block(found.values("event_y").reshape(len(times), own.n))
+        t_events = [times[which == 1 + i] for i in range(len(events))]
+        y_events = [states[which == 1 + i] for i in range(len(events))]
     return Solution(
         model=model,
         numbers=own.numbers,
         t=t,
         y=y,
-        t_events=[times[which == 1 + i] for i in range(len(events))],
-        y_events=[states[which == 1 + i] for i in range(len(events))],
-        status=int(words.get("reason", -1)),
-        counts={name: int(float(words[name])) for name in COUNTS if name in words},
+        t_events=t_events,
+        y_events=y_events,
+        status=counts.pop("status", -1),
+        counts=counts,
         pieces=pieces_of(own, found),
     )
 
