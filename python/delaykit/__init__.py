@@ -3,6 +3,8 @@
 from delaykit.errors import DelaykitError, InterruptedRun, ModelError, RunError
 from delaykit.events import Event
 from delaykit.model import Model
+from delaykit.plots import plot
+from delaykit.spectra import spectrum
 from delaykit.version import __version__
 
 __all__ = [
@@ -13,4 +15,6 @@ __all__ = [
     "ModelError",
     "RunError",
     "__version__",
+    "plot",
+    "spectrum",
 ]

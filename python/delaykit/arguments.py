@@ -8,8 +8,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from scipy.interpolate import CubicSpline
-
 from delaykit.errors import ModelError, check_name
 from delaykit.events import Event
 from delaykit.history import Pieces, fit
@@ -191,6 +189,9 @@ class Arguments:
                         f"history of {name}: {len(times)} times and {len(values)} values; expected "
                         "ascending times, at least two, and a value for each"
                     )
+                # SciPy's import takes a third of a second
+                from scipy.interpolate import CubicSpline
+
                 value = CubicSpline(times, values, extrapolate=False)
             found[str(name)] = value
         return found

@@ -23,6 +23,11 @@ OBSERVATION = {
     **{"segments": 8, "overlap": 0.5, "peak_floor": 1e-6, "peak_prominence": 10.0},
 }
 """How attractors are judged unless the caller says otherwise."""
+ALWAYS = ("point", "orbit", "special")
+"""Dimensions that results keep where they have no such thing."""
+OF_FILES, MAY_LACK = ("scene", "name", "parameters"), ("model_source",)
+"""Attributes of files that are left out, and those that are where they are empty."""
+SIGNS = ("negative", "zero", "positive", "unclear")
 TRANSIENT, OBSERVED, TURNING = 100.0, 2000.0, 20.0
 """Times of exponents and attractors where they are not given, in longest delays."""
 
@@ -72,7 +77,9 @@ def dataset_of(found: Results) -> xr.Dataset:
             values = values.reshape(shape)
         data[name] = (names, values, about)
     whole = attributes.get("", {}) | {"source": f"delaykit {__version__}"}
+    whole = {k: v for k, v in whole.items() if k not in OF_FILES and not (v == "" and k in MAY_LACK)}
     dataset = xr.Dataset(data, attrs=whole)
+    dataset = dataset.drop_dims([k for k, n in dataset.sizes.items() if n == 0 and k not in ALWAYS])
     return dataset.set_coords([name for name in dataset if list(dataset[name].dims) == [name]])
 
 
@@ -122,8 +129,13 @@ def exponents(model, history, count=4, t_transient=None, t_end=None, *, paramete
               longest_bar=1e-3) -> xr.Dataset:
     """The `count` largest Lyapunov exponents from t_transient to t_end, with standard errors.
 
-    Of a motion that does not end at rest one is that of the flow, 0. Also the Kaplan-Yorke
-    dimension. history: constants, or a run, from whose last state the motion begins.
+    Of a motion that does not end at rest one is that of the flow, 0. Also their signs (negative,
+    zero, positive or unclear), the Kaplan-Yorke dimension (the count is too small where it is NaN),
+    running averages over time, and the value in each batch of the time.
+
+    history: constants, or a run, from whose last state the motion begins.
+    t_turning: time before t_transient is over in which the vectors turn. interval: longest time
+    between two orthonormalisations.
     """
     own = Arguments(model, parameters)
     unit = longest_delay(own)
@@ -141,7 +153,16 @@ def exponents(model, history, count=4, t_transient=None, t_end=None, *, paramete
             **{"batches": batches, "zero_level": zero_level, "longest_bar": longest_bar},
         },
     }
-    return command(model, "exponents", groups, histories_group(own, history)).isel(run=0)
+    found = command(model, "exponents", groups, histories_group(own, history)).isel(run=0)
+    signs = [SIGNS[1 + int(sign)] for sign in found.sign]
+    found = found.drop_vars(["tolerance", "longest_step", "mean_step", "sign"]).rename(
+        dimension="kaplan_yorke",
+        dimension_error="kaplan_yorke_error",
+        time_block="batch",
+        block_value="batch_value",
+    )
+    about = {"long_name": "sign of the exponent, unclear where its error is too long"}
+    return found.assign(sign=("exponent", signs, about)).assign_attrs(rtol=rtol)
 
 
 def attractor(model, history, *, parameters=None, near=None, rtol=1e-8, method="auto", max_steps=2 * 10**7,

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from delaykit.arguments import HUGE, Arguments, begin
+from delaykit.arguments import HUGE, Arguments, begin, number_of
 from delaykit.errors import RunError, check_name
 from delaykit.events import Event
 from delaykit.history import Pieces
@@ -112,6 +112,18 @@ def integrate(model, history=None, t_end=None, *, t_start=0.0, t_eval=None, para
     solution.options = {"method": method, "rtol": rtol.tolist(), "atol": atol.tolist()}
     del kept
     return solution
+
+
+def section(model, history, t_end, event, *, t_transient=0.0, **options):
+    """The points at which a run passes a level: an xarray.Dataset over `passage`.
+
+    Time, the time since the passage before, and the states there. event: such as "y = 1 rising" or
+    "y' = 0 falling". t_transient: passages before it are left out. options: those of `integrate`.
+    """
+    from delaykit.datasets import dataset_of_passages
+
+    run = integrate(model, history, t_end, events=[event], t_eval=(), **options)
+    return dataset_of_passages(run, number_of("t_transient", t_transient))
 
 
 def solution_of(own: Arguments, found: Results, events: list[Event]) -> Solution:
