@@ -1,6 +1,6 @@
 """Models with constant delays: runs, exponents, Hopf points, cycles and scans."""
 
-from delaykit.errors import DelaykitError, InterruptedRun, ModelError, RunError
+from delaykit.errors import CompilerError, DelaykitError, InterruptedRun, ModelError, RunError
 from delaykit.events import Event
 from delaykit.model import Model
 from delaykit.plots import plot
@@ -8,6 +8,7 @@ from delaykit.spectra import spectrum
 from delaykit.version import __version__
 
 __all__ = [
+    "CompilerError",
     "DelaykitError",
     "Event",
     "InterruptedRun",

@@ -14,7 +14,8 @@ def dataset_of_run(run) -> xr.Dataset:
         numbers = np.repeat(np.arange(len(run.t_events)), [len(one) for one in run.t_events])
         order = np.argsort(np.concatenate(run.t_events), kind="stable")
         times, states = np.concatenate(run.t_events)[order], np.concatenate(run.y_events)[order]
-        data["event_number"] = ("event", numbers[order], {"long_name": "number of the event, from 0"})
+        about = {"long_name": "number of the event, from 0"}
+        data["event_number"] = ("event", numbers[order], about)
         data["event_t"] = ("event", times, {"long_name": "time of the event"})
         data |= by_state(model, rows_of(model, states), "event", "event_")
     return xr.Dataset(data, {"t": ("t", run.t, {"long_name": "time"})}, attributes_of(run))
@@ -43,7 +44,7 @@ def by_state(model, values: np.ndarray, along: str, prefix: str = "") -> dict:
     """Variables of values of shape (blocks, states, along): each state, and its exponential."""
     shown = {state: values[:, i] for i, state in enumerate(model.states)}
     shown |= {name: np.exp(shown[state]) for name, state in model.auxiliary.items()}
-    meanings = {**model.definition["states"], **{k: f"exp({v})" for k, v in model.auxiliary.items()}}
+    meanings = model.definition["states"] | {k: f"exp({v})" for k, v in model.auxiliary.items()}
     chain = model.blocks > 1
     return {
         prefix + name: (

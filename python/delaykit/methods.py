@@ -25,8 +25,8 @@ OBSERVATION = {
 """How attractors are judged unless the caller says otherwise."""
 ALWAYS = ("point", "orbit", "special")
 """Dimensions that results keep where they have no such thing."""
-OF_FILES, MAY_LACK = ("scene", "name", "parameters"), ("model_source",)
-"""Attributes of files that are left out, and those that are where they are empty."""
+OF_FILES = ("scene", "name", "parameters")
+"""Attributes of files that are left out."""
 SIGNS = ("negative", "zero", "positive", "unclear")
 TRANSIENT, OBSERVED, TURNING = 100.0, 2000.0, 20.0
 """Times of exponents and attractors where they are not given, in longest delays."""
@@ -77,7 +77,7 @@ def dataset_of(found: Results) -> xr.Dataset:
             values = values.reshape(shape)
         data[name] = (names, values, about)
     whole = attributes.get("", {}) | {"source": f"delaykit {__version__}"}
-    whole = {k: v for k, v in whole.items() if k not in OF_FILES and not (v == "" and k in MAY_LACK)}
+    whole = {k: v for k, v in whole.items() if k not in OF_FILES and (k != "model_source" or v)}
     dataset = xr.Dataset(data, attrs=whole)
     dataset = dataset.drop_dims([k for k, n in dataset.sizes.items() if n == 0 and k not in ALWAYS])
     return dataset.set_coords([name for name in dataset if list(dataset[name].dims) == [name]])

@@ -26,8 +26,8 @@ def plot(found: xr.Dataset, ax=None):
     draw = next((draw for name, draw in known.items() if name in found), None)
     if draw is None:
         raise ModelError(
-            "plot: expected results of exponents, hopf, cycle, scan, spectrum or section; a variable "
-            "of a run draws itself, as run.y.plot()"
+            "plot: expected results of exponents, hopf, cycle, scan, spectrum or section; a "
+            "variable of a run draws itself, as run.y.plot()"
         )
     if ax is None:
         try:
@@ -74,10 +74,10 @@ def hopf(found: xr.Dataset, ax) -> None:
         ax.figure.colorbar(
             shown, ax=ax, label="unstable pairs of roots", ticks=MaxNLocator(6, integer=True)
         )
-    signs = np.sign(found.l1.values)
-    words = {-1: ("C0", "supercritical"), 1: ("C3", "subcritical"), 0: ("0.3", "l1 is 0 or unknown")}
-    for part in stretches(found.piece.values, np.nan_to_num(signs)):
-        color, word = words[int(np.nan_to_num(signs)[part.start])]
+    signs = np.nan_to_num(np.sign(found.l1.values)).astype(int)
+    words = {-1: ("C0", "supercritical"), 1: ("C3", "subcritical"), 0: ("0.3", "l1 unknown")}
+    for part in stretches(found.piece.values, signs):
+        color, word = words[signs[part.start]]
         ax.plot(found[x][part], found[y][part], color=color, label=word)
     special(found, ax, x, y)
     ax.set(xlabel=x, ylabel=y)
@@ -136,11 +136,12 @@ def special(found: xr.Dataset, ax, x: str, y: str) -> None:
     for marker, kind in zip(MARKERS, dict.fromkeys(kinds.tolist()), strict=False):
         chosen = np.flatnonzero(kinds == kind)
         at, value = found[f"special_{x}"][chosen], found[f"special_{y}"][chosen]
-        ax.plot(at, value, marker, color="k", markersize=5, label=kind.replace("_", " ").replace("hopf", "Hopf"))
+        word = kind.replace("_", " ").replace("hopf", "Hopf")
+        ax.plot(at, value, marker, color="k", markersize=5, label=word)
 
 
 def stretches(group: np.ndarray, flag: np.ndarray) -> Iterator[slice]:
-    """Where a group and a flag stay the same, each with the point after it if that is in the group."""
+    """Where a group and a flag stay the same, with the next point if that is of the group."""
     first = 0
     for i in range(1, len(group) + 1):
         if i < len(group) and group[i] == group[first] and flag[i] == flag[first]:

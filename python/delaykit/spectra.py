@@ -9,12 +9,12 @@ UNEVEN = 1e-6
 """Greatest difference of the times between samples, as a share of their mean."""
 
 
-def spectrum(run: xr.Dataset, state: str | None = None, *, t_transient=0.0, segments=8, overlap=0.5,
-             window="hann", floor=1e-6, prominence=10.0) -> xr.Dataset:
+def spectrum(run: xr.Dataset, state=None, *, t_transient=0.0, segments=8, overlap=0.5,
+             floor=1e-6, prominence=10.0) -> xr.Dataset:
     """Power spectral density of a state from t_transient on, by Welch's method, and its peaks.
 
     run: with evenly spaced samples (`t_eval=np.arange(...)`). state: the first unless given.
-    segments: of equal length, which overlap by a share and go through a `window` of SciPy.
+    segments: of equal length, which overlap by a share and go through a Hann window.
     floor: least height of a peak over the highest. prominence: least height of a peak over the
         ground that parts it from higher ones.
 
@@ -35,14 +35,14 @@ def spectrum(run: xr.Dataset, state: str | None = None, *, t_transient=0.0, segm
             "a run with t_eval=np.arange(...)"
         )
     length = int(len(t) / (1 + (segments - 1) * (1 - overlap)))
-    frequency, density = welch(y, 1 / steps.mean(), window, length, int(overlap * length))
+    frequency, density = welch(y, 1 / steps.mean(), "hann", length, int(overlap * length))
     logs = np.log(np.maximum(density, np.finfo(float).tiny))
     lowest = logs[1:].max() + np.log(floor)
     at, _ = find_peaks(logs, lowest, prominence=np.log(prominence))
-    # a parabola through the logarithms at a peak and beside it
-    before, here, behind = logs[at - 1], logs[at], logs[at + 1]
-    shift = (before - behind) / (2 * (before - 2 * here + behind))
-    height = np.exp(here - (before - behind) * shift / 4)
+    # a line through a Hann window, from three bins: fortran/src/methods/spectra/spectral_peaks.f90
+    before, here, behind = np.sqrt([density[at - 1], density[at], density[at + 1]])
+    shift = 2 * (behind - before) / (before + 2 * here + behind)
+    height = density[at] * ((1 - shift**2) / np.sinc(shift)) ** 2
     order = np.argsort(-height)
     return xr.Dataset(
         {
@@ -55,5 +55,5 @@ def spectrum(run: xr.Dataset, state: str | None = None, *, t_transient=0.0, segm
             "peak_density": ("peak", height[order], {"long_name": "density at the peak"}),
         },
         {"frequency": ("frequency", frequency, {"long_name": "frequency"})},
-        {**run.attrs, "window": window, "segments": segments, "overlap": overlap},
+        {**run.attrs, "window": "hann", "segments": segments, "overlap": overlap},
     )
