@@ -60,5 +60,7 @@ def test_the_example_in_c(mackey_glass, tmp_path):
     library = PATH.resolve()
     command = ["gcc", "-Wall", "-Werror", "-I", HOUSE / "python", source, library, "-o", "example"]
     subprocess.run([*command, f"-Wl,-rpath,{library.parent}"], check=True)
-    run = subprocess.run(["./example", mackey_glass.path], capture_output=True, text=True, check=True)
-    np.testing.assert_allclose([*map(float, run.stdout.split())], [1.06095436, 1.18671811], rtol=1e-8)
+    command = ["./example", mackey_glass.path]
+    run = subprocess.run(command, capture_output=True, text=True, check=True)
+    values = [*map(float, run.stdout.split())]
+    np.testing.assert_allclose(values, [1.06095436, 1.18671811], rtol=1e-8)
