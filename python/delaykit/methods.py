@@ -4,6 +4,7 @@ Each gives an xarray.Dataset whose variables have descriptions (`long_name`). Ti
 units of the model.
 """
 
+import re
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
@@ -124,6 +125,15 @@ def longest_delay(own: Arguments) -> float:
     return max(own.model.delays_of(own.numbers), default=0.0) or 1.0
 
 
+def check_autonomous(model) -> None:
+    """Raise ModelError if time is in the equations but as the argument of what is delayed."""
+    definitions = model.definition.get("definitions", {})
+    delayed = "|".join([*model.states, *model.auxiliary, *definitions])
+    for text in [*model.definition["equations"].values(), *definitions.values()]:
+        if re.search(r"\bt\b", re.sub(rf"\b(?:{delayed})\s*\(\s*t\b", "", str(text))):
+            raise ModelError(f"exponents: the equation '{text}' has t; expected none with t alone")
+
+
 def exponents(model, history, count=4, t_transient=None, t_end=None, *, parameters=None, rtol=1e-8,
               method="auto", t_turning=None, interval=20.0, batches=20, zero_level=3e-5,
               longest_bar=1e-3) -> xr.Dataset:
@@ -137,6 +147,7 @@ def exponents(model, history, count=4, t_transient=None, t_end=None, *, paramete
     t_turning: time before t_transient is over in which the vectors turn. interval: longest time
     between two orthonormalisations.
     """
+    check_autonomous(model)
     own = Arguments(model, parameters)
     unit = longest_delay(own)
     t_transient = TRANSIENT * unit if t_transient is None else t_transient

@@ -57,3 +57,9 @@ def test_pictures(mackey_glass, sine):
     with pytest.raises(dk.ModelError, match="plot: expected results of"):
         dk.plot(mackey_glass.run(1.2, 1))
     matplotlib.pyplot.close("all")
+
+
+def test_exponents_of_equations_with_time_are_refused():
+    """The direction of the flow, whose exponent is set to 0, is no solution of their variation."""
+    with pytest.raises(dk.ModelError, match="has t; expected none"):
+        dk.Model({"y": "-y(t - 1) + sin(t)"}).exponents(1)
