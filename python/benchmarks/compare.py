@@ -232,14 +232,19 @@ def scipy_scan(rtol):
 # the table
 
 
+def cpu_seconds():
+    """Seconds of CPU of this process and of those that it waited for."""
+    return time.process_time() + sum(os.times()[2:4])
+
+
 def work(peer, task, rtol, begun):
     """One task of a peer, and its time: from the start of the process where it is the first."""
     measured = globals()[f"{peer}_{task}"](rtol)
     before = 0.0
     if task != "first":
-        begun, before = time.time(), sum(os.times()[:4])
+        begun, before = time.time(), cpu_seconds()
     found = measured()
-    spent = [time.time() - begun, sum(os.times()[:4]) - before]
+    spent = [time.time() - begun, cpu_seconds() - before]
     print(json.dumps([*spent, np.ravel(found).tolist()]))
 
 
