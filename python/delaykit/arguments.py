@@ -8,8 +8,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from scipy.interpolate import CubicSpline
-
 from delaykit.errors import ModelError, check_name
 from delaykit.events import Event
 from delaykit.history import Pieces, fit
@@ -89,9 +87,8 @@ class Arguments:
             if missing:
                 raise ModelError(f"{what}: no value for {missing[0]}; expected one for each state")
             each = [number_of(f"{what} of {state}", value[state]) for state in self.states]
-        else:
-            each = [number_of(what, value)] * len(self.states)
-        return np.tile(each, self.model.blocks)
+            return np.tile(each, self.model.blocks)
+        return np.full(self.n, number_of(what, value))
 
     def component(self, what: str, name: str) -> tuple[int, bool]:
         """Number of a state from 0, and whether the name is that of its exponential."""
@@ -192,6 +189,9 @@ class Arguments:
                         f"history of {name}: {len(times)} times and {len(values)} values; expected "
                         "ascending times, at least two, and a value for each"
                     )
+                # SciPy's import takes a third of a second
+                from scipy.interpolate import CubicSpline
+
                 value = CubicSpline(times, values, extrapolate=False)
             found[str(name)] = value
         return found

@@ -115,8 +115,9 @@ class Results:
         address = LIBRARY.dk_values(self.handle, name.encode(), ctypes.byref(length))
         if not address:
             return np.empty(0, kind)
-        size = length.value * np.dtype(kind).itemsize
-        return np.frombuffer(ctypes.string_at(address, size), kind).copy()
+        values = np.empty(length.value, kind)
+        ctypes.memmove(values.ctypes.data, address, values.nbytes)
+        return values
 
     def description(self) -> list[list[str]]:
         """The lines of dk_describe, in words."""

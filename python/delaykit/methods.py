@@ -4,6 +4,7 @@ Each gives an xarray.Dataset whose variables have descriptions (`long_name`). Ti
 units of the model.
 """
 
+import re
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
@@ -23,6 +24,11 @@ OBSERVATION = {
     **{"segments": 8, "overlap": 0.5, "peak_floor": 1e-6, "peak_prominence": 10.0},
 }
 """How attractors are judged unless the caller says otherwise."""
+ALWAYS = ("point", "orbit", "special")
+"""Dimensions that results keep where they have no such thing."""
+OF_FILES = ("scene", "name", "parameters")
+"""Attributes of files that are left out."""
+SIGNS = ("negative", "zero", "positive", "unclear")
 TRANSIENT, OBSERVED, TURNING = 100.0, 2000.0, 20.0
 """Times of exponents and attractors where they are not given, in longest delays."""
 
@@ -72,7 +78,9 @@ def dataset_of(found: Results) -> xr.Dataset:
             values = values.reshape(shape)
         data[name] = (names, values, about)
     whole = attributes.get("", {}) | {"source": f"delaykit {__version__}"}
+    whole = {k: v for k, v in whole.items() if k not in OF_FILES and (k != "model_source" or v)}
     dataset = xr.Dataset(data, attrs=whole)
+    dataset = dataset.drop_dims([k for k, n in dataset.sizes.items() if n == 0 and k not in ALWAYS])
     return dataset.set_coords([name for name in dataset if list(dataset[name].dims) == [name]])
 
 
@@ -117,14 +125,29 @@ def longest_delay(own: Arguments) -> float:
     return max(own.model.delays_of(own.numbers), default=0.0) or 1.0
 
 
+def check_autonomous(model) -> None:
+    """Raise ModelError if time is in the equations but as the argument of what is delayed."""
+    definitions = model.definition.get("definitions", {})
+    delayed = "|".join([*model.states, *model.auxiliary, *definitions])
+    for text in [*model.definition["equations"].values(), *definitions.values()]:
+        if re.search(r"\bt\b", re.sub(rf"\b(?:{delayed})\s*\(\s*t\b", "", str(text))):
+            raise ModelError(f"exponents: the equation '{text}' has t; expected none with t alone")
+
+
 def exponents(model, history, count=4, t_transient=None, t_end=None, *, parameters=None, rtol=1e-8,
               method="auto", t_turning=None, interval=20.0, batches=20, zero_level=3e-5,
               longest_bar=1e-3) -> xr.Dataset:
     """The `count` largest Lyapunov exponents from t_transient to t_end, with standard errors.
 
-    Of a motion that does not end at rest one is that of the flow, 0. Also the Kaplan-Yorke
-    dimension. history: constants, or a run, from whose last state the motion begins.
+    Of a motion that does not end at rest one is that of the flow, 0. Also their signs (negative,
+    zero, positive or unclear), the Kaplan-Yorke dimension (the count is too small where it is NaN),
+    running averages over time, and the value in each batch of the time.
+
+    history: constants, or a run, from whose last state the motion begins.
+    t_turning: time before t_transient is over in which the vectors turn. interval: longest time
+    between two orthonormalisations.
     """
+    check_autonomous(model)
     own = Arguments(model, parameters)
     unit = longest_delay(own)
     t_transient = TRANSIENT * unit if t_transient is None else t_transient
@@ -141,7 +164,16 @@ def exponents(model, history, count=4, t_transient=None, t_end=None, *, paramete
             **{"batches": batches, "zero_level": zero_level, "longest_bar": longest_bar},
         },
     }
-    return command(model, "exponents", groups, histories_group(own, history)).isel(run=0)
+    found = command(model, "exponents", groups, histories_group(own, history)).isel(run=0)
+    signs = [SIGNS[1 + int(sign)] for sign in found.sign]
+    found = found.drop_vars(["tolerance", "longest_step", "mean_step", "sign"]).rename(
+        dimension="kaplan_yorke",
+        dimension_error="kaplan_yorke_error",
+        time_block="batch",
+        block_value="batch_value",
+    )
+    about = {"long_name": "sign of the exponent, unclear where its error is too long"}
+    return found.assign(sign=("exponent", signs, about)).assign_attrs(rtol=rtol)
 
 
 def attractor(model, history, *, parameters=None, near=None, rtol=1e-8, method="auto", max_steps=2 * 10**7,

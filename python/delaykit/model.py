@@ -165,6 +165,10 @@ class Model:
         """A run as an xarray.Dataset; `runs.integrate` explains the arguments."""
         return runs.integrate(self, history, t_end, **options).to_dataset()
 
+    def section(self, history, t_end, event, **options):
+        """The points at which a run passes a level; `runs.section` explains them."""
+        return runs.section(self, history, t_end, event, **options)
+
     def scan(self, measure="maxima", **options):
         """What is measured of runs over arrays of parameters; `scans.scan` explains it."""
         return scans.scan(self, measure, **options)

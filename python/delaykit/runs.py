@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from delaykit.arguments import HUGE, Arguments, begin
+from delaykit.arguments import HUGE, Arguments, begin, number_of
 from delaykit.errors import RunError, check_name
 from delaykit.events import Event
 from delaykit.history import Pieces
@@ -14,9 +14,10 @@ from delaykit.library import LIBRARY, Results, address, call
 
 METHODS = ("auto", "explicit", "bs5", "dop853", "taylor", "radau5", "radau9", "radau13")
 COUNTS = (
-    *("steps_accepted", "steps_rejected", "steps_implicit", "evaluations", "factorisations"),
-    "breaking_points",
+    *("status", "steps_accepted", "steps_rejected", "steps_implicit", "evaluations"),
+    *("factorisations", "breaking_points"),
 )
+"""Names of the numbers in `counts` of the library"""
 
 
 @dataclass
@@ -37,7 +38,7 @@ class Solution:
     status: int
     """0: reached the end; 1: an event ended the run"""
     counts: dict[str, int]
-    """Counts of the solver, and its method at the end"""
+    """Counts of the solver"""
     options: dict = field(default_factory=dict)
     pieces: Pieces | None = None
     """Dense output, if it was asked for"""
@@ -113,23 +114,39 @@ def integrate(model, history=None, t_end=None, *, t_start=0.0, t_eval=None, para
     return solution
 
 
+def section(model, history, t_end, event, *, t_transient=0.0, **options):
+    """The points at which a run passes a level: an xarray.Dataset over `passage`.
+
+    Time, the time since the passage before, and the states there. event: such as "y = 1 rising" or
+    "y' = 0 falling". t_transient: passages before it are left out. options: those of `integrate`.
+    """
+    from delaykit.datasets import dataset_of_passages
+
+    run = integrate(model, history, t_end, events=[event], t_eval=(), **options)
+    return dataset_of_passages(run, number_of("t_transient", t_transient))
+
+
 def solution_of(own: Arguments, found: Results, events: list[Event]) -> Solution:
     """The arrays of results of the library."""
     model, t = own.model, found.values("t")
     y = own.by_block(found.values("y").reshape(len(t), own.n)).T
-    which = found.values("event_which", np.int32)
-    times = found.values("event_time")
-    states = own.by_block(found.values("event_y").reshape(len(times), own.n))
-    words = {line[2]: line[4] for line in found.description() if line[:2] == ["attribute", ""]}
+    counts = dict(zip(COUNTS, found.values("counts").astype(int).tolist(), strict=False))
+    t_events, y_events = [], []
+    if events:
+        which = found.values("event_which", np.int32)
+        times = found.values("event_time")
+        states = own.by_block(found.values("event_y").reshape(len(times), own.n))
+        t_events = [times[which == 1 + i] for i in range(len(events))]
+        y_events = [states[which == 1 + i] for i in range(len(events))]
     return Solution(
         model=model,
         numbers=own.numbers,
         t=t,
         y=y,
-        t_events=[times[which == 1 + i] for i in range(len(events))],
-        y_events=[states[which == 1 + i] for i in range(len(events))],
-        status=int(words.get("reason", -1)),
-        counts={name: int(float(words[name])) for name in COUNTS if name in words},
+        t_events=t_events,
+        y_events=y_events,
+        status=counts.pop("status", -1),
+        counts=counts,
         pieces=pieces_of(own, found),
     )
 

@@ -91,12 +91,17 @@ def scan(model, measure="maxima", *, workers=None, progress=True, most=200, **op
     for i, row in enumerate(rows):
         table[i, : len(row)] = row
     dims = grids[0].dims
+    about, names = {"long_name": name}, {}
+    if dimension == "extremum":
+        about = {"long_name": f"{name} of {options.get('state', model.states[0])}"}
+    elif dimension == "state" and model.blocks == 1:
+        about, names = {"long_name": "state at the end"}, {"state": list(model.states)}
     return xr.Dataset(
         {
-            name: ((*dims, dimension), table.reshape(*shape, -1)),
+            name: ((*dims, dimension), table.reshape(*shape, -1), about),
             "reason": (dims, np.array(reasons).reshape(shape)),
         },
-        {key: array for key, array in arrays.items() if array.ndim},
+        {key: array for key, array in arrays.items() if array.ndim} | names,
         {"model": model.definition["name"], "measure": name},
     )
 

@@ -293,13 +293,12 @@ contains
       type(integration_result), intent(in) :: outcome
       type(continuation_type), intent(in) :: now
 
-      call data%attribute("reason", outcome%reason)
-      call data%attribute("steps_accepted", outcome%accepted)
-      call data%attribute("steps_rejected", outcome%rejected)
-      call data%attribute("steps_implicit", outcome%implicit_steps)
-      call data%attribute("evaluations", outcome%evaluations)
-      call data%attribute("factorisations", outcome%factorisations)
-      call data%attribute("breaking_points", outcome%breaking_points)
+      call data%column(data%dimension("count", 7), "counts", &
+                       [real(wp) :: outcome%reason, outcome%accepted, outcome%rejected, &
+                        outcome%implicit_steps, outcome%evaluations, outcome%factorisations, &
+                        outcome%breaking_points], &
+                       "1 where an event ended the run, steps accepted, rejected and implicit, " &
+                       //"evaluations, factorisations, breaking points")
       call data%attribute("method_at_end", trim(now%method))
    end subroutine put_outcome
 

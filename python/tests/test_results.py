@@ -1,0 +1,65 @@
+"""Spectra, sections and pictures."""
+
+import math
+
+import delaykit as dk
+import matplotlib
+import numpy as np
+import pytest
+
+matplotlib.use("agg")
+
+
+def test_a_spectrum_of_a_sine(sine):
+    """sin t: one peak at 1/(2 pi), and a density whose integral is the variance 1/2."""
+    run = sine.run(math.sin, 2000, t_eval=np.arange(0, 2000, 0.5), rtol=1e-11, atol=1e-11)
+    found = dk.spectrum(run)
+    np.testing.assert_allclose(found.peak_frequency, [1 / (2 * math.pi)], rtol=1e-4)
+    np.testing.assert_allclose(found.density.integrate("frequency"), 1 / 2, rtol=1e-3)
+    with pytest.raises(dk.ModelError, match="evenly spaced"):
+        dk.spectrum(sine.run(math.sin, 200))
+
+
+def test_a_section_of_a_sine(sine):
+    """sin t rises through 1/2 once in 2 pi."""
+    found = sine.section(math.sin, 40, "y = 0.5 rising", t_transient=10)
+    np.testing.assert_allclose(found.t[0], math.pi / 6 + 4 * math.pi, atol=1e-6)
+    np.testing.assert_allclose(found.time_between[1:], 2 * math.pi, atol=1e-6)
+    np.testing.assert_allclose(found.y, 0.5, atol=1e-9)
+
+
+def test_events_of_a_run(sine):
+    """Minima and maxima of sin t in the order of time."""
+    found = sine.run(math.sin, 10, events=["y' = 0 falling", "y' = 0 rising"])
+    np.testing.assert_allclose(found.event_t, math.pi * np.array([0.5, 1.5, 2.5]), atol=1e-6)
+    assert found.event_number.values.tolist() == [0, 1, 0]
+    np.testing.assert_allclose(found.event_y, [1, -1, 1], atol=1e-7)
+
+
+def test_pictures(mackey_glass, sine):
+    results = {
+        "Lyapunov exponent, average up to a time": mackey_glass.exponents(1.2, t_end=4000),
+        "beta": mackey_glass.hopf(("tau", "beta"), ((0.1, 20), (0.12, 0.5)), near={"y": 1}),
+        "greatest y": mackey_glass.cycle(
+            1.2, "tau", (5, 20), parameters={"tau": 6}, near={"y": 1}
+        ),
+        "maxima of y": mackey_glass.scan(tau=[5, 10], history=0.5, t_end=500, progress=False),
+        "the next time between passages": mackey_glass.section(1.2, 500, "y = 1"),
+        "power spectral density of y": dk.spectrum(
+            sine.run(math.sin, 200, t_eval=np.arange(0, 200, 0.5))
+        ),
+    }
+    for label, found in results.items():
+        axes = dk.plot(found)
+        axes.figure.canvas.draw()
+        assert axes.get_ylabel() == label
+        assert axes.get_xlabel()
+    with pytest.raises(dk.ModelError, match="plot: expected results of"):
+        dk.plot(mackey_glass.run(1.2, 1))
+    matplotlib.pyplot.close("all")
+
+
+def test_exponents_of_equations_with_time_are_refused():
+    """The direction of the flow, whose exponent is set to 0, is no solution of their variation."""
+    with pytest.raises(dk.ModelError, match="has t; expected none"):
+        dk.Model({"y": "-y(t - 1) + sin(t)"}).exponents(1)
