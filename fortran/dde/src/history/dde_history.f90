@@ -80,7 +80,7 @@ contains
       class(dde_problem_type), intent(in) :: problem
       type(instant), intent(in) :: origin
       !> Components that are kept beside the delayed ones
-      integer, intent(in) :: also(:)
+      integer, intent(in), optional :: also(:)
       type(history_type) :: past
       integer, allocatable :: row_of(:)
       logical, allocatable :: wanted(:)
@@ -89,7 +89,7 @@ contains
       past%origin = origin
       allocate (wanted(problem%n), source=.false.)
       wanted(problem%component) = .true.
-      wanted(also) = .true.
+      if (present(also)) wanted(also) = .true.
       past%kept = pack([(i, i=1, problem%n)], wanted)
       allocate (row_of(problem%n))
       row_of(past%kept) = [(i, i=1, size(past%kept))]
