@@ -42,6 +42,13 @@ def test_gfortran_s_runtime_is_the_only_library():
     assert set(names) <= RUNTIME | SYSTEM | {"liblapack", "libblas"}
 
 
+def test_a_library_that_cannot_be_loaded(monkeypatch, tmp_path):
+    """As where gfortran is not installed."""
+    monkeypatch.setattr(library, "PATH", tmp_path / "libdelaykit.so")
+    with pytest.raises(ImportError, match=r"libdelaykit.so: cannot open .* install gfortran"):
+        library.load()
+
+
 def test_ikeda_s_equation_from_c(tmp_path):
     """Up to t = tau the delayed state is 1; pi/2 is at rest, and disturbances decay at rate 1."""
     model = dk.Model({"y": "-y + mu*sin(y(t - tau))"}, {"mu": 1, "tau": 1}, name="ikeda")
