@@ -1,8 +1,7 @@
-"""Write the Fortran module of a model, or compile it, or write the module of the interface.
+"""Write the Fortran module of a model, or compile it.
 
     python -m generator DEFINITION.yaml ... MODULE.f90
     python -m generator DEFINITION.yaml ... FOLDER/OBJECT.so ...
-    python -m generator INTERFACE.f90
 
 Several definitions are one model: later files add to earlier ones. An object is in quadruple
 precision if the name of its folder ends with "_quad".
@@ -14,7 +13,7 @@ from pathlib import Path
 
 from .compile import COMPILER, FLAGS, CompileError, compile_module
 from .definition import ModelError, read_files
-from .module import write_interface, write_module
+from .module import write_module
 
 
 def main() -> None:
@@ -34,7 +33,7 @@ def main() -> None:
     made = [path for path in arguments.files if path.suffix in (".f90", ".so")]
     sources = [path for path in arguments.files if path not in made]
     try:
-        text = write_module(read_files(sources, arguments.name)) if sources else write_interface()
+        text = write_module(read_files(sources, arguments.name))
         for path in made:
             if path.suffix == ".so":
                 compile_module(text, path, arguments.compiler, arguments.flags)

@@ -130,11 +130,6 @@ def interface_digest() -> str:
     return hashlib.sha256((SUPPORT / "shared" / "model_border.f90").read_bytes()).hexdigest()[:32]
 
 
-def write_interface() -> str:
-    """The text of the module with the digest that a program expects of its models."""
-    return rendered("interface.f90.jinja", {}, digest=interface_digest())
-
-
 def quoted(text: str) -> str:
     """A character constant, in parts that fit on a line."""
     parts = [text[at : at + LONGEST] for at in range(0, max(1, len(text)), LONGEST)]

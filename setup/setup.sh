@@ -99,7 +99,7 @@ drop_moved_builds() {
     for cache in build/*/CMakeCache.txt; do
         [[ -f $cache ]] || continue
         source=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "$cache")
-        [[ $source -ef fortran ]] || { say "dropping a build of another folder: ${cache%/*}" && rm -r "${cache%/*}"; }
+        [[ $source -ef fortran || $source -ef python ]] || { say "dropping a build of another folder: ${cache%/*}" && rm -r "${cache%/*}"; }
     done
 }
 

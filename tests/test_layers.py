@@ -10,6 +10,7 @@ from scripts.files.read_config import read
 
 FORTRAN = ROOT / "fortran"
 GENERATOR = ROOT / "generator"
+PYTHON = ROOT / "python"
 MAY_USE = {
     "bindings": {"bindings", "api"},
     "dde": {"dde", "api"},
@@ -19,6 +20,7 @@ MAY_USE = {
     "study": {"study", "methods", "model", "generator", "bindings", "api"},
     "io": {"io", "study", "methods", "model", "generator", "files", "netcdf", "api"},
     "app": {"app", "io", "study", "methods", "model", "generator", "api"},
+    "python": {"python", "app", "io", "study", "methods", "model", "generator", "api"},
 }
 """For each layer: the layers that its modules may use; `api` is what a user of the solver sees,
 `files` is what of the bindings reads and writes."""
@@ -43,8 +45,9 @@ def code_of(text: str) -> str:
 
 
 def layer_of(path: Path) -> str:
-    if path.is_relative_to(GENERATOR):
-        return "generator"
+    for root in (GENERATOR, PYTHON):
+        if path.is_relative_to(root):
+            return root.name
     *folder, _ = path.relative_to(FORTRAN).parts
     return "dde" if folder[0] == "dde" else folder[:2][-1]
 
@@ -56,6 +59,7 @@ CODE = {
         *FORTRAN.glob("dde/src/**/*.f90"),
         *FORTRAN.glob("app/*.f90"),
         *GENERATOR.glob("fortran/**/*.f90"),
+        *PYTHON.glob("src/**/*.f90"),
     ]
 }
 """Statements of each file."""
@@ -66,14 +70,17 @@ def name_of(path: Path) -> str:
 
 
 def test_no_import_from_a_higher_layer():
-    """Modules use what lies below, and of the solver its facade."""
-    known = {name_of(path): layer_of(path) for path in CODE} | ALONE
+    """Modules use what lies below, and of the solver its facade. The Python package may use all
+    that is below its own modules, some of which stand for modules of the same name."""
+    of_package = {path for path in CODE if layer_of(path) == "python"}
+    known = {name_of(path): layer_of(path) for path in CODE.keys() - of_package} | ALONE
+    replaced = known | {name_of(path): "python" for path in of_package}
     used = re.compile(r"^\s*use\b(?:\s*,\s*\w+)?\s*(?:::)?\s*(\w+)", re.MULTILINE)
     wrong = [
         f"{path} uses {name}"
         for path, code in CODE.items()
         for name in set(used.findall(code)) - INTRINSIC
-        if known.get(name) not in MAY_USE[layer_of(path)]
+        if (replaced if path in of_package else known).get(name) not in MAY_USE[layer_of(path)]
     ]
     assert wrong == []
 
@@ -151,6 +158,14 @@ def test_no_python_module_imports_from_a_higher_layer():
         found = (layers_imported(text) - allowed) | ({*of_study.findall(text)} - {*folder})
         wrong += [f"{path} imports from {one}" for one in found]
     assert wrong == []
+
+
+def test_the_python_package_imports_nothing_of_the_house():
+    """But the generator, which is a part of it."""
+    imports = re.compile(r"^\s*(?:from|import) (\w+)", re.MULTILINE)
+    for path in PYTHON.glob("delaykit/*.py"):
+        own = {*imports.findall(path.read_text())}
+        assert own & {"conftest", "generator", "scripts", "snakemake"} == set(), path
 
 
 def test_planning_loads_nothing_that_draws_fits_or_derives():

@@ -13,7 +13,7 @@ SCRIPTS = [
     *("benchmarks/run", "fortran/dde/benchmarks/run"),
 ]
 LOCKS = [
-    *(".", "setup", "docs", "fortran/dde/benchmarks", "profiles/slurm"),
+    *(".", "setup", "docs", "fortran/dde/benchmarks", "profiles/slurm", "python"),
     *("tests/browser", "tests/formats"),
 ]
 """Folders with a lock of Python packages."""

@@ -17,7 +17,7 @@ module model_library
    public :: folders_given, list_models, open_model, open_object, path_of_model
 
    !> Folders of models with colons between them, in place of those of the environment.
-   character(len=:), allocatable, save :: folders_given
+   character(len=:), allocatable :: folders_given
 
    !> Letters of paths, and of lists of names.
    integer, parameter :: path_length = 4096

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from delaykit.errors import InterruptedRun, RunError
+from delaykit.objects import ADVICE
 
 PATH = Path(__file__).with_name("libdelaykit.so")
 MESSAGE = 2048
@@ -53,7 +54,10 @@ class Request(ctypes.Structure):
 
 def load() -> ctypes.CDLL:
     """The library, with the types of its procedures."""
-    library = ctypes.CDLL(str(PATH))
+    try:
+        library = ctypes.CDLL(str(PATH))
+    except OSError as problem:
+        raise ImportError(f"{problem}; {ADVICE}") from None
     handle, text, number = ctypes.c_void_p, ctypes.c_char_p, ctypes.c_int
     to_handle = ctypes.POINTER(handle)
     types = {

@@ -86,10 +86,10 @@ contains
       end select
    end function dk_values
 
-   !> What the results hold, a line each, words between tabs: `dimension NAME LENGTH`, `variable NAME
-   !> KIND DIMENSION ...` with the slowest dimension first, and `attribute VARIABLE NAME KIND VALUE
-   !> ...`, with no name of a variable where it belongs to the whole. The number of letters; they are
-   !> written if there is room for them and a null character.
+   !> What the results hold, a line each, words between tabs: `dimension NAME LENGTH`, `variable
+   !> NAME KIND DIMENSION ...` with the slowest dimension first, and `attribute VARIABLE NAME KIND
+   !> VALUE ...`, with no name of a variable where it belongs to the whole. The number of letters;
+   !> they are written if there is room for them and a null character.
    integer(c_int) function dk_describe(handle, text, length) result(letters_needed) bind(c)
       type(c_ptr), value :: handle
       character(kind=c_char), intent(inout) :: text(*)
@@ -114,7 +114,8 @@ contains
       if (allocated(data%dimensions)) then
          do i = 1, size(data%dimensions)
             associate (one => data%dimensions(i))
-               lines = lines//"dimension"//tab//trim(one%name)//tab//digits(one%length)//new_line("a")
+               lines = lines//"dimension"//tab//trim(one%name)//tab//digits(one%length) &
+                       //new_line("a")
             end associate
          end do
       end if

@@ -23,7 +23,8 @@ contains
    end subroutine dk_folder
 
    !> Run a command; 0 if it succeeded, else 1 with a message.
-   integer(c_int) function dk_command(name, namelist, result, message, length) result(status) bind(c)
+   integer(c_int) function dk_command(name, namelist, result, message, length) result(status) &
+      bind(c)
       !> Name of the command, and path of its namelist
       type(c_ptr), value :: name, namelist
       !> The results

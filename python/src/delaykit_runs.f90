@@ -218,8 +218,8 @@ contains
       end if
    end subroutine set_options
 
-   !> Where the run begins: a state that differs from the past, or a past in polynomials. It is empty
-   !> if the past is constant and goes on without a jump.
+   !> Where the run begins: a state that differs from the past, or a past in polynomials. It is
+   !> empty if the past is constant and goes on without a jump.
    subroutine begin(request, model, now)
       type(request_type), intent(in) :: request
       type(model_type), intent(in) :: model

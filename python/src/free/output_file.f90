@@ -6,7 +6,8 @@ module output_file
    use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: attribute_type, integers, joined, letters, output_file_type, place_of, reals, variable_type
+   public :: attribute_type, integers, joined, letters, output_file_type, place_of, reals, &
+             variable_type
 
    !> Letters of a name.
    integer, parameter :: name_length = 64

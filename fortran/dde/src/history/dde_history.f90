@@ -1,4 +1,4 @@
-!> The past of one integration: the polynomials of accepted steps, of the delayed components or more.
+!> The past of one integration: polynomials of accepted steps, of the delayed components or more.
 !> It is a ring of slots. It drops the oldest steps on request and doubles when it is full. The
 !> coefficients of a step never move: a new step takes over those of a dropped one. Other
 !> modules ask it for values: steps have numbers, times in a step are counted from its start. Before
