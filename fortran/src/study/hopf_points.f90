@@ -17,6 +17,8 @@ module hopf_points
 
    !> Letters of a kind of point.
    integer, parameter :: kind_length = 20
+   !> A coefficient this much smaller than that of the next point is 0 but for rounding.
+   real(wp), parameter :: rounded = 1.0e-10_wp
    !> The coefficient passes through 0, not through a pole, where it is this small.
    real(wp), parameter :: small_coefficient = 1.0e-7_wp
    !> Frequencies of two pairs differ by more than this share.
@@ -87,7 +89,7 @@ contains
       end do
       do i = 1, size(points) - 1
          if (points(i)%piece /= points(i + 1)%piece) cycle
-         if (points(i)%l1*points(i + 1)%l1 < 0.0_wp) then
+         if (changes_sign(points(i:i + 1)%l1)) then
             call find_zero_of_l1(plane, points(i:i + 1), at, l1, error)
             if (allocated(error)) return
             if (abs(l1) <= small_coefficient) then
@@ -117,6 +119,13 @@ contains
          value = any(plane%model%delays(point%numbers) > 0.0_wp)
       end function has_delay
    end subroutine find_hopf_points
+
+   !> Whether two coefficients differ in sign, and neither is 0 but for rounding.
+   pure logical function changes_sign(l1) result(value)
+      real(wp), intent(in) :: l1(2)
+
+      value = product(l1) < 0.0_wp .and. minval(abs(l1)) > rounded*maxval(abs(l1))
+   end function changes_sign
 
    !> The point of a curve at a share of the way between two points.
    type(axis_point_type) function point_between(plane, ends, share) result(point)

@@ -9,14 +9,14 @@ module test_hopf_points
    use harmonic_balance, only: find_cycle
    use hopf_curves, only: curve_point_type
    use hopf_planes, only: curve_plane_type, turn
-   use hopf_points, only: hopf_point_type
+   use hopf_points, only: find_hopf_points, hopf_point_type
    use hopf_unfoldings, only: way_to_growth
    use linear_system, only: linear_part
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use model_roots, only: find_model_roots
    use normal_form, only: critical_vectors, first_lyapunov_coefficient
    use paper_equations, only: relative_residual
-   use traced_planes, only: find_points, known_numbers, plane_number, planes
+   use traced_planes, only: find_points, known_numbers, new_plane, plane_number, planes
    implicit none (type, external)
    private
    public :: collect_hopf_points
@@ -39,7 +39,8 @@ contains
 
       testsuite = [new_unittest("special points of Figure 2", test_figure_2), &
                    new_unittest("special points of Figure 3", test_figure_3), &
-                   new_unittest("no special points without delay", test_no_delay)]
+                   new_unittest("no special points without delay", test_no_delay), &
+                   new_unittest("a coefficient that is 0 but for rounding", test_rounding)]
    end subroutine collect_hopf_points
 
    !> Figure 2 has nine double points, six generalised ones and the point without delay as by Routh
@@ -72,6 +73,29 @@ contains
 
       call check_figure(planes, [0, 0, 0], found, error)
    end subroutine test_no_delay
+
+   !> At gamma = 1e8 the coefficient is 0 without delay. Its rounding error has either sign and makes
+   !> no generalised Hopf point.
+   subroutine test_rounding(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(curve_plane_type) :: plane
+      type(curve_point_type), allocatable :: points(:)
+      type(hopf_point_type), allocatable :: found(:)
+      integer :: i, sense
+
+      plane = new_plane(by_tau, 1.0e8_wp, 0.5_wp, [0.3_wp, 0.7_wp, 0.0_wp, 1.0_wp])
+      call find_points(plane, points, found, error)
+      if (allocated(error)) return
+      i = minloc([(points(i)%numbers(by_tau), i=1, size(points))], dim=1)
+      call expect_between(error, abs(points(i)%l1), 0.0_wp, 1.0e-15_wp, "coefficient")
+      do sense = -1, 1, 2
+         points(i)%l1 = sense*1.0e-17_wp
+         call find_hopf_points(plane, points, found, failure)
+         call expect_success(error, failure)
+         call expect(error, count(found%kind == "generalised_hopf") == 0, "no such point")
+      end do
+   end subroutine test_rounding
 
    !> The special points of a plane: their frequencies are roots of (5), the coefficient vanishes
    !> where it should, and nowhere else.
