@@ -65,9 +65,11 @@ def delaykit_run(rtol, method="auto"):
 def delaykit_exponents(rtol):
     it = model(TAU_CHAOS)
     it.handle  # noqa: B018  compiled
-    return lambda: it.exponents(
-        PAST, 4, t_transient=T_TRANSIENT, t_end=T_TRANSIENT + T_EXPONENTS, rtol=rtol
-    ).value.values
+    return lambda: (
+        it.exponents(
+            PAST, 4, t_transient=T_TRANSIENT, t_end=T_TRANSIENT + T_EXPONENTS, rtol=rtol
+        ).value.values
+    )
 
 
 def delaykit_scan(rtol, workers=None):

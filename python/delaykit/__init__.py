@@ -1,6 +1,6 @@
 """Models with constant delays: runs, exponents, Hopf points, cycles and scans."""
 
-from delaykit.errors import CompilerError, DelaykitError, InterruptedRun, ModelError, RunError
+from delaykit.errors import CompilerError, DelaykitError, ModelError, RunError, RunInterruptedError
 from delaykit.events import Event
 from delaykit.model import Model
 from delaykit.plots import plot
@@ -11,10 +11,10 @@ __all__ = [
     "CompilerError",
     "DelaykitError",
     "Event",
-    "InterruptedRun",
     "Model",
     "ModelError",
     "RunError",
+    "RunInterruptedError",
     "__version__",
     "plot",
     "spectrum",

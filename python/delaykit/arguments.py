@@ -157,7 +157,7 @@ class Arguments:
             if exponential and not (array > 0).all():
                 raise ModelError(f"{what} of {name}: {value!r}; expected a number > 0")
             found[:, component] = np.log(array) if exponential else array
-        for component, state in enumerate(self.states):
+        for state in self.states:
             named = {state, *(k for k, v in self.model.auxiliary.items() if v == state)}
             if not named & set(given):
                 raise ModelError(f"{what} of {state}: no value; expected one for each state")
@@ -171,7 +171,9 @@ class Arguments:
             return given
         if len(self.states) == 1 and given is not None:
             return {self.states[0]: given}
-        raise ModelError(f"{what}: {given!r}; expected a value for each of {', '.join(self.states)}")
+        raise ModelError(
+            f"{what}: {given!r}; expected a value for each of {', '.join(self.states)}"
+        )
 
     def over_time(self, given: Mapping) -> Mapping:
         """Arrays over time, pairs (times, values) or DataArrays over t, as functions of time."""

@@ -1,4 +1,4 @@
-"""Exceptions of this package. Each message names what is wrong, the value met, and what is expected."""
+"""Exceptions of this package. A message says what is wrong, the value met, and what is expected."""
 
 import difflib
 from collections.abc import Iterable
@@ -27,7 +27,7 @@ class RunError(DelaykitError, RuntimeError):
         return type(self), (self.args[0], self.partial)
 
 
-class InterruptedRun(RunError):
+class RunInterruptedError(RunError):
     """A run that was asked to stop."""
 
 

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -14,7 +15,9 @@ DEGREE = 12
 SHARE = 0.1
 """Their error as a share of the tolerance of the run."""
 MOST_PIECES = 4096
-NODES = np.array([(1 - math.cos(math.pi * (k + 0.5) / (DEGREE + 1))) / 2 for k in range(DEGREE + 1)])
+NODES = np.array(
+    [(1 - math.cos(math.pi * (k + 0.5) / (DEGREE + 1))) / 2 for k in range(DEGREE + 1)]
+)
 """Where a function is read in each piece: Chebyshev points of 0..1 ..."""
 
 
@@ -105,14 +108,20 @@ class Pieces:
         return value
 
 
-def fit(function: Callable[[float], np.ndarray], begin: float, end: float, breaks,
-        rtol: np.ndarray, atol: np.ndarray) -> Pieces:
+def fit(
+    function: Callable[[float], np.ndarray],
+    begin: float,
+    end: float,
+    breaks,
+    rtol: np.ndarray,
+    atol: np.ndarray,
+) -> Pieces:
     """The pieces of a function of time on [begin, end], within a tenth of the tolerance.
 
     function: of a time, shape (states). Raise ModelError where it is not finite or too rough.
     """
     edges = sorted({begin, end, *(t for t in breaks if begin < t < end)})
-    todo = [*zip(edges[:-1], edges[1:], strict=True)][::-1]
+    todo = [*pairwise(edges)][::-1]
     done = []
     while todo:
         left, right = todo.pop()
@@ -134,7 +143,7 @@ def fit(function: Callable[[float], np.ndarray], begin: float, end: float, break
             todo += [(middle, right), (left, middle)]
     start = np.array([[left, 0.0] for left, _, _ in done])
     length = np.array([right - left for left, right, _ in done])
-    inner = np.array([t for t in edges[1:-1]])
+    inner = np.array(edges[1:-1])
     return Pieces(
         start=start,
         length=length,

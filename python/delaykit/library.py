@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from delaykit.errors import InterruptedRun, RunError
+from delaykit.errors import RunError, RunInterruptedError
 from delaykit.objects import ADVICE
 
 PATH = Path(__file__).with_name("libdelaykit.so")
@@ -43,7 +43,15 @@ class Request(ctypes.Structure):
     """dk_request: what is wanted of a run."""
 
     _fields_ = structure(
-        *("parameters:p", "past:p", "state:p", "t_start:r", "t_start_rest:r", "t_end:r", "method:s"),
+        *(
+            "parameters:p",
+            "past:p",
+            "state:p",
+            "t_start:r",
+            "t_start_rest:r",
+            "t_end:r",
+            "method:s",
+        ),
         *("rtol:p", "atol:p", "first_step:r", "max_step:r", "max_steps:l"),
         *("times:p", "breaks:p", "doses:p", "event_level:p", "event_component:p"),
         *("event_direction:p", "event_terminal:p", "event_of_slope:p", "share:r"),
@@ -140,7 +148,7 @@ def call(procedure, *arguments) -> Results:
     results = Results(handle)
     if failed:
         text = message.value.decode(errors="replace")
-        raise (InterruptedRun if text.endswith("interrupted") else RunError)(text, results)
+        raise (RunInterruptedError if text.endswith("interrupted") else RunError)(text, results)
     return results
 
 

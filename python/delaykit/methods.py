@@ -1,4 +1,4 @@
-"""Exponents, classes of motion, roots, Hopf curves and cycles of a model, by the library's commands.
+"""Exponents, classes of motion, roots, Hopf curves and cycles of a model, by the library.
 
 Each gives an xarray.Dataset whose variables have descriptions (`long_name`). Times and rates are in
 units of the model.
@@ -111,7 +111,9 @@ def histories_group(own: Arguments, history) -> dict:
         values = history.y[..., -1].reshape(own.model.blocks, -1)
     elif isinstance(history, xr.Dataset):
         last = history.isel(t=-1)
-        values = np.array([last[state].values for state in own.states]).reshape(len(own.states), -1).T
+        values = (
+            np.array([last[state].values for state in own.states]).reshape(len(own.states), -1).T
+        )
     else:
         given = own.by_name("history", history)
         if any(callable(one) or isinstance(one, tuple) for one in given.values()):
@@ -134,9 +136,22 @@ def check_autonomous(model) -> None:
             raise ModelError(f"exponents: the equation '{text}' has t; expected none with t alone")
 
 
-def exponents(model, history, count=4, t_transient=None, t_end=None, *, parameters=None, rtol=1e-8,
-              method="auto", t_turning=None, interval=20.0, batches=20, zero_level=3e-5,
-              longest_bar=1e-3) -> xr.Dataset:
+def exponents(
+    model,
+    history,
+    count=4,
+    t_transient=None,
+    t_end=None,
+    *,
+    parameters=None,
+    rtol=1e-8,
+    method="auto",
+    t_turning=None,
+    interval=20.0,
+    batches=20,
+    zero_level=3e-5,
+    longest_bar=1e-3,
+) -> xr.Dataset:
     """The `count` largest Lyapunov exponents from t_transient to t_end, with standard errors.
 
     Of a motion that does not end at rest one is that of the flow, 0. Also their signs (negative,
@@ -176,12 +191,25 @@ def exponents(model, history, count=4, t_transient=None, t_end=None, *, paramete
     return found.assign(sign=("exponent", signs, about)).assign_attrs(rtol=rtol)
 
 
-def attractor(model, history, *, parameters=None, near=None, rtol=1e-8, method="auto", max_steps=2 * 10**7,
-              t_transient=None, t_observed=None, t_turning=None, kept=0, **observation) -> xr.Dataset:
+def attractor(
+    model,
+    history,
+    *,
+    parameters=None,
+    near=None,
+    rtol=1e-8,
+    method="auto",
+    max_steps=2 * 10**7,
+    t_transient=None,
+    t_observed=None,
+    t_turning=None,
+    kept=0,
+    **observation,
+) -> xr.Dataset:
     """The class of the motion from a history, and what it was judged by.
 
     Class: fixed_point, cycle, torus, three_torus, chaos or undecided, where exponents, section and
-    spectrum do not contradict each other. near: a guess of the state at rest, unless the model has a
+    spectrum do not contradict each other. near: a guess of the state at rest, unless there is a
     `steady_state` or a `section`. observation: keys of OBSERVATION.
     """
     model = model.resting(near)
@@ -240,8 +268,21 @@ def hopf(model, along, window, *, parameters=None, near=None, cells=40) -> xr.Da
     return command(model, "hopf", groups)
 
 
-def cycle(model, start, along, window, *, parameters=None, near=None, t_transient=None, degree=7,
-          intervals=40, longest_period=None, most_orbits=1000, curves=None) -> xr.Dataset:
+def cycle(
+    model,
+    start,
+    along,
+    window,
+    *,
+    parameters=None,
+    near=None,
+    t_transient=None,
+    degree=7,
+    intervals=40,
+    longest_period=None,
+    most_orbits=1000,
+    curves=None,
+) -> xr.Dataset:
     """Branches of periodic orbits along a parameter, from Hopf points and from a motion.
 
     start: a run or a history from which a cycle is approached at the model's own parameter; None:
@@ -266,6 +307,9 @@ def cycle(model, start, along, window, *, parameters=None, near=None, t_transien
     if start is not None:
         group["starts"] = [here]
     if curves:
-        group |= {"curves_along": list(curves), "curves_windows": list(np.ravel([*curves.values()]))}
-    start = {state: 0.0 for state in own.states} if start is None else start
+        group |= {
+            "curves_along": list(curves),
+            "curves_windows": list(np.ravel([*curves.values()])),
+        }
+    start = dict.fromkeys(own.states, 0.0) if start is None else start
     return command(model, "cycles", {"cycles": group}, histories_group(own, start))

@@ -45,8 +45,17 @@ class Model:
     The model is compiled when it is first needed, and kept in the user's cache.
     """
 
-    def __init__(self, equations: Mapping, parameters: Mapping | None = None, *, states=None,
-                 name="model", blocks=1, ends="free", **options):
+    def __init__(
+        self,
+        equations: Mapping,
+        parameters: Mapping | None = None,
+        *,
+        states=None,
+        name="model",
+        blocks=1,
+        ends="free",
+        **options,
+    ):
         for key in options:
             check_name("option", key, OPTIONS)
         if not isinstance(equations, Mapping) or not equations:

@@ -56,10 +56,27 @@ class Solution:
         return dataset_of_run(self)
 
 
-def integrate(model, history=None, t_end=None, *, t_start=0.0, t_eval=None, parameters=None,
-              method="auto", rtol=1e-9, atol=1e-9, events=(), dense_output=False, initial=None,
-              breaks=(), doses=(), first_step=0.0, max_step=math.inf, max_steps=10**8,
-              samples_per_step=4) -> Solution:
+def integrate(
+    model,
+    history=None,
+    t_end=None,
+    *,
+    t_start=0.0,
+    t_eval=None,
+    parameters=None,
+    method="auto",
+    rtol=1e-9,
+    atol=1e-9,
+    events=(),
+    dense_output=False,
+    initial=None,
+    breaks=(),
+    doses=(),
+    first_step=0.0,
+    max_step=math.inf,
+    max_steps=10**8,
+    samples_per_step=4,
+) -> Solution:
     """Integrate a model from t_start to t_end.
 
     history: before t_start, of each state or auxiliary a number or a function of t, as a dict (of

@@ -50,7 +50,9 @@ MEASURES: dict[str, tuple[str, Callable]] = {
 """By name, the dimension of what is measured, and how."""
 
 
-def scan(model, measure="maxima", *, workers=None, progress=True, most=200, **options) -> xr.Dataset:
+def scan(
+    model, measure="maxima", *, workers=None, progress=True, most=200, **options
+) -> xr.Dataset:
     """Measure runs for all combinations of arrays of parameters.
 
     Parameters are given by name: numbers; arrays, each a dimension of its own name; or DataArrays,

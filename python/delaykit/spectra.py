@@ -9,8 +9,16 @@ UNEVEN = 1e-6
 """Greatest difference of the times between samples, as a share of their mean."""
 
 
-def spectrum(run: xr.Dataset, state=None, *, t_transient=0.0, segments=8, overlap=0.5,
-             floor=1e-6, prominence=10.0) -> xr.Dataset:
+def spectrum(
+    run: xr.Dataset,
+    state=None,
+    *,
+    t_transient=0.0,
+    segments=8,
+    overlap=0.5,
+    floor=1e-6,
+    prominence=10.0,
+) -> xr.Dataset:
     """Power spectral density of a state from t_transient on, by Welch's method, and its peaks.
 
     run: with evenly spaced samples (`t_eval=np.arange(...)`). state: the first unless given.

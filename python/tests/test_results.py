@@ -40,9 +40,7 @@ def test_pictures(mackey_glass, sine):
     results = {
         "Lyapunov exponent, average up to a time": mackey_glass.exponents(1.2, t_end=4000),
         "beta": mackey_glass.hopf(("tau", "beta"), ((0.1, 20), (0.12, 0.5)), near={"y": 1}),
-        "greatest y": mackey_glass.cycle(
-            1.2, "tau", (5, 20), parameters={"tau": 6}, near={"y": 1}
-        ),
+        "greatest y": mackey_glass.cycle(1.2, "tau", (5, 20), parameters={"tau": 6}, near={"y": 1}),
         "maxima of y": mackey_glass.scan(tau=[5, 10], history=0.5, t_end=500, progress=False),
         "the next time between passages": mackey_glass.section(1.2, 500, "y = 1"),
         "power spectral density of y": dk.spectrum(

@@ -1,5 +1,6 @@
 """Runs against exact solutions and published values, and what is refused."""
 
+import functools
 import math
 import multiprocessing
 import os
@@ -14,6 +15,7 @@ import time
 import delaykit as dk
 import numpy as np
 import pytest
+
 from conftest import MACKEY_GLASS, NUMBERS
 
 
@@ -146,7 +148,9 @@ def test_other_processes_and_threads(mackey_glass):
     expected = mackey_glass.integrate(1.2, 50, t_eval=[50]).y
     found = []
     threads = [
-        threading.Thread(target=lambda: found.append(mackey_glass.integrate(1.2, 50, t_eval=[50]).y))
+        threading.Thread(
+            target=lambda: found.append(mackey_glass.integrate(1.2, 50, t_eval=[50]).y)
+        )
         for _ in range(4)
     ]
     for thread in threads:
@@ -173,7 +177,11 @@ def test_two_processes_compile_one_model(tmp_path):
     """
     command = [sys.executable, "-c", textwrap.dedent(program)]
     running = [
-        subprocess.Popen(command, stdout=subprocess.PIPE, env={"DELAYKIT_CACHE": str(tmp_path), "PATH": "/usr/bin:/bin"})
+        subprocess.Popen(
+            command,
+            stdout=subprocess.PIPE,
+            env={"DELAYKIT_CACHE": str(tmp_path), "PATH": "/usr/bin:/bin"},
+        )
         for _ in range(2)
     ]
     outputs = {one.communicate()[0] for one in running}
@@ -195,10 +203,10 @@ def test_an_interruption_ends_within_a_second(mackey_glass, scanning):
     timer = threading.Timer(0.5, os.kill, [os.getpid(), signal.SIGINT])
     begun = time.monotonic()
     timer.start()
+    run = mackey_glass.run
+    if scanning:
+        run = functools.partial(mackey_glass.scan, tau=[17.0] * 4, progress=False)
     with pytest.raises(KeyboardInterrupt):
-        if scanning:
-            mackey_glass.scan(tau=[17.0] * 4, t_end=1e9, history=1.2, progress=False)
-        else:
-            mackey_glass.run(1.2, 1e9, t_eval=[1e9])
+        run(history=1.2, t_end=1e9, t_eval=[1e9])
     assert time.monotonic() - begun < 1.5
     assert mackey_glass.integrate(1.2, 1, t_eval=[1]).status == 0
