@@ -62,6 +62,13 @@ void dk_delays(const dk_model *model, const double *parameters, double *lag, int
 int32_t dk_integrate(const dk_model *model, const dk_request *request, dk_results **results,
                      char *message, int32_t length);
 
+/* The folder in which commands find models by name, for all threads. */
+void dk_folder(const char *path);
+/* A command of the program, attractors, cycles, exponents, hopf or linear_stability, with the path of
+ * a namelist (`spring_block COMMAND --help` lists its keys). */
+int32_t dk_command(const char *command, const char *namelist, dk_results **results, char *message,
+                   int32_t length);
+
 /* Values of a variable, first dimension the slowest, and their number; NULL if there is none. */
 const void *dk_values(const dk_results *results, const char *name, int32_t *length);
 /* Dimensions, variables and attributes, a line each with tabs between words: `dimension NAME

@@ -107,7 +107,7 @@ def model_group(own: Arguments, but=()) -> dict:
 
 def histories_group(own: Arguments, history) -> dict:
     """A constant history, or the last state of a run."""
-    if getattr(history, "pieces", None) is not None or hasattr(history, "t_events"):
+    if hasattr(history, "t_events"):
         values = history.y[..., -1].reshape(own.model.blocks, -1)
     elif isinstance(history, xr.Dataset):
         last = history.isel(t=-1)
@@ -120,6 +120,23 @@ def histories_group(own: Arguments, history) -> dict:
             raise ModelError("history: expected numbers here, or a run whose last state is taken")
         values = own.values("history", given).reshape(own.model.blocks, -1)[np.argsort(own.order)]
     return {"names": list(own.states), "values": values.T.ravel().tolist()}
+
+
+def is_run(start) -> bool:
+    """Whether a start is a run, as arrays or as a Dataset."""
+    return hasattr(start, "t_events") or isinstance(start, xr.Dataset)
+
+
+def mean_of(model, run) -> dict[str, float]:
+    """The mean of each state over a run, about which it moves."""
+    data = run if isinstance(run, xr.Dataset) else run.to_dataset()
+    spans = np.diff(data.t.values)
+    return {
+        state: float(
+            np.sum(0.5 * (data[state].values[1:] + data[state].values[:-1]) * spans) / spans.sum()
+        )
+        for state in model.states
+    }
 
 
 def longest_delay(own: Arguments) -> float:
@@ -285,14 +302,17 @@ def cycle(
 ) -> xr.Dataset:
     """Branches of periodic orbits along a parameter, from Hopf points and from a motion.
 
-    start: a run or a history from which a cycle is approached at the model's own parameter; None:
-        from Hopf points alone.
+    start: a run or a history from which cycles are approached at the model's own parameter and at
+        both ends of the window; None: from Hopf points alone.
+    near: a guess of the state at rest, unless the model has a `steady_state`; of a run its mean.
     curves: {name: window} of two parameters over which folds, period doublings and torus
         bifurcations are followed.
 
     Orbits: the parameter, period, least and greatest signal, Floquet multipliers. special_...:
     folds, period doublings and torus bifurcations of the branches.
     """
+    if near is None and "steady_state" not in model.definition and is_run(start):
+        near = mean_of(model, start)
     model = model.resting(near)
     check_name("parameter", along, model.definition["parameters"])
     own = Arguments(model, parameters)
@@ -305,7 +325,7 @@ def cycle(
         "longest_period": 50 * unit if longest_period is None else longest_period,
     }
     if start is not None:
-        group["starts"] = [here]
+        group["starts"] = [here, *window]
     if curves:
         group |= {
             "curves_along": list(curves),

@@ -58,7 +58,8 @@ def scan(
     Parameters are given by name: numbers; arrays, each a dimension of its own name; or DataArrays,
     which broadcast by their dimensions. measure: one of MEASURES, or a function of the model that
     returns a number or a row of numbers. The other options are those of `run`; of maxima and
-    minima also `state` and `t_transient`. most: numbers kept of each point.
+    minima also `state` and `t_transient`. Without a history each state is 1/2 before the start.
+    most: numbers kept of each point.
 
     A point that fails is not a number, with its reason in `reason`.
     """
@@ -74,6 +75,7 @@ def scan(
     else:
         check_name("measure", measure, MEASURES)
         name, (dimension, compute) = measure, MEASURES[measure]
+    options.setdefault("history", dict.fromkeys(model.states, 0.5))
     grids = xr.broadcast(*arrays.values())
     shape = grids[0].shape
     places = [

@@ -1,13 +1,11 @@
 """What the documents show: their programs run, and give the values of the study."""
 
 import re
-import subprocess
 from pathlib import Path
 
 import matplotlib
 import numpy as np
 import pytest
-from delaykit.library import PATH
 
 HOUSE = Path(__file__).parents[2]
 
@@ -52,15 +50,3 @@ def test_the_readme(monkeypatch):
     assert found["exponents"].sign.values.tolist() == ["positive", "zero", "negative", "negative"]
     assert found["motion"]["class"].item() == "cycle"
     assert (found["cycles"].special_kind == "period_doubling").any()
-
-
-def test_the_example_in_c(mackey_glass, tmp_path):
-    """Published values (fortran/dde/README.md) from a program in C."""
-    source = HOUSE / "python" / "tests" / "example.c"
-    library = PATH.resolve()
-    command = ["gcc", "-Wall", "-Werror", "-I", HOUSE / "python", source, library, "-o", "example"]
-    subprocess.run([*command, f"-Wl,-rpath,{library.parent}"], check=True)
-    command = ["./example", mackey_glass.path]
-    run = subprocess.run(command, capture_output=True, text=True, check=True)
-    values = [*map(float, run.stdout.split())]
-    np.testing.assert_allclose(values, [1.06095436, 1.18671811], rtol=1e-8)
