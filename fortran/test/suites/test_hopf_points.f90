@@ -74,7 +74,7 @@ contains
       call check_figure(planes, [0, 0, 0], found, error)
    end subroutine test_no_delay
 
-   !> At gamma = 1e8 the coefficient is 0 without delay. Its rounding error has either sign and makes
+   !> At gamma = 1e8 the coefficient is 0 without delay. Its rounding error, of either sign, makes
    !> no generalised Hopf point.
    subroutine test_rounding(error)
       type(error_type), allocatable, intent(out) :: error
