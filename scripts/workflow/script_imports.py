@@ -25,7 +25,10 @@ def imports_of(path: Path) -> frozenset[Path]:
         if isinstance(node, ast.Import):
             names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
-            names |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
+            # those of a package of its own name each other by a dot
+            beside = path.parent.relative_to(PROJECT).parts if node.level else ()
+            module = ".".join([*beside, *filter(None, [node.module])])
+            names |= {module, *(f"{module}.{alias.name}" for alias in node.names)}
         elif isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] == "load_parts":
             files |= {*files_of(f"{ast.literal_eval(node.args[0])}.py")}
     files |= {PROJECT.joinpath(*name.split(".")).with_suffix(".py") for name in names}
