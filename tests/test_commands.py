@@ -28,6 +28,11 @@ def recording(tmp_path) -> Path:
     write_script(folder / "setup" / "setup.sh", "exit 0")
     for tool in [*TOOLS, "python"]:
         write_script(folder / ".venv" / "bin" / tool, 'echo "${0##*/} $*" >>"$CALLS"')
+    package = folder / "python"
+    (package / "tests").mkdir(parents=True)
+    archive = "mkdir -p build/package; tar -czf build/package/delaykit.tar.gz test"
+    write_script(package / ".venv" / "bin" / "python", archive)
+    write_script(package / ".venv" / "bin" / "pytest", 'echo "${0##*/} $*" >>"$CALLS"')
     return folder
 
 
@@ -109,7 +114,7 @@ def test_help_and_wrong_words(tmp_path):
 def test_test_runs_a_part(recording, tmp_path, arguments, tools, last):
     """Only its tools, from any folder; the quick part sets up neither browser nor formats."""
     if "quick" in arguments:
-        write_script(recording / "setup" / "setup.sh", "[[ ! ${1-} ]] || exit 7")
+        write_script(recording / "setup" / "setup.sh", "[[ ! ${1-} || $1 = python ]] || exit 7")
     status, calls = calls_of(recording / "test", *arguments, cwd=tmp_path)
     assert status == 0
     assert {call.split()[0] for call in calls} == set(tools)
