@@ -77,7 +77,7 @@ const void *dk_values(const dk_results *results, const char *name, int32_t *leng
 int32_t dk_describe(const dk_results *results, char *text, int32_t length);
 void dk_free(dk_results *results);
 
-/* SIGINT asks all runs to stop (1), or no longer (0). */
+/* From now on SIGINT asks all runs to stop (1), or no longer (0); none is asked to before. */
 void dk_watch(int32_t on);
 /* Ask all runs of the process to stop before their next step (1), or let them run (0). */
 void dk_stop(int32_t on);

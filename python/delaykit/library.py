@@ -1,6 +1,5 @@
 """The compiled library of the solver and the methods, called over its interface to C."""
 
-import contextlib
 import ctypes
 import threading
 from pathlib import Path
@@ -90,20 +89,6 @@ def load() -> ctypes.CDLL:
 LIBRARY = load()
 
 
-@contextlib.contextmanager
-def interruptible():
-    """Let Ctrl-C end the calls within, if this is the main thread: Python raises then as usual."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    LIBRARY.dk_watch(1)
-    try:
-        yield
-    finally:
-        LIBRARY.dk_watch(0)
-        LIBRARY.dk_stop(0)
-
-
 def open_object(path: Path) -> ctypes.c_void_p:
     """The handle of a compiled model."""
     handle, message = ctypes.c_void_p(), ctypes.create_string_buffer(MESSAGE)
@@ -143,8 +128,15 @@ class Results:
 def call(procedure, *arguments) -> Results:
     """Results of a procedure that ends with the arguments result, message and length."""
     handle, message = ctypes.c_void_p(), ctypes.create_string_buffer(MESSAGE)
-    with interruptible():
+    # Ctrl-C ends the call if this is the main thread; Python raises then as usual
+    watched = threading.current_thread() is threading.main_thread()
+    try:
+        if watched:
+            LIBRARY.dk_watch(1)
         failed = procedure(*arguments, ctypes.byref(handle), message, MESSAGE)
+    finally:
+        if watched:
+            LIBRARY.dk_watch(0)
     results = Results(handle)
     if failed:
         text = message.value.decode(errors="replace")

@@ -129,6 +129,7 @@ def in_threads(compute: Callable, places: list, workers: int | None, progress: b
     rows: list = [np.empty(0)] * len(places)
     reasons = [""] * len(places)
     before = threading.stack_size(STACK)
+    LIBRARY.dk_stop(0)
     pool = ThreadPoolExecutor(workers or os.cpu_count())
     try:
         todo: dict[Future, int] = {pool.submit(compute, one): i for i, one in enumerate(places)}

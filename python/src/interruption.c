@@ -4,6 +4,7 @@
 
 extern volatile int dde_stop_requested;
 static struct sigaction before;
+static int watching;
 
 static void ask_to_stop(int number, siginfo_t *about, void *context) {
     dde_stop_requested = 1;
@@ -13,16 +14,18 @@ static void ask_to_stop(int number, siginfo_t *about, void *context) {
         before.sa_handler(number);
 }
 
-/* Watch for Ctrl-C from now on (1), or no longer (0). */
+/* Watch for Ctrl-C from now on (1), or no longer (0). Runs are asked to stop no longer. */
 void dk_watch(int on) {
-    if (on) {
+    dde_stop_requested = 0;
+    if (on && !watching) {
         struct sigaction mine = {0};
         mine.sa_sigaction = ask_to_stop;
         mine.sa_flags = SA_SIGINFO | SA_ONSTACK;
         sigaction(SIGINT, &mine, &before);
-    } else {
+    } else if (!on && watching) {
         sigaction(SIGINT, &before, NULL);
     }
+    watching = on;
 }
 
 /* Ask all runs of this process to stop (1), or let them run (0). */
