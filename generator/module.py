@@ -7,7 +7,7 @@ import jinja2
 
 from . import pointwise, rest
 from .address import couplings
-from .definition import Model
+from .definition import TIME, Model
 from .flow import Flow, Procedure, flow_of, rate_of_auxiliary, with_parameters
 from .fortran import in_words, text_of, wrapped
 from .series import series_procedure
@@ -93,6 +93,7 @@ def description_lines(model: Model) -> list[str]:
         ("sizes", *(str(len(each)) for each in counted)),
         *(("coupling", str(row), str(column)) for row, column in couplings(model)),
         observed_line(model),
+        *([("driven",)] if any(one.has(TIME) for one in model.equations.values()) else ()),
         ("name", model.name),
         ("source", model.source),
         *(("state", name, meaning) for name, meaning in model.states.items()),

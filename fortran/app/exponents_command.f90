@@ -23,7 +23,7 @@ contains
       type(progress_type) :: report
       type(scene_type) :: scene
       integer :: i
-      logical :: at_rest ! where no exponent is that of the flow
+      logical :: at_rest, driven
 
       call read_exponents(namelist_path, scene, settings, error)
       if (allocated(error)) return
@@ -33,13 +33,15 @@ contains
                          error)
       if (allocated(error)) return
       report = progress_type("exponents of "//trim(scene%name), parts=size(options))
+      ! at rest, and where time is in the equations, no exponent is that of the flow
+      driven = scene%problem%sizes%driven
       do i = 1, size(options)
          call report%begin_part(i)
          call measure_growth(scene%problem, &
                              growth_settings_type(settings%count, scene%t_transient, &
                                                   settings%t_end, settings%t_turning, &
                                                   settings%interval, settings%batches, &
-                                                  across_flow=.not. at_rest), &
+                                                  across_flow=.not. (at_rest .or. driven)), &
                              options(i), measured(i), error, progress=report)
          if (allocated(error)) return
       end do

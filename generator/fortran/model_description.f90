@@ -63,6 +63,8 @@ module model_description
       integer, allocatable :: couplings(:, :)
       !> What is looked at in motions
       type(observed_type) :: observed
+      !> Whether time is in the equations: then no disturbance along the flow stays as it is
+      logical :: driven = .false.
    end type sizes_type
 
    !> What a definition says, for messages and files.
@@ -114,6 +116,8 @@ contains
             end associate
          case ("observed")
             description%sizes%observed = observed_of(words)
+         case ("driven")
+            description%sizes%driven = .true.
          case ("name")
             description%name = words(2)
          case ("source")

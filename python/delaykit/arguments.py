@@ -220,16 +220,19 @@ def begin(own: Arguments, history, t_start: float, initial, breaks, rtol, atol) 
         start = Start(pieces.end[0], pieces.end[1], pieces.state, pieces.state, pieces)
     else:
         given = own.over_time(own.by_name("history", history))
-        if any(callable(value) for value in given.values()):
-            longest = max(own.model.delays_of(own.numbers), default=0.0)
+        reads = any(callable(value) for value in given.values())
+        longest = max(own.model.delays_of(own.numbers), default=0.0) if reads else 0.0
+        if longest > 0:
             pieces = fit(
                 lambda t: own.values("history", given, t),
-                t_start - max(longest, sys.float_info.min), t_start, breaks, rtol, atol,
+                t_start - longest, t_start, breaks, rtol, atol,
             )  # fmt: skip
             pieces = pieces.with_kink(0)
             start = Start(t_start, 0.0, pieces.state, pieces.state, pieces)
         else:
-            start = Start(t_start, 0.0, own.values("history", given))
+            # without delays a function is read once
+            past = own.values("history", given, t_start if reads else None)
+            start = Start(t_start, 0.0, past)
     if initial is None:
         return start
     state = own.values("initial", own.by_name("initial", initial))

@@ -39,7 +39,3 @@ class Event:
             )
         direction = {"rising": 1, "falling": -1, None: 0}[found[4]]
         return cls(found[1], level, direction, found[2] == "'", found[5] == "stop")
-
-
-MAXIMUM = "{}' = 0 falling"
-"""The maxima of a state."""

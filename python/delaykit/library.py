@@ -12,8 +12,6 @@ from delaykit.objects import ADVICE
 PATH = Path(__file__).with_name("libdelaykit.so")
 MESSAGE = 2048
 """Room for a message, in letters."""
-REALS = ctypes.POINTER(ctypes.c_double)
-INTEGERS = ctypes.POINTER(ctypes.c_int)
 
 
 def structure(*fields: str) -> list[tuple[str, type]]:

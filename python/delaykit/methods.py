@@ -4,7 +4,6 @@ Each gives an xarray.Dataset whose variables have descriptions (`long_name`). Ti
 units of the model.
 """
 
-import re
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
@@ -144,15 +143,6 @@ def longest_delay(own: Arguments) -> float:
     return max(own.model.delays_of(own.numbers), default=0.0) or 1.0
 
 
-def check_autonomous(model) -> None:
-    """Raise ModelError if time is in the equations but as the argument of what is delayed."""
-    definitions = model.definition.get("definitions", {})
-    delayed = "|".join([*model.states, *model.auxiliary, *definitions])
-    for text in [*model.definition["equations"].values(), *definitions.values()]:
-        if re.search(r"\bt\b", re.sub(rf"\b(?:{delayed})\s*\(\s*t\b", "", str(text))):
-            raise ModelError(f"exponents: the equation '{text}' has t; expected none with t alone")
-
-
 def exponents(
     model,
     history,
@@ -171,15 +161,15 @@ def exponents(
 ) -> xr.Dataset:
     """The `count` largest Lyapunov exponents from t_transient to t_end, with standard errors.
 
-    Of a motion that does not end at rest one is that of the flow, 0. Also their signs (negative,
-    zero, positive or unclear), the Kaplan-Yorke dimension (the count is too small where it is NaN),
-    running averages over time, and the value in each batch of the time.
+    One is that of the flow, 0, unless the motion ends at rest or time is in the equations. Also
+    their signs (negative, zero, positive or unclear), the Kaplan-Yorke dimension
+    (the count is too small where it is NaN), running averages over time, and the value in each
+    batch of the time.
 
     history: constants, or a run, from whose last state the motion begins.
     t_turning: time before t_transient is over in which the vectors turn. interval: longest time
     between two orthonormalisations.
     """
-    check_autonomous(model)
     own = Arguments(model, parameters)
     unit = longest_delay(own)
     t_transient = TRANSIENT * unit if t_transient is None else t_transient

@@ -48,6 +48,12 @@ def test_a_history_in_an_array(sine):
     np.testing.assert_allclose(run.y[0], np.sin([5, 10]), atol=1e-5)
 
 
+def test_a_function_without_delays():
+    """It is read at the start alone, which need not be 0."""
+    run = dk.Model({"y": "-y"}).integrate(math.cos, 3, t_start=2, t_eval=[3])
+    np.testing.assert_allclose(run.y[0], [math.cos(2) * math.exp(-1)], rtol=1e-8)
+
+
 def test_a_jump_at_the_start_and_doses():
     """y' = -y(t - 1) with y = 0 before and 1 at 0: polynomials on each unit of time."""
     model = dk.Model({"y": "-y(t - 1)"})

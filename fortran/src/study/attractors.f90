@@ -6,7 +6,7 @@
 module attractors
    use attractor_verdict, only: attractor_settings_type, attractor_type, judge, on_cycle, settle
    use dde, only: continuation_type, integrate, integration_options, integration_result
-   use dde_errors, only: error_type
+   use dde_errors, only: error_type, raise
    use dde_kinds, only: wp
    use exponent_averages, only: exponent_type, without_sign
    use lyapunov_spectrum, only: extend_growth, growth_settings_type, growth_type, measure_growth
@@ -64,6 +64,10 @@ contains
       type(integration_result) :: outcome
       type(search_type) :: search
 
+      if (model%sizes%driven) then
+         call raise(error, "attractors: the model has t in its equations; expected one without")
+         return
+      end if
       allocate (search%model, source=model)
       search%settings = settings
       search%options = options
