@@ -2,10 +2,10 @@
 module delaykit_handles
    use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_int, c_loc, c_null_char, &
                                           c_null_ptr, c_ptr
-   use output_file, only: attribute_type, integers, letters, output_file_type, reals, variable_type
-   use dde, only: error_type, wp
+   use dde, only: error_type
    use model_library, only: open_object
    use model_problem, only: model_type
+   use results, only: attribute_type, results_type, variable_type
    implicit none (type, external)
    private
    public :: message_of, model_of, string_of
@@ -42,7 +42,7 @@ contains
    !> Give results back.
    subroutine dk_free(handle) bind(c)
       type(c_ptr), value :: handle
-      type(output_file_type), pointer :: data
+      type(results_type), pointer :: data
 
       call c_f_pointer(handle, data)
       deallocate (data)
@@ -62,7 +62,7 @@ contains
    type(c_ptr) function dk_values(handle, name, length) result(address) bind(c)
       type(c_ptr), value :: handle, name
       integer(c_int), intent(out) :: length
-      type(output_file_type), pointer :: data
+      type(results_type), pointer :: data
       type(variable_type), pointer :: variable
       integer :: at
 
@@ -73,17 +73,16 @@ contains
       at = findloc(data%variables%name == string_of(name), .true., dim=1)
       if (at == 0) return
       variable => data%variables(at)
-      select case (variable%kind)
-      case (reals)
+      if (allocated(variable%reals)) then
          length = size(variable%reals)
          if (length > 0) address = c_loc(variable%reals)
-      case (integers)
+      else if (allocated(variable%integers)) then
          length = size(variable%integers)
          if (length > 0) address = c_loc(variable%integers)
-      case default
+      else
          length = len(variable%letters)
          if (length > 0) address = c_loc(variable%letters)
-      end select
+      end if
    end function dk_values
 
    !> What the results hold, a line each, words between tabs: `dimension NAME LENGTH`, `variable
@@ -95,7 +94,7 @@ contains
       character(kind=c_char), intent(inout) :: text(*)
       integer(c_int), value :: length
       character(len=:), allocatable :: lines
-      type(output_file_type), pointer :: data
+      type(results_type), pointer :: data
 
       call c_f_pointer(handle, data)
       lines = description_of(data)
@@ -105,9 +104,9 @@ contains
 
    !> These lines.
    function description_of(data) result(lines)
-      type(output_file_type), intent(in) :: data
+      type(results_type), intent(in) :: data
       character(len=:), allocatable :: lines
-      character(len=*), parameter :: tab = achar(9), kinds(3) = ["real   ", "integer", "letters"]
+      character(len=*), parameter :: tab = achar(9)
       integer :: i, k
 
       lines = ""
@@ -123,7 +122,8 @@ contains
       if (.not. allocated(data%variables)) return
       do i = 1, size(data%variables)
          associate (one => data%variables(i))
-            lines = lines//"variable"//tab//trim(one%name)//tab//trim(kinds(one%kind))
+            lines = lines//"variable"//tab//trim(one%name)//tab &
+                    //kind_of(allocated(one%reals), allocated(one%integers))
             do k = size(one%dimensions), 1, -1
                lines = lines//tab//trim(data%dimensions(one%dimensions(k))%name)
             end do
@@ -142,10 +142,23 @@ contains
 
          do j = 1, size(attributes)
             lines = lines//"attribute"//tab//owner//tab//trim(attributes(j)%name)//tab &
-                    //trim(kinds(attributes(j)%kind))//tab//value_of(attributes(j))//new_line("a")
+                    //kind_of(allocated(attributes(j)%number), &
+                              allocated(attributes(j)%integers))//tab &
+                    //value_of(attributes(j))//new_line("a")
          end do
       end subroutine add
    end function description_of
+
+   !> The word for a kind of values.
+   pure function kind_of(real_numbers, integers) result(word)
+      !> Whether they are real numbers, or integers
+      logical, intent(in) :: real_numbers, integers
+      character(len=:), allocatable :: word
+
+      word = "letters"
+      if (real_numbers) word = "real"
+      if (integers) word = "integer"
+   end function kind_of
 
    !> The value of an attribute as words between tabs.
    function value_of(one) result(words)
@@ -155,20 +168,17 @@ contains
       integer :: i
 
       words = ""
-      select case (one%kind)
-      case (letters)
+      if (allocated(one%text)) then
          words = one%text
-      case (reals)
-         do i = 1, size(one%reals)
-            write (number, "(es25.17e3)") one%reals(i)
-            words = words//achar(9)//trim(adjustl(number))
-         end do
-      case default
+      else if (allocated(one%number)) then
+         write (number, "(es25.17e3)") one%number
+         words = trim(adjustl(number))
+      else
          do i = 1, size(one%integers)
-            words = words//achar(9)//digits(one%integers(i))
+            if (i > 1) words = words//achar(9)
+            words = words//digits(one%integers(i))
          end do
-      end select
-      if (one%kind /= letters) words = words(2:)
+      end if
    end function value_of
 
    !> An integer in digits.

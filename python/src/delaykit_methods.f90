@@ -9,7 +9,8 @@ module delaykit_methods
    use hopf_command, only: run_hopf
    use linear_stability_command, only: run_linear_stability
    use model_library, only: folders_given
-   use output_file, only: output_file_type, place_of
+   use output_file, only: place_of
+   use results, only: results_type
    implicit none (type, external)
    private
 
@@ -33,11 +34,11 @@ contains
       character(kind=c_char), intent(inout) :: message(*)
       integer(c_int), value :: length
       type(error_type), allocatable :: error
-      type(output_file_type), pointer :: results
+      type(results_type), pointer :: found
       character(len=:), allocatable :: path, place
 
-      allocate (results)
-      result = c_loc(results)
+      allocate (found)
+      result = c_loc(found)
       path = string_of(namelist)
       place = place_of(result)
       select case (string_of(name))

@@ -2,7 +2,7 @@
 module delaykit_runs
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_int, &
                                           c_int64_t, c_loc, c_ptr
-   use output_file, only: output_file_type
+   use results, only: results_type
    use dde, only: continuation_type, event_met, event_table, integrate, integration_options, &
                   integration_result, sampler_type, table_sampler
    use dde_errors, only: error_type, raise, text
@@ -80,7 +80,7 @@ contains
       !> Room for a message and its size
       character(kind=c_char), intent(inout) :: message(*)
       integer(c_int), value :: length
-      type(output_file_type), pointer :: data
+      type(results_type), pointer :: data
       type(error_type), allocatable :: error
       type(model_type) :: model
 
@@ -134,7 +134,7 @@ contains
    subroutine run(request, model, data, error)
       type(request_type), intent(in) :: request
       type(model_type), intent(in) :: model
-      type(output_file_type), intent(inout) :: data
+      type(results_type), intent(inout) :: data
       type(error_type), allocatable, intent(out) :: error
       type(continuation_type) :: now
       type(event_table) :: watcher
@@ -263,7 +263,7 @@ contains
 
    !> Times and states.
    subroutine put_samples(data, time, values)
-      type(output_file_type), intent(inout) :: data
+      type(results_type), intent(inout) :: data
       real(wp), intent(in) :: time(:), values(:, :)
       integer :: rows
 
@@ -274,7 +274,7 @@ contains
 
    !> Events.
    subroutine put_events(data, watcher)
-      type(output_file_type), intent(inout) :: data
+      type(results_type), intent(inout) :: data
       type(event_table), intent(in) :: watcher
       integer :: rows
 
@@ -289,7 +289,7 @@ contains
 
    !> What the solver did, and where it ended.
    subroutine put_outcome(data, outcome, now)
-      type(output_file_type), intent(inout) :: data
+      type(results_type), intent(inout) :: data
       type(integration_result), intent(in) :: outcome
       type(continuation_type), intent(in) :: now
 
@@ -304,7 +304,7 @@ contains
 
    !> The past in polynomials, with which another run can begin: dense output.
    subroutine put_past(data, now)
-      type(output_file_type), intent(inout) :: data
+      type(results_type), intent(inout) :: data
       type(continuation_type), intent(in) :: now
       integer :: kinks, nodes, rows, steps
 

@@ -11,7 +11,8 @@ module measure_files
    use model_description, only: description_type, model_length => word_length
    use model_history, only: shown_name
    use namelist_input, only: element_length, elements, namelist_file_type
-   use output_file, only: joined, output_file_type
+   use output_file, only: output_file_type
+   use results, only: joined
    use value_checks, only: absent, check_count, missing, missing_count
    implicit none (type, external)
    private

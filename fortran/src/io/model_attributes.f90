@@ -5,7 +5,8 @@ module model_attributes
    use model_description, only: description_type
    use model_history, only: history_type, signal_name
    use model_problem, only: model_type
-   use output_file, only: joined, output_file_type
+   use output_file, only: output_file_type
+   use results, only: joined
    implicit none (type, external)
    private
    public :: put_history, put_model, put_places

@@ -36,8 +36,6 @@ module trajectory_output
       type(scene_type) :: scene
       !> Which variables are exponentials of their components
       logical, allocatable :: exponential(:)
-      !> Ids of time and of the variables
-      integer, allocatable :: ids(:)
       !> Times of samples not written yet, and their values, shape (blocks, variables, samples)
       real(wp), allocatable :: time(:), values(:, :, :)
       !> Number of samples in the file, and of those not written yet
@@ -64,7 +62,7 @@ contains
       type(trajectory_writer_type) :: writer
       type(description_type) :: about
       character(len=:), allocatable :: meaning
-      integer, allocatable :: components(:), dimensions(:), places(:)
+      integer, allocatable :: components(:), places(:)
       integer :: block, dimension, i, length, variables
       logical :: refined
 
@@ -85,19 +83,23 @@ contains
                                 *scene%sample_interval > 1.0_wp
          if (refined) writer%share_of_step = largest_share
          length = max(least_held, most_held/blocks)
-         allocate (writer%ids(0:variables), places(blocks))
+         allocate (places(blocks))
          allocate (writer%time(length), writer%values(blocks, variables, length))
          call writer%file%create(path, "Trajectory of a model")
          ! length 0 is NetCDF's unlimited dimension
          dimension = writer%file%dimension("t", merge(0, writer%times, refined))
-         dimensions = [dimension]
-         writer%ids(0) = writer%file%real_variable("t", dimensions, "time")
-         if (blocks > 1) dimensions = [writer%file%dimension("block", blocks), dimension]
+         call writer%file%column(dimension, "t", [real(wp) ::], "time")
          do i = 1, variables
             meaning = trim(about%meanings(components(i)))
             if (writer%exponential(i)) meaning = "exp("//trim(about%states(components(i)))//")"
-            writer%ids(i) = writer%file%real_variable(trim(writer%scene%variables(i)), dimensions, &
-                                                      meaning)
+            if (blocks > 1) then
+               call writer%file%table([writer%file%dimension("block", blocks), dimension], &
+                                      trim(writer%scene%variables(i)), writer%values(:, i, :0), &
+                                      meaning)
+            else
+               call writer%file%column(dimension, trim(writer%scene%variables(i)), &
+                                       writer%values(1, i, :0), meaning)
+            end if
          end do
          places(blocks_in_order(blocks, trim(model%ends))) = [(block, block=1, blocks)]
          writer%wanted = [((model%states()*(places(block) - 1) + components(i), &
@@ -170,14 +172,11 @@ contains
       class(trajectory_writer_type), intent(inout) :: self
       integer :: i
 
-      associate (first => self%written + 1, held => self%held, blocks => self%scene%model%blocks)
-         call self%file%put(self%ids(0), self%time(:held), [first])
-         do i = 1, ubound(self%ids, 1)
-            call self%file%put(self%ids(i), [self%values(:, i, :held)], &
-                               pack([1, first], [blocks > 1, .true.]), &
-                               pack([blocks, held], [blocks > 1, .true.]))
-         end do
-      end associate
+      self%file%variables(1)%reals = self%time(:self%held)
+      do i = 2, size(self%file%variables)
+         self%file%variables(i)%reals = [self%values(:, i - 1, :self%held)]
+      end do
+      call self%file%write_values(first=self%written + 1)
       self%written = self%written + self%held
       self%held = 0
    end subroutine flush_samples
