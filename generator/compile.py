@@ -8,11 +8,8 @@ from pathlib import Path
 from .module import SUPPORT
 
 KINDS = Path(__file__).parents[1] / "fortran" / "dde" / "src" / "api" / "dde_kinds.f90"
-SHARED = [
-    SUPPORT / "shared" / f"{name}.f90"
-    for name in ("model_border", "nilpotent_numbers", "nilpotent_functions", "steady_states")
-]
-"""What is compiled with every model, in this order."""
+SHARED = ("model_border", "nilpotent_numbers", "nilpotent_functions", "steady_states")
+"""What is compiled with a model that uses it, in this order."""
 COMPILER = "gfortran"
 FLAGS = (
     "-O2 -std=f2018 -ffp-contract=off -fno-tree-slp-vectorize -frecursive -fstack-arrays"
@@ -39,10 +36,11 @@ def compile_module(text: str, path: Path, compiler: str = COMPILER, flags: str =
         if path.parent.name.endswith("_quad"):
             kinds = kinds.replace("real64", "real128")
         Path(folder, KINDS.name).write_text(kinds, encoding="utf-8")
-        for source in SHARED:
-            shutil.copy(source, folder)
+        shared = [f"{name}.f90" for name in SHARED if f"use {name}," in text]
+        for name in shared:
+            shutil.copy(SUPPORT / "shared" / name, folder)
         Path(folder, "model.f90").write_text(text, encoding="utf-8")
-        names = [KINDS.name, *(source.name for source in SHARED), "model.f90"]
+        names = [KINDS.name, *shared, "model.f90"]
         command = [compiler, *flags.split(), "-fPIC", "-shared", "-Wl,-Bsymbolic", "-s"]
         made = subprocess.run(
             [*command, *names, "-o", "model.so"], cwd=folder, capture_output=True, text=True
