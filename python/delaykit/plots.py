@@ -71,9 +71,7 @@ def hopf(found: xr.Dataset, ax) -> None:
         found.map_abscissa, found.map_ordinate, roots, cmap="Greys", norm=norm, alpha=0.5
     )
     if most:
-        ax.figure.colorbar(
-            shown, ax=ax, label="unstable roots", ticks=MaxNLocator(6, integer=True)
-        )
+        ax.figure.colorbar(shown, ax=ax, label="unstable roots", ticks=MaxNLocator(6, integer=True))
     signs = np.nan_to_num(np.sign(found.l1.values)).astype(int)
     words = {-1: ("C0", "supercritical"), 1: ("C3", "subcritical"), 0: ("0.3", "l1 unknown")}
     for part in stretches(found.piece.values, signs):

@@ -136,7 +136,9 @@ def test_any_parameter_is_an_ordinate(programs, along):
             # a pair becomes unstable at each curve
             pieces = [curves.isel(point=curves.piece.values == k) for k in set(curves.piece.values)]
             here = [one for one in pieces if one[along].min() <= y <= one[along].max()]
-            assert counted == 2 * sum(np.interp(y, one[along], one.epsilon) < epsilon for one in here)
+            assert counted == 2 * sum(
+                np.interp(y, one[along], one.epsilon) < epsilon for one in here
+            )
 
 
 def test_table_of_the_workflow(smoke):
