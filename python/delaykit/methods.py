@@ -23,7 +23,7 @@ OBSERVATION = {
     **{"segments": 8, "overlap": 0.5, "peak_floor": 1e-6, "peak_prominence": 10.0},
 }
 """How attractors are judged unless the caller says otherwise."""
-ALWAYS = ("point", "orbit", "special")
+ALWAYS = ("point", "orbit", "special", "root")
 """Dimensions that results keep where they have no such thing."""
 OF_FILES = ("scene", "name", "parameters")
 """Attributes of files that are left out."""

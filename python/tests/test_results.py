@@ -1,6 +1,7 @@
 """Spectra, sections and pictures."""
 
 import math
+import re
 
 import delaykit as dk
 import matplotlib
@@ -43,6 +44,49 @@ def test_hopf_counts_one_real_root():
     assert found.sizes["point"] == 0
     unstable = found.map_abscissa + found.map_ordinate > 0
     assert (found.map_unstable_roots == unstable.transpose(*found.map_unstable_roots.dims)).all()
+
+
+@pytest.mark.parametrize(
+    ("method", "options", "expected"),
+    [
+        ("exponents", {"count": 10**9}, "count = 1000000000; expected a whole number >= 1 and <= "),
+        (
+            "exponents",
+            {"batches": 10**9},
+            "batches = 1000000000; expected a whole number >= 2 and ",
+        ),
+        ("attractor", {"kept": 10**9}, "kept = 1000000000; expected a whole number >= 0 and <= "),
+        ("attractor", {"exponents": 10**9}, "exponents = 1000000000; expected a whole number >= 2"),
+        (
+            "attractor",
+            {"sample_interval": 0},
+            "sample_interval = 0.0; expected a finite number >= ",
+        ),
+        ("hopf", {"cells": 10**9}, "cells = 1000000000; expected a whole number >= 2 and <= "),
+        ("cycle", {"degree": 10**9}, "degree = 1000000000; expected a whole number >= 3 and <= 9"),
+        (
+            "cycle",
+            {"intervals": 10**9},
+            "intervals = 1000000000; expected a whole number >= 1 and ",
+        ),
+        ("cycle", {"most_orbits": 10**9}, "most_orbits = 1000000000; expected a whole number >= 2"),
+        ("run", {"samples_per_step": 0}, "samples_per_step: 0.0; expected a number > 0 and <= "),
+        ("run", {"samples_per_step": 1e9}, "samples_per_step: 1000000000.0; expected a number > 0"),
+    ],
+)
+def test_counts_that_no_memory_holds_are_refused(sine, method, options, expected):
+    """Fortran would end the interpreter."""
+    window = (0.1, 2)
+    arguments = {"cycle": (1, "lag", window), "hopf": (("lag", "gain"), (window, window))}
+    model = sine if method != "hopf" else dk.Model({"y": "-gain*y(t - lag)"}, {"gain": 1, "lag": 1})
+    near = {} if method in ("exponents", "run") else {"near": {"y": 0}}
+    end = {"t_end": 9} if method == "run" else {}
+    with pytest.raises(dk.DelaykitError, match=re.escape(expected)):
+        getattr(model, method)(*arguments.get(method, (1,)), **near, **end, **options)
+
+
+def test_no_root_above_a_bound_is_no_root(sine):
+    assert sine.roots(10, near={"y": 0}).size == 0
 
 
 def test_pictures(mackey_glass, sine):

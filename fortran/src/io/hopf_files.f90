@@ -54,7 +54,7 @@ contains
       call file%close(error)
       if (allocated(error)) return
       call hopf_curves%model%open(path, plane%model, error, keep_delays=.true., at_rest=.true.)
-      call check_count(error, path, "cells", hopf_curves%cells, at_least=2)
+      call check_count(error, path, "cells", hopf_curves%cells, at_least=2, at_most=2000)
       do i = 1, 2
          if (allocated(error)) return
          call check_choice(error, path, "along", hopf_curves%along(i), plane%model%names)
