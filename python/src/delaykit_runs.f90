@@ -60,8 +60,9 @@ contains
       if (self%received == size(self%time)) then
          status = 1
          if (self%received <= huge(1)/2) then
-            allocate (times(2*self%received), values(size(y), 2*self%received), stat=status)
+            allocate (values(size(y), 2*self%received), stat=status)
          end if
+         if (status == 0) allocate (times(2*self%received), stat=status)
          self%is_full = status /= 0
          if (self%is_full) then
             self%next = huge(1.0_wp)
