@@ -48,7 +48,7 @@ def hopf_curve(
         "crossing": np.ones(omega.size, dtype=int),
         "residual": np.full(omega.size, 1e-15),
         "l1": np.full(omega.size, -0.1),
-        "unstable_pairs": np.zeros(omega.size, dtype=int),
+        "unstable_roots": np.zeros(omega.size, dtype=int),
     }
     data = {name: ("point", value) for name, value in values.items()}
     return xr.Dataset(data, attrs={"ordinate": ordinate, "gamma": gamma, "xi": xi})
@@ -69,9 +69,9 @@ def stability_row(scene: str = "mine", **given) -> dict:
     return {
         "scene": scene,
         **SCENE,
-        "unstable_pairs": 1.0,
-        "tau_of_changes": "2 (0 -> 1); 5 (1 -> 0); 8 (0 -> 1)",
-        "epsilon_of_changes": "0.3 (0 -> 1); 0.9 (1 -> 2)",
+        "unstable_roots": 2.0,
+        "tau_of_changes": "2 (0 -> 2); 5 (2 -> 0); 8 (0 -> 2)",
+        "epsilon_of_changes": "0.3 (0 -> 2); 0.9 (2 -> 4)",
         **given,
     }
 

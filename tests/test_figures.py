@@ -66,11 +66,11 @@ def test_figure_can_be_read(drawn, name):
 
 @pytest.mark.parametrize(("name", "plane"), PLANES.items())
 def test_curves_have_all_branches_and_kinds_of_bifurcations(drawn, smoke, name, plane):
-    """A label for each branch; dashes and marks over the number of unstable pairs."""
+    """A label for each branch; dashes and marks over the number of unstable roots."""
     figure = drawn(name)
     words = words_in(figure)
     curves = xr.load_dataset(smoke.folder / "results" / "hopf" / f"{plane}.nc")
     kinds = ("supercritical", "subcritical", "generalised Hopf point", "double Hopf point")
-    for word in (*kinds, "unstable pairs", *(f"$k$ = {k}" for k in np.unique(curves.branch))):
+    for word in (*kinds, "unstable roots", *(f"$k$ = {k}" for k in np.unique(curves.branch))):
         assert word in words
     assert {"-", "--"} <= {line.get_linestyle() for line in figure.axes[0].lines}

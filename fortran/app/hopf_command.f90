@@ -1,4 +1,4 @@
-!> Hopf curves in one plane of parameters, their special points, and the number of unstable pairs.
+!> Hopf curves in one plane of parameters, their special points, and the number of unstable roots.
 module hopf_command
    use dde_errors, only: error_type
    use dde_kinds, only: wp
@@ -20,21 +20,21 @@ contains
       type(curve_plane_type) :: plane
       type(curve_point_type), allocatable :: points(:)
       type(hopf_point_type), allocatable :: special(:)
-      integer, allocatable :: pairs(:, :)
+      integer, allocatable :: roots(:, :)
       real(wp), allocatable :: grid(:)
 
       call read_plane(namelist_path, settings, plane, error)
       if (allocated(error)) return
       ! the edges of the window, and the middles of the cells
       grid = [0.0_wp, middles([0.0_wp, 1.0_wp], settings%cells), 1.0_wp]
-      pairs = plane%unstable_pairs(grid, grid)
-      call trace_curves(plane, grid, grid, pairs, points, error)
+      roots = plane%unstable_roots(grid, grid)
+      call trace_curves(plane, grid, grid, roots, points, error)
       if (allocated(error)) return
       call judge_points(plane, points, error)
       if (allocated(error)) return
       call find_hopf_points(plane, points, special, error)
       if (allocated(error)) return
       call write_curves(output_path, settings, plane, points, special, &
-                        pairs(2:settings%cells + 1, 2:settings%cells + 1), error)
+                        roots(2:settings%cells + 1, 2:settings%cells + 1), error)
    end subroutine run_hopf
 end module hopf_command

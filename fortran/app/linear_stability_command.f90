@@ -34,7 +34,7 @@ contains
          if (allocated(error)) return
       end do
       call write_linear_stability(output_path, settings, model, roots, &
-                                  [count_roots(model, 0.0_wp), roots_without_delay(model)]/2, &
+                                  [count_roots(model, 0.0_wp), roots_without_delay(model)], &
                                   changes, error)
    end subroutine run_linear_stability
 end module linear_stability_command

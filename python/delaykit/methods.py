@@ -23,7 +23,7 @@ OBSERVATION = {
     **{"segments": 8, "overlap": 0.5, "peak_floor": 1e-6, "peak_prominence": 10.0},
 }
 """How attractors are judged unless the caller says otherwise."""
-ALWAYS = ("point", "orbit", "special")
+ALWAYS = ("point", "orbit", "special", "root")
 """Dimensions that results keep where they have no such thing."""
 OF_FILES = ("scene", "name", "parameters")
 """Attributes of files that are left out."""
@@ -255,8 +255,8 @@ def hopf(model, along, window, *, parameters=None, near=None, cells=40) -> xr.Da
     """Hopf curves in a plane of two parameters, and their special points.
 
     Curves: points with frequency `omega`, first Lyapunov coefficient `l1` (negative:
-    supercritical) and the number of unstable pairs beside; `piece` numbers unbroken curves.
-    special_...: double and generalised Hopf points. Also a map of the number of unstable pairs.
+    supercritical) and the number of unstable roots beside; `piece` numbers unbroken curves.
+    special_...: double and generalised Hopf points. Also a map of the number of unstable roots.
 
     along: names of abscissa and ordinate; window: ((least, most), (least, most)).
     near: a guess of the state at rest, if the model has no `steady_state`.

@@ -17,7 +17,7 @@ def plot(found: xr.Dataset, ax=None):
     """
     known = {
         "running_average": exponents,
-        "map_unstable_pairs": hopf,
+        "map_unstable_roots": hopf,
         "multiplier_real": cycles,
         "reason": scan,
         "density": spectrum,
@@ -59,21 +59,19 @@ def exponents(found: xr.Dataset, ax) -> None:
 
 
 def hopf(found: xr.Dataset, ax) -> None:
-    """Curves by the sign of l1, special points, and the number of unstable pairs between them."""
+    """Curves by the sign of l1, special points, and the number of unstable roots between them."""
     from matplotlib.colors import BoundaryNorm
     from matplotlib.ticker import MaxNLocator
 
     x, y = found.attrs["abscissa"], found.attrs["ordinate"]
-    pairs = found.map_unstable_pairs
-    most = int(pairs.max())
+    roots = found.map_unstable_roots
+    most = int(roots.max())
     norm = BoundaryNorm(np.arange(-0.5, most + 1.5), 256) if most else None
     shown = ax.pcolormesh(
-        found.map_abscissa, found.map_ordinate, pairs, cmap="Greys", norm=norm, alpha=0.5
+        found.map_abscissa, found.map_ordinate, roots, cmap="Greys", norm=norm, alpha=0.5
     )
     if most:
-        ax.figure.colorbar(
-            shown, ax=ax, label="unstable pairs of roots", ticks=MaxNLocator(6, integer=True)
-        )
+        ax.figure.colorbar(shown, ax=ax, label="unstable roots", ticks=MaxNLocator(6, integer=True))
     signs = np.nan_to_num(np.sign(found.l1.values)).astype(int)
     words = {-1: ("C0", "supercritical"), 1: ("C3", "subcritical"), 0: ("0.3", "l1 unknown")}
     for part in stretches(found.piece.values, signs):

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from delaykit.arguments import HUGE, Arguments, begin, number_of
-from delaykit.errors import RunError, check_name
+from delaykit.errors import ModelError, RunError, check_name
 from delaykit.events import Event
 from delaykit.history import Pieces
 from delaykit.library import LIBRARY, Results, address, call
@@ -18,6 +18,8 @@ COUNTS = (
     *("factorisations", "breaking_points"),
 )
 """Names of the numbers in `counts` of the library"""
+MOST_SAMPLES = 10**4
+"""In a step; more fill the memory"""
 
 
 @dataclass
@@ -104,7 +106,12 @@ def integrate(
     request.first_step = own.number("first_step", first_step)
     request.max_step = own.number("max_step", min(max_step, HUGE))
     request.max_steps = int(own.number("max_steps", max_steps))
-    request.share = 1.0 / own.number("samples_per_step", samples_per_step)
+    samples_per_step = own.number("samples_per_step", samples_per_step)
+    if not 0 < samples_per_step <= MOST_SAMPLES:
+        raise ModelError(
+            f"samples_per_step: {samples_per_step}; expected a number > 0 and <= {MOST_SAMPLES}"
+        )
+    request.share = 1.0 / samples_per_step
     request.keep_all = int(bool(dense_output))
     request.breaks, request.break_count = address(breaks), len(breaks)
     request.time_count = -1

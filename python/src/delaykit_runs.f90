@@ -42,6 +42,8 @@ module delaykit_runs
       integer :: received = 0
       !> When, and the states, shape (n, at least received)
       real(wp), allocatable :: time(:), values(:, :)
+      !> Whether memory holds no more
+      logical :: is_full = .false.
    contains
       procedure :: take => take_sample
    end type steps_sampler
@@ -53,9 +55,20 @@ contains
       class(steps_sampler), intent(inout) :: self
       real(wp), intent(in) :: y(:)
       real(wp), allocatable :: times(:), values(:, :)
+      integer :: status
 
       if (self%received == size(self%time)) then
-         allocate (times(2*self%received), values(size(y), 2*self%received))
+         status = 1
+         if (self%received <= huge(1)/2) then
+            allocate (values(size(y), 2*self%received), stat=status)
+         end if
+         if (status == 0) allocate (times(2*self%received), stat=status)
+         self%is_full = status /= 0
+         if (self%is_full) then
+            self%next = huge(1.0_wp)
+            self%share_of_step = huge(1.0_wp)
+            return
+         end if
          times(:self%received) = self%time
          values(:, :self%received) = self%values
          call move_alloc(times, self%time)
@@ -186,7 +199,14 @@ contains
       end do
       if (.not. allocated(outcome%y)) return
       if (follows) then
-         if (followed%time(max(1, followed%received)) < outcome%t) then
+         if (followed%is_full) then
+            if (.not. allocated(error)) then
+               call raise(error, "integrate: no memory for more than "//text(followed%received) &
+                          //" samples; expected t_eval, or fewer samples_per_step")
+            end if
+            ! nor for a copy of these
+            followed%received = 0
+         else if (followed%time(max(1, followed%received)) < outcome%t) then
             followed%next = outcome%t
             call followed%take(outcome%y)
          end if

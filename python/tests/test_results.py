@@ -36,6 +36,41 @@ def test_events_of_a_run(sine):
     np.testing.assert_allclose(found.event_y, [1, -1, 1], atol=1e-7)
 
 
+def test_hopf_counts_one_real_root():
+    """Of s = a + b exp(-s) one root is real and unstable where a + b > 0, and no pair is here."""
+    linear = dk.Model({"y": "a*y + b*y(t - 1)"}, {"a": 0, "b": 0}, steady_state={"y": 0})
+    found = linear.hopf(("a", "b"), ((-3, 3), (0, 4)), cells=10)
+    assert found.sizes["point"] == 0
+    unstable = found.map_abscissa + found.map_ordinate > 0
+    assert (found.map_unstable_roots == unstable.transpose(*found.map_unstable_roots.dims)).all()
+
+
+@pytest.mark.parametrize(
+    ("method", "option", "value"),
+    [
+        *(("exponents", option, 10**9) for option in ("count", "batches")),
+        *(("attractor", option, 10**9) for option in ("kept", "exponents")),
+        ("attractor", "sample_interval", 0),
+        ("hopf", "cells", 10**9),
+        *(("cycle", option, 10**9) for option in ("degree", "intervals", "most_orbits")),
+        *(("run", "samples_per_step", value) for value in (0, 10**9)),
+    ],
+)
+def test_numbers_that_no_memory_holds_are_refused(sine, method, option, value):
+    """Fortran would end the interpreter."""
+    given = {"near": {"y": 0}} if method in ("attractor", "hopf", "cycle") else {}
+    arguments = {"cycle": (1, "lag", (0.1, 2)), "run": (1, 9)}.get(method, (1,))
+    if method == "hopf":
+        sine = dk.Model({"y": "-gain*y(t - lag)"}, {"gain": 1, "lag": 1})
+        arguments = (("lag", "gain"), ((0.1, 2), (0.1, 2)))
+    with pytest.raises(dk.DelaykitError, match=rf"{option}(:| =) {value}.*; expected "):
+        getattr(sine, method)(*arguments, **given, **{option: value})
+
+
+def test_no_root_above_a_bound_is_no_root(sine):
+    assert sine.roots(10, near={"y": 0}).size == 0
+
+
 def test_pictures(mackey_glass, sine):
     results = {
         "Lyapunov exponent, average up to a time": mackey_glass.exponents(1.2, t_end=4000),

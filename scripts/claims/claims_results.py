@@ -130,7 +130,7 @@ def _data_about(data: dict[str, Dataset], folder: str, scene: str) -> Dataset:
 
 
 def changes(cell: str | float) -> list[tuple[float, int, int]]:
-    """Places at which a pair crosses the axis, with the unstable pairs before and after."""
+    """Places at which a pair crosses the axis, with the unstable roots before and after."""
     if str(cell).startswith("not computed"):
         raise ValueError(f"linear-stability.tsv: changes of stability {cell}")
     found = re.findall(r"(\S+) \((\d+) -> (\d+)\)", cell if isinstance(cell, str) else "")

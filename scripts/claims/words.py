@@ -46,4 +46,4 @@ def motions_beside_rest(results: Results) -> str:
 
 def boundary(curves: Dataset) -> Dataset:
     """The points where stability changes."""
-    return curves.isel(point=curves.unstable_pairs.values == 0)
+    return curves.isel(point=curves.unstable_roots.values == 0)

@@ -4,13 +4,9 @@ import xarray as xr
 
 
 def roots_in_words(roots: xr.Dataset) -> str:
-    """Whether steady sliding is stable, its unstable pairs, and its rightmost root."""
-    pairs = int(roots.attrs["unstable_pairs"])
-    # an odd number of real roots is in no pair
-    alone = int(((roots.root_real > 0) & (roots.root_imag == 0)).sum()) % 2
-    state = "unstable" if pairs or alone else "stable"
-    words = f"{state} ({pairs} unstable pair{'' if pairs == 1 else 's'} of roots"
-    words += " and a real one" * alone
+    """Whether steady sliding is stable, its unstable roots, and its rightmost root."""
+    number = int(roots.attrs["unstable_roots"])
+    words = f"{'unstable' if number else 'stable'} ({number} unstable root{'s' * (number != 1)}"
     if not roots.sizes["root"]:
         return f"{words}, all real parts below ${roots.attrs['root_bound']:g}$)"
     first = int(roots.root_real.values.argmax())

@@ -6,8 +6,8 @@ Written apart from the Fortran programs, which count them by the argument princi
 import numpy as np
 
 
-def unstable_pairs(epsilon: float, tau: float, xi: float, gamma: float) -> int:
-    """Pairs of roots of (5) with a positive real part.
+def unstable_roots(epsilon: float, tau: float, xi: float, gamma: float) -> int:
+    """How many roots of (5) have a positive real part.
 
     (5) is p(s) = c s exp(-s tau) with p = s^3 + a s^2 + b s + gamma^2. Without delay the criterion
     of Routh and Hurwitz counts. With a growing delay pairs cross the imaginary axis at +-i omega
@@ -16,7 +16,7 @@ def unstable_pairs(epsilon: float, tau: float, xi: float, gamma: float) -> int:
     """
     square = gamma**2
     a, b, c = square / xi + 1, square / xi + square, (1 + epsilon) * square / xi
-    pairs = int(a * (b - c) < square)
+    roots = 2 * int(a * (b - c) < square)
     difference = [1.0, a**2 - 2 * b, b**2 - 2 * a * square - c**2, square**2]
     for root in np.roots(difference):
         if abs(root.imag) > 1e-12 * abs(root) or root.real <= 0:
@@ -25,5 +25,5 @@ def unstable_pairs(epsilon: float, tau: float, xi: float, gamma: float) -> int:
         p = square - a * omega**2 + 1j * omega * (b - omega**2)
         first = np.mod(-np.angle(p / (1j * c * omega)), 2 * np.pi) / omega
         crossings = 1 + int((tau - first) * omega / (2 * np.pi)) if tau > first else 0
-        pairs += crossings * int(np.sign(np.polyval(np.polyder(difference), root.real)))
-    return pairs
+        roots += 2 * crossings * int(np.sign(np.polyval(np.polyder(difference), root.real)))
+    return roots

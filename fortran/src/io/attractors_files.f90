@@ -16,7 +16,7 @@ module attractors_files
    use namelist_input, only: namelist_file_type, word_length
    use output_file, only: output_file_type
    use points_input, only: points_settings_type
-   use value_checks, only: check_number, missing, missing_count, most_samples
+   use value_checks, only: check_count, check_number, missing, missing_count, most_samples
    implicit none (type, external)
    private
    public :: read_attractors, write_attractors
@@ -60,12 +60,16 @@ contains
       call file%close(error)
       options = integration_options(method=trim(solver%method), relative=solver%tolerance, &
                                     absolute=solver%tolerance, most_steps=solver%most_steps)
+      call check_count(error, path//": observation", "exponents", observation%exponents, &
+                       at_least=2, at_most=1000)
       call check_number(error, path//": observation", "interval", observation%interval, &
                         above=0.0_wp)
       call check_number(error, path//": observation", "t_path", observation%t_path, &
                         at_least=0.0_wp)
       call check_number(error, path//": observation", "sample_interval", &
-                        observation%sample_interval, at_least=observation%t_path/most_samples)
+                        observation%sample_interval, at_least=max(1.0_wp, observation%t_path, &
+                                                                  observation%t_observed) &
+                        /most_samples)
       call points%open(path//": points", model, error)
       call read_histories(path, model, history, error)
    end subroutine read_attractors

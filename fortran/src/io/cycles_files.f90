@@ -78,9 +78,10 @@ contains
       call read_histories(path, line%model, history, error)
       if (allocated(error)) return
       call check_choice(error, path, "along", cycles%along, line%model%names)
-      call check_count(error, path, "degree", cycles%degree, at_least=3)
-      call check_count(error, path, "intervals", cycles%intervals, at_least=1)
-      call check_count(error, path, "most_orbits", cycles%most_orbits, at_least=2)
+      call check_count(error, path, "degree", cycles%degree, at_least=3, at_most=9)
+      call check_count(error, path, "intervals", cycles%intervals, at_least=1, at_most=1000)
+      call check_count(error, path, "most_orbits", cycles%most_orbits, at_least=2, &
+                       at_most=100000)
       line%along = line%model%number_of(cycles%along)
       line%window = cycles%window
       line_settings = cycle_settings_type(line=line, starts=elements(cycles%starts), &

@@ -73,7 +73,9 @@ contains
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
       call opened%open(path, scene, error)
-      call check_count(error, path, "exponents%batches", exponents%batches, at_least=2)
+      call check_count(error, path, "exponents%count", exponents%count, at_least=1, at_most=1000)
+      call check_count(error, path, "exponents%batches", exponents%batches, at_least=2, &
+                       at_most=100000)
       call check_number(error, path, "exponents%interval", exponents%interval, &
                         at_least=exponents%t_end/most_samples*exponents%count)
    end subroutine read_exponents

@@ -27,7 +27,7 @@ module hopf_files
       character(len=model_length) :: along(2) = ""
       !> Windows on both: least and most of the abscissa, then of the ordinate
       real(wp) :: windows(2, 2) = missing
-      !> Cells of the map of unstable pairs along each side of the window
+      !> Cells of the map of unstable roots along each side of the window
       integer :: cells = missing_count
    end type hopf_settings_type
 
@@ -54,7 +54,7 @@ contains
       call file%close(error)
       if (allocated(error)) return
       call hopf_curves%model%open(path, plane%model, error, keep_delays=.true., at_rest=.true.)
-      call check_count(error, path, "cells", hopf_curves%cells, at_least=2)
+      call check_count(error, path, "cells", hopf_curves%cells, at_least=2, at_most=2000)
       do i = 1, 2
          if (allocated(error)) return
          call check_choice(error, path, "along", hopf_curves%along(i), plane%model%names)
@@ -77,15 +77,15 @@ contains
    end subroutine read_plane
 
    !> Write all points of all curves, piece by piece, the special points and the map.
-   subroutine write_curves(path, settings, plane, points, special, pairs, error)
+   subroutine write_curves(path, settings, plane, points, special, roots, error)
       character(len=*), intent(in) :: path
       !> The plane as the namelist gives it
       type(hopf_settings_type), intent(in) :: settings
       type(curve_plane_type), intent(in) :: plane
       type(curve_point_type), intent(in) :: points(:)
       type(hopf_point_type), intent(in) :: special(:)
-      !> Number of unstable pairs in cells of the window, the abscissa first
-      integer, intent(in) :: pairs(:, :)
+      !> Number of unstable roots in cells of the window, the abscissa first
+      integer, intent(in) :: roots(:, :)
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
@@ -108,18 +108,18 @@ contains
                        "residual of the characteristic function over its largest term")
       call file%column(rows, "crossing", points%crossing, "sign of d Re(lambda)/d ordinate")
       call file%column(rows, "l1", points%l1, "first Lyapunov coefficient")
-      call file%column(rows, "unstable_pairs", points%unstable_pairs, &
-                       "unstable pairs beside this one")
+      call file%column(rows, "unstable_roots", points%unstable_roots, &
+                       "unstable roots beside the pair")
       rows = file%dimension("special", size(special), prefix="special_")
       call put_special(file, rows, plane, special)
       call put_unfoldings(file, rows, settings, special)
-      cells = [file%dimension("map_abscissa", size(pairs, 1)), &
-               file%dimension("map_ordinate", size(pairs, 2))]
-      call file%column(cells(1), "map_abscissa", middles(settings%windows(:, 1), size(pairs, 1)), &
+      cells = [file%dimension("map_abscissa", size(roots, 1)), &
+               file%dimension("map_ordinate", size(roots, 2))]
+      call file%column(cells(1), "map_abscissa", middles(settings%windows(:, 1), size(roots, 1)), &
                        "abscissa in the middle of a cell")
-      call file%column(cells(2), "map_ordinate", middles(settings%windows(:, 2), size(pairs, 2)), &
+      call file%column(cells(2), "map_ordinate", middles(settings%windows(:, 2), size(roots, 2)), &
                        "ordinate in the middle of a cell")
-      call file%table(cells, "map_unstable_pairs", real(pairs, wp), "number of unstable pairs")
+      call file%table(cells, "map_unstable_roots", real(roots, wp), "number of unstable roots")
       call file%finish(error)
    end subroutine write_curves
 
@@ -133,8 +133,8 @@ contains
 
       call file%words(rows, "kind", special%kind, "kind of the special point")
       call put_places(file, rows, plane%model, [(special(i)%numbers, i=1, size(special))])
-      call file%column(rows, "unstable_pairs", special%unstable_pairs, &
-                       "unstable pairs beside those on the axis")
+      call file%column(rows, "unstable_roots", special%unstable_roots, &
+                       "unstable roots beside those on the axis")
       do i = 1, 2
          call file%column(rows, "omega_"//text(i), special%omega(i), &
                           "frequency of pair "//text(i)//", 0 where there is none")

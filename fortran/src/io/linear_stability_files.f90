@@ -54,15 +54,15 @@ contains
    end subroutine read_linear_stability
 
    !> Write roots and changes of stability.
-   subroutine write_linear_stability(path, settings, model, roots, pairs, changes, error)
+   subroutine write_linear_stability(path, settings, model, roots, numbers, changes, error)
       character(len=*), intent(in) :: path
       !> What was asked for
       type(linear_stability_settings_type), intent(in) :: settings
       type(model_type), intent(in) :: model
       !> Roots, the rightmost first
       complex(wp), intent(in) :: roots(:)
-      !> Number of unstable pairs, and the same without delay
-      integer, intent(in) :: pairs(2)
+      !> Number of unstable roots, and the same without delay
+      integer, intent(in) :: numbers(2)
       !> Changes along each parameter
       type(changes_type), intent(in) :: changes(:)
       !> Error if the file could not be written
@@ -73,8 +73,8 @@ contains
       call file%create(path, "Linear stability of a model at rest")
       call put_model(file, model)
       call file%attribute("root_bound", settings%root_bound)
-      call file%attribute("unstable_pairs", int(pairs(1), int64))
-      call file%attribute("unstable_pairs_without_delay", int(pairs(2), int64))
+      call file%attribute("unstable_roots", int(numbers(1), int64))
+      call file%attribute("unstable_roots_without_delay", int(numbers(2), int64))
       rows = file%dimension("root", size(roots), prefix="root_")
       call file%column(rows, "real", real(roots), "real part of a characteristic root")
       call file%column(rows, "imag", aimag(roots), "its imaginary part")
@@ -101,8 +101,8 @@ contains
                           [(points(i)%numbers(changes%along), i=1, size(points))], &
                           name//" at which a pair crosses the axis")
          call file%column(rows, "change_omega", points%omega, "its frequency")
-         call file%column(rows, "change_pairs_before", points%pairs_before, "unstable pairs below")
-         call file%column(rows, "change_pairs_after", points%pairs_behind, "unstable pairs above")
+         call file%column(rows, "change_roots_before", points%roots_before, "unstable roots below")
+         call file%column(rows, "change_roots_after", points%roots_behind, "unstable roots above")
       end associate
    end subroutine put_changes
 end module linear_stability_files

@@ -67,7 +67,7 @@ contains
          if (.not. allocated(error)) call corner%open(place, model, error)
       end do
       call check_count(error, place, "refinements", self%refinements, at_least=0)
-      call check_count(error, place, "kept", self%kept, at_least=0)
+      call check_count(error, place, "kept", self%kept, at_least=0, at_most=100000)
       call check_choice(error, place, "sweep", self%sweep, ["none", "up  ", "down"])
    end subroutine open_points
 

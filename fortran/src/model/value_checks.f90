@@ -53,18 +53,27 @@ contains
       end if
    end subroutine check_number
 
-   !> Refuse a count that is too small; keep an earlier error.
-   pure subroutine check_count(error, place, key, value, at_least)
+   !> Refuse a count that is too small or too large; keep an earlier error.
+   pure subroutine check_count(error, place, key, value, at_least, at_most)
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
       !> File and what it describes, key
       character(len=*), intent(in) :: place, key
       !> Value of the key, least value allowed
       integer, intent(in) :: value, at_least
+      !> Most that memory and time allow
+      integer, intent(in), optional :: at_most
+      character(len=:), allocatable :: range
+      logical :: fine
 
-      if (allocated(error) .or. value >= at_least) return
-      call raise(error, place//": "//key//" = "//text(value)//"; expected a whole number >= " &
-                 //text(at_least))
+      if (allocated(error)) return
+      fine = value >= at_least
+      range = "a whole number >= "//text(at_least)
+      if (present(at_most)) then
+         fine = fine .and. value <= at_most
+         range = range//" and <= "//text(at_most)
+      end if
+      if (.not. fine) call raise(error, place//": "//key//" = "//text(value)//"; expected "//range)
    end subroutine check_count
 
    !> Refuse a word that is not among the choices; keep an earlier error.

@@ -1,4 +1,4 @@
-!> Hopf curves in a plane of two parameters. The number of unstable pairs is counted on a grid.
+!> Hopf curves in a plane of two parameters. The number of unstable roots is counted on a grid.
 !> Wherever it changes between neighbours and no known curve passes, a point of a curve is looked
 !> for, and the curve is followed from there in both directions: so all curves are found but those
 !> that close between the points of the grid.
@@ -46,20 +46,20 @@ module hopf_curves
       integer :: crossing = 0
       !> First Lyapunov coefficient, once judged: negative, supercritical
       real(wp) :: l1 = 0.0_wp
-      !> Unstable pairs beside this one, once judged
-      integer :: unstable_pairs = 0
+      !> Unstable roots beside the pair, once judged
+      integer :: unstable_roots = 0
    end type curve_point_type
 
 contains
 
    !> All pieces of curves in the window, by branch and frequency, as points.
-   subroutine trace_curves(plane, x, y, pairs, points, error)
+   subroutine trace_curves(plane, x, y, roots, points, error)
       !> The plane and its window
       type(curve_plane_type), intent(in) :: plane
       !> Columns and lines of a grid in units of the window, edges included
       real(wp), intent(in) :: x(:), y(:)
-      !> Number of unstable pairs there
-      integer, intent(in) :: pairs(:, :)
+      !> Number of unstable roots there
+      integer, intent(in) :: roots(:, :)
       type(curve_point_type), allocatable, intent(out) :: points(:)
       !> A point was not found
       type(error_type), allocatable, intent(out) :: error
@@ -72,9 +72,9 @@ contains
             do axis = 1, 2
                beside = [i, j]
                beside(axis) = beside(axis) + 1
-               if (any(beside > shape(pairs))) cycle
-               call explain(plane, [x(i), y(j)], [x(beside(1)), y(beside(2))], pairs(i, j), &
-                            pairs(beside(1), beside(2)), pieces, error)
+               if (any(beside > shape(roots))) cycle
+               call explain(plane, [x(i), y(j)], [x(beside(1)), y(beside(2))], roots(i, j), &
+                            roots(beside(1), beside(2)), pieces, error)
                if (allocated(error)) return
             end do
          end do
@@ -82,22 +82,23 @@ contains
       points = points_of(plane, pieces)
    end subroutine trace_curves
 
-   !> Follow the curves between two neighbours of the grid whose numbers of pairs differ by more
-   !> than the known curves that pass.
-   subroutine explain(plane, from, to, pairs_from, pairs_to, pieces, error)
+   !> Follow the curves between two neighbours of the grid, unless known curves that pass explain
+   !> how their numbers of unstable roots differ. A real root that passes 0 is on no curve.
+   subroutine explain(plane, from, to, roots_from, roots_to, pieces, error)
       type(curve_plane_type), intent(in) :: plane
       real(wp), intent(in) :: from(2), to(2)
-      integer, intent(in) :: pairs_from, pairs_to
+      integer, intent(in) :: roots_from, roots_to
       type(piece_type), allocatable, intent(inout) :: pieces(:)
       type(error_type), allocatable, intent(out) :: error
       type(axis_point_type) :: start
       type(hopf_on_line_type), allocatable :: found(:)
       type(piece_type), allocatable :: longer(:)
-      integer :: i, passing
+      integer :: i, passing, pairs
 
-      if (pairs_from == pairs_to) return
+      pairs = abs(roots_to - roots_from)/2
+      if (pairs == 0) return
       passing = sum([(crossings(pieces(i), from, to), i=1, size(pieces))])
-      if (passing >= abs(pairs_to - pairs_from)) return
+      if (passing >= pairs) return
       call find_hopf_on_line(plane%model, plane%numbers_at(from), plane%numbers_at(to), 1, found, &
                              error)
       if (allocated(error)) return

@@ -27,7 +27,7 @@ module hopf_planes
       !> Window on both: least, most, shape (2, 2)
       real(wp) :: window(2, 2) = 0.0_wp
    contains
-      procedure :: numbers_at, model_at, function_at, place_of, root_slopes, unstable_pairs, correct
+      procedure :: numbers_at, model_at, function_at, place_of, root_slopes, unstable_roots, correct
    end type curve_plane_type
 
    !> A pair of roots on the imaginary axis.
@@ -132,12 +132,12 @@ contains
       slopes = [c%root_by(self%along(1), s), c%root_by(self%along(2), s)]
    end function root_slopes
 
-   !> Number of unstable pairs at places on a grid.
-   function unstable_pairs(self, x, y) result(pairs)
+   !> Number of unstable roots at places on a grid.
+   function unstable_roots(self, x, y) result(roots)
       class(curve_plane_type), intent(in) :: self
       !> Places of columns and lines in units of the window
       real(wp), intent(in) :: x(:), y(:)
-      integer :: pairs(size(x), size(y))
+      integer :: roots(size(x), size(y))
       type(model_type) :: model
       integer :: i, j
 
@@ -145,10 +145,10 @@ contains
       do j = 1, size(y)
          do i = 1, size(x)
             call model%put(self%numbers_at([x(i), y(j)]))
-            pairs(i, j) = roots_right_of(characteristic_of(model), 0.0_wp)/2
+            roots(i, j) = roots_right_of(characteristic_of(model), 0.0_wp)
          end do
       end do
-   end function unstable_pairs
+   end function unstable_roots
 
    !> Middles of equal cells of an interval.
    pure function middles(window, cells) result(x)

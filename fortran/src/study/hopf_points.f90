@@ -1,5 +1,5 @@
-!> What happens along Hopf curves: the first Lyapunov coefficient and the pairs that are unstable
-!> beside the one on the axis, and the points at which the kind of the bifurcation changes.
+!> What happens along Hopf curves: the first Lyapunov coefficient and the roots that are unstable
+!> beside the pair on the axis, and the points at which the kind of the bifurcation changes.
 module hopf_points
    use characteristic_function, only: characteristic_of, characteristic_type
    use dde_errors, only: error_type
@@ -9,7 +9,7 @@ module hopf_points
    use hopf_unfoldings, only: unfold_double_hopf, unfold_generalised_hopf, unfolding_type
    use model_problem, only: model_type
    use normal_form, only: first_lyapunov_coefficient
-   use root_counts, only: pairs_beside
+   use root_counts, only: roots_beside
    use sign_change, only: sign_change_type
    implicit none (type, external)
    private
@@ -39,15 +39,15 @@ module hopf_points
       integer :: branch(2) = -1
       !> First Lyapunov coefficients of the pairs
       real(wp) :: l1(2) = 0.0_wp
-      !> Unstable pairs beside these
-      integer :: unstable_pairs = 0
+      !> Unstable roots beside these
+      integer :: unstable_roots = 0
       !> Normal form of a generalised or double Hopf point
       type(unfolding_type) :: unfolding
    end type hopf_point_type
 
 contains
 
-   !> First Lyapunov coefficients and numbers of unstable pairs of points on curves.
+   !> First Lyapunov coefficients and numbers of unstable roots of points on curves.
    subroutine judge_points(plane, points, error)
       type(curve_plane_type), intent(in) :: plane
       type(curve_point_type), intent(inout) :: points(:)
@@ -61,7 +61,7 @@ contains
          associate (point => points(i))
             call first_lyapunov_coefficient(model, point%at%omega, point%l1, error)
             if (allocated(error)) return
-            point%unstable_pairs = pairs_beside(characteristic_of(model), [point%at%omega])
+            point%unstable_roots = roots_beside(characteristic_of(model), [point%at%omega])
          end associate
       end do
    end subroutine judge_points
@@ -247,7 +247,7 @@ contains
       point%numbers = plane%numbers_at(at%place)
       model = plane%model_at(point%numbers)
       c = characteristic_of(model)
-      point%unstable_pairs = pairs_beside(c, omega)
+      point%unstable_roots = roots_beside(c, omega)
       point%branch(:size(omega)) = nint(omega*maxval(c%delay)/turn)
       do i = 1, size(omega)
          point%omega(i) = omega(i)

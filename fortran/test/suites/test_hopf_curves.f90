@@ -128,7 +128,7 @@ contains
       end associate
    end subroutine check_pieces
 
-   !> The number of unstable pairs changes with a growing ordinate as the crossing says.
+   !> The number of unstable roots changes with a growing ordinate as the crossing says.
    subroutine check_crossing(plane, points, name, counts, error)
       type(curve_plane_type), intent(in) :: plane
       type(curve_point_type), intent(in) :: points(:)
@@ -136,15 +136,15 @@ contains
       integer, intent(inout) :: counts(-1:)
       type(error_type), allocatable, intent(inout) :: error
       real(wp), parameter :: h = 1.0e-6_wp
-      integer :: j, pairs(1, 2)
+      integer :: j, roots(1, 2)
 
       do j = 1, size(points)
          associate (point => points(j), place => points(j)%at%place)
-            pairs = plane%unstable_pairs(place(1:1), place(2) + [-h, h])
+            roots = plane%unstable_roots(place(1:1), place(2) + [-h, h])
             ! where the curve is upright none changes; at a crossing of curves another pair may
-            if (abs(pairs(1, 2) - pairs(1, 1)) /= 1) cycle
+            if (abs(roots(1, 2) - roots(1, 1)) /= 2) cycle
             counts(point%crossing) = counts(point%crossing) + 1
-            call expect(error, point%crossing == pairs(1, 2) - pairs(1, 1), &
+            call expect(error, 2*point%crossing == roots(1, 2) - roots(1, 1), &
                         "crossing at point "//text(j)//" of "//name)
          end associate
       end do

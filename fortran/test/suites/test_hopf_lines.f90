@@ -64,7 +64,7 @@ contains
          call find_along(block, by_epsilon, epsilons, found, error)
          if (allocated(error)) return
          call check_points(block, by_epsilon, epsilons, found, error)
-         call expect(error, all(found%pairs_behind > found%pairs_before), &
+         call expect(error, all(found%roots_behind > found%roots_before), &
                      "a larger epsilon makes no pair stable")
          total(2) = total(2) + size(found)
       end do
@@ -127,24 +127,24 @@ contains
             call expect(error, all(pack(p - block%numbers, [1, 2, 3, 4] /= along) &
                                    == [0.0_wp, 0.0_wp, 0.0_wp]), "on the line")
             call expect(error, p(along) > ends(1) .and. p(along) < ends(2), "inside")
-            call expect(error, pairs_at(0.5_wp*(edges(place - 1) + edges(place))) &
-                        == point%pairs_before, "pairs before "//text(places(i)))
-            call expect(error, pairs_at(0.5_wp*(edges(place) + edges(place + 1))) &
-                        == point%pairs_behind, "pairs behind "//text(places(i)))
+            call expect(error, roots_at(0.5_wp*(edges(place - 1) + edges(place))) &
+                        == point%roots_before, "roots before "//text(places(i)))
+            call expect(error, roots_at(0.5_wp*(edges(place) + edges(place + 1))) &
+                        == point%roots_behind, "roots behind "//text(places(i)))
          end associate
       end do
 
    contains
 
-      !> Unstable pairs at another place.
-      integer function pairs_at(place) result(pairs)
+      !> Unstable roots at another place.
+      integer function roots_at(place) result(number)
          real(wp), intent(in) :: place
          real(wp) :: numbers(4)
 
          numbers = block%numbers
          numbers(along) = place
-         pairs = roots_right_of(characteristic_of(block_at(numbers)), 0.0_wp)/2
-      end function pairs_at
+         number = roots_right_of(characteristic_of(block_at(numbers)), 0.0_wp)
+      end function roots_at
    end subroutine check_points
 
    !> At tau = 0 there is one epsilon, that of Routh and Hurwitz. Below the least epsilon of all

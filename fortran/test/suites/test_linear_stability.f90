@@ -15,7 +15,7 @@ module test_linear_stability
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use model_roots, only: find_model_roots
    use normal_form, only: first_lyapunov_coefficient
-   use root_counts, only: pairs_beside, roots_right_of
+   use root_counts, only: roots_beside, roots_right_of
    implicit none (type, external)
    private
    public :: collect_linear_stability
@@ -55,7 +55,7 @@ contains
       end do
    end subroutine test_lambert
 
-   !> On every branch and for stiff faults the pair i omega is among the roots, and the pairs beside
+   !> On every branch and for stiff faults the pair i omega is among the roots, and the roots beside
    !> it are counted; at the first delay there are none at gamma = 0.8.
    subroutine test_curve_roots(error)
       type(error_type), allocatable, intent(out) :: error
@@ -63,7 +63,7 @@ contains
       complex(wp), allocatable :: roots(:)
       real(wp), parameter :: gammas(3) = [0.8_wp, 1.0e8_wp, 1.0e12_wp]
       real(wp) :: omega, p(4)
-      integer :: counts(0:20), i, j, k, pairs
+      integer :: counts(0:20), i, j, k, number
 
       counts = 0
       do j = 1, size(gammas)
@@ -77,15 +77,15 @@ contains
                if (allocated(error)) return
                call expect_close(error, minval(abs(roots - cmplx(0.0_wp, omega, kind=wp))), &
                                  0.0_wp, 1.0e-12_wp, "distance of a root to i omega")
-               pairs = pairs_beside(characteristic_of(block_at(p)), [omega])
-               call expect(error, pairs == count(real(roots) > 1.0e-9_wp)/2, &
-                           "pairs beside omega = "//text(omega)//" on branch "//text(k))
-               if (j == 1 .and. k == 0) call expect(error, pairs == 0, "the first delay")
-               counts(pairs) = counts(pairs) + 1
+               number = roots_beside(characteristic_of(block_at(p)), [omega])
+               call expect(error, number == count(real(roots) > 1.0e-9_wp), &
+                           "roots beside omega = "//text(omega)//" on branch "//text(k))
+               if (j == 1 .and. k == 0) call expect(error, number == 0, "the first delay")
+               counts(number) = counts(number) + 1
             end do
          end do
       end do
-      call expect(error, all(counts(:1) > 0), "points with and without unstable pairs")
+      call expect(error, all(counts([0, 2]) > 0), "points with and without unstable roots")
    end subroutine test_curve_roots
 
    !> Without delay Routh and Hurwitz say where the pair is lost.

@@ -15,7 +15,7 @@ module traced_planes
 
    !> Number of planes.
    integer, parameter :: planes = 9
-   !> Cells of the grid on which unstable pairs are counted.
+   !> Cells of the grid on which unstable roots are counted.
    integer, parameter :: cells = 30
 
 contains
@@ -62,7 +62,7 @@ contains
       real(wp) :: grid(cells + 2)
 
       grid = [0.0_wp, middles([0.0_wp, 1.0_wp], cells), 1.0_wp]
-      call trace_curves(plane, grid, grid, plane%unstable_pairs(grid, grid), points, failure)
+      call trace_curves(plane, grid, grid, plane%unstable_roots(grid, grid), points, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
       call expect(error, size(points) > 10, "there are points, not "//text(size(points)))

@@ -8,7 +8,7 @@ from scripts.claims.claims_results import Finding, Results, decided, short
 from scripts.claims.declare import claim, number, reads, says, tested_with
 from scripts.claims.words import motions_beside_rest
 from scripts.tables.motion_rows import AXES_FIRST, is_computed
-from scripts.tables.roots_of_5 import unstable_pairs
+from scripts.tables.roots_of_5 import unstable_roots
 
 Motion = Annotated[float, number("largest v - 1 up to which the block is at rest")]
 
@@ -23,7 +23,7 @@ def roots_decide(results: Results, *, least_motion: Motion) -> Finding:
     rows = [row for row in motions if row["class"] != "undecided"]
     stable, unstable = [], []
     for row in rows:
-        (unstable if unstable_pairs(*(row[key] for key in AXES_FIRST)) else stable).append(row)
+        (unstable if unstable_roots(*(row[key] for key in AXES_FIRST)) else stable).append(row)
     at_rest = [row["class"] == "fixed point" for row in stable]
     rests = [
         row

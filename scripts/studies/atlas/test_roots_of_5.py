@@ -10,7 +10,7 @@ from made_up_results import (
 )
 
 from scripts.studies.atlas.claims import roots_decide
-from scripts.tables.roots_of_5 import unstable_pairs
+from scripts.tables.roots_of_5 import unstable_roots
 
 BELOW, ABOVE = {"epsilon": 0.2, "tau": 0.0}, {"epsilon": 0.4, "tau": 0.0}
 """Beside the Hopf point without delay, epsilon = gamma^2 xi/(xi + gamma^2) = 0.356 at xi = 0.8."""
@@ -40,25 +40,25 @@ def test_roots_decide(rows, verdict):
 
 
 @pytest.mark.parametrize(
-    ("given", "pairs"),
+    ("given", "number"),
     [
         ({"epsilon": 0.355, "tau": 0.0}, 0),
-        ({"epsilon": 0.357, "tau": 0.0}, 1),
+        ({"epsilon": 0.357, "tau": 0.0}, 2),
         ({"epsilon": -0.5, "tau": 50.0}, 0),
     ],
 )
-def test_pairs_without_delay_and_without_crossing(given, pairs):
+def test_roots_without_delay_and_without_crossing(given, number):
     """By Routh and Hurwitz; and friction that grows with v is stable at every delay."""
-    assert unstable_pairs(xi=0.8, gamma=0.8, **given) == pairs
+    assert unstable_roots(xi=0.8, gamma=0.8, **given) == number
 
 
 @pytest.mark.parametrize("k", [1, 2])
-def test_pairs_change_on_hopf_curves(k):
-    """By one, and nowhere else: on curves in closed form, a little to both sides."""
+def test_roots_change_on_hopf_curves(k):
+    """By a pair, and nowhere else: on curves in closed form, a little to both sides."""
     curves = hopf_curve(k=k)
     for epsilon, tau in zip(curves.epsilon.values, curves.tau.values, strict=True):
         before, after = (
-            unstable_pairs(epsilon=epsilon, tau=tau + off, xi=0.5, gamma=0.8)
+            unstable_roots(epsilon=epsilon, tau=tau + off, xi=0.5, gamma=0.8)
             for off in (-1e-6, 1e-6)
         )
-        assert abs(after - before) == 1
+        assert abs(after - before) == 2

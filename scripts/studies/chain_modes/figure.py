@@ -53,7 +53,7 @@ def draw(curves: list[xr.Dataset], planes: list[dict], chain: dict) -> Figure:
 
 def regions_of(modes: list[xr.Dataset]) -> np.ndarray:
     """0: all modes stable, 1: only spatial ones unstable, 2: the uniform one unstable."""
-    unstable = np.array([mode.map_unstable_pairs.values > 0 for mode in modes])
+    unstable = np.array([mode.map_unstable_roots.values > 0 for mode in modes])
     return np.where(unstable[0], 2, unstable[1:].any(axis=0))
 
 

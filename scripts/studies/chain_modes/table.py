@@ -31,7 +31,7 @@ def mode_rows(plane: str, modes: list[xr.Dataset]) -> list[dict]:
             "block_xi": s * float(mode.attrs["xi"]),
             "block_gamma": np.sqrt(s) * float(mode.attrs["gamma"]),
             **least_of(mode),
-            "unstable_share": float((mode.map_unstable_pairs.values > 0).mean()),
+            "unstable_share": float((mode.map_unstable_roots.values > 0).mean()),
         }
         for s, mode in zip(map(stiffness_of, modes), modes, strict=True)
     ]

@@ -44,7 +44,7 @@ def test_modes_are_blocks_at_other_parameters(programs, config, ends, mode, mu):
     alone |= {"abscissa": "epsilon", "ordinate": "tau", "cells": 10, **windows}
     alone |= {"xi": s * alone["xi"], "gamma": math.sqrt(s) * alone["gamma"]}
     block = programs.made_of("hopf", {"hopf_curves": plane_group(config, alone)})
-    for name in ("epsilon", "tau", "omega", "map_unstable_pairs"):
+    for name in ("epsilon", "tau", "omega", "map_unstable_roots"):
         np.testing.assert_allclose(found[name], block[name], rtol=0, atol=1e-12)
 
 

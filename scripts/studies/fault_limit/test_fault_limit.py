@@ -82,7 +82,7 @@ def test_no_delay_destabilises_at_large_gamma(smoke):
     for plane, unstable in (("tau_of_epsilon_fault", False), ("tau_of_epsilon", True)):
         curves = xr.load_dataset(smoke.folder / "results" / "hopf" / f"{plane}.nc")
         row = fault_limit_table.row_of(0.5, curves.attrs["gamma"])
-        stable = curves.map_unstable_pairs[:, curves.map_abscissa.values < row["without_delay"]]
+        stable = curves.map_unstable_roots[:, curves.map_abscissa.values < row["without_delay"]]
         assert stable.sizes["map_abscissa"] > 5
         assert bool((stable > 0).any()) is unstable
 

@@ -17,7 +17,7 @@ from scripts.namelists.laws import is_of_block
 from scripts.tables.motion_rows import axes_of
 
 DARKEST = 0.3
-"""How much darker than white the most unstable pairs are."""
+"""How much darker than white the most unstable roots are."""
 MARKERS = {
     "generalised_hopf": ("D", "generalised Hopf point"),
     "double_hopf": ("s", "double Hopf point"),
@@ -26,7 +26,7 @@ MARKERS = {
 
 
 def draw(curves: xr.Dataset, scenes: dict[str, dict[str, float]]) -> Figure:
-    """Curves by branch, solid where supercritical, over unstable pairs; scenes of this plane."""
+    """Curves by branch, solid where supercritical, over unstable roots; scenes of this plane."""
     along = axes_of(curves.attrs)
     figure, axes = plt.subplots(figsize=(3.6, 4.6))
     axes.set(xlim=window_of(curves.map_abscissa.values), ylim=window_of(curves.map_ordinate.values))
@@ -50,8 +50,8 @@ def draw(curves: xr.Dataset, scenes: dict[str, dict[str, float]]) -> Figure:
     kinds = {"supercritical": "-", "subcritical": SUBCRITICAL} if ends else {}
     handles = [Line2D([], [], color=INK, ls=ls, label=kind) for kind, ls in kinds.items()]
     marked = [Line2D([], [], label="scene", **SCENE)] if scenes else []
-    bar = figure.colorbar(shades, ax=axes, label="unstable pairs", location="bottom")
-    bar.set_ticks(range(round(shades.norm.vmax - 0.5) + 1))
+    bar = figure.colorbar(shades, ax=axes, label="unstable roots", location="bottom")
+    bar.set_ticks(np.unique(curves.map_unstable_roots))
     figure.legend(handles=handles + points + marked, loc="outside lower center", ncols=2)
     return figure
 
@@ -63,14 +63,14 @@ def window_of(centres: np.ndarray) -> tuple[float, float]:
 
 
 def shade(axes: Axes, curves: xr.Dataset):
-    """The number of unstable pairs, white where there is none."""
-    pairs = curves.map_unstable_pairs.values
-    most = max(int(pairs.max()), 1)
+    """The number of unstable roots, white where there is none."""
+    roots = curves.map_unstable_roots.values
+    most = max(int(roots.max()), 1)
     greys = ListedColormap([str(1 - DARKEST * i / most) for i in range(most + 1)])
     return axes.pcolormesh(
         curves.map_abscissa,
         curves.map_ordinate,
-        pairs,
+        roots,
         cmap=greys,
         norm=Normalize(-0.5, most + 0.5),
         rasterized=True,
@@ -116,7 +116,7 @@ def label_branches(axes: Axes, ends: list[tuple[float, float, int, str]]) -> Non
 def numbers(curves: xr.Dataset, scenes: dict[str, dict]) -> dict:
     """Counts along the curves, the boundary of stability, special points, scenes in the plane."""
     along = axes_of(curves.attrs)
-    boundary = curves.isel(point=curves.unstable_pairs.values == 0)
+    boundary = curves.isel(point=curves.unstable_roots.values == 0)
     kinds = words_of(curves.special_kind)
     places = (curves[f"special_{key}"].values.tolist() for key in along)
     points = sorted(zip(kinds, *places, strict=True))
@@ -128,14 +128,14 @@ def numbers(curves: xr.Dataset, scenes: dict[str, dict]) -> dict:
         "place": place_in_words(curves.attrs, *along),
         "stable_in": "Steady sliding is stable"
         if is_of_block(curves.attrs)
-        else "No pair of roots is unstable",
+        else "No root is unstable",
         "abscissa": f":math:`{symbol_of(along[0])}`",
         "ordinate": f":math:`{symbol_of(along[1])}`",
         "branches": np.unique(curves.branch).size,
         "points": curves.sizes["point"],
         "subcritical": int((curves.l1 > 0).sum()),
         "stabilising": int((curves.crossing < 0).sum()),
-        "stable": short(100 * float((curves.map_unstable_pairs == 0).mean()), 3),
+        "stable": short(100 * float((curves.map_unstable_roots == 0).mean()), 3),
         "boundary": ends_of(boundary[along[0]]),
         "ordinates": ends_of(boundary[along[1]]),
         "without_delay": [x for kind, x, _ in points if kind == "hopf_without_delay"],

@@ -12,7 +12,7 @@ from scripts.tables.amplitude_death import amplitude_death
 from scripts.tables.motion_rows import AXES_FIRST
 
 COLUMNS = [
-    *("of", "law", "kind", *AXES_FIRST, "unstable_pairs"),
+    *("of", "law", "kind", *AXES_FIRST, "unstable_roots"),
     *("omega_1", "branch_1", "l1_1", "omega_2", "branch_2", "l1_2"),
     *("l2", "g2100", "g1011", "g1110", "g0021", "theta", "delta", "unfolding"),
     *("start_epsilon_1", "start_tau_1", "start_xi_1", "angle_1", "criticality_1", "torus_1"),
@@ -43,7 +43,7 @@ def row_of(point: xr.Dataset, curves: xr.Dataset) -> dict:
     row = {
         "kind": kind,
         **{key: as_digits(point[f"special_{key}"]) for key in names if f"special_{key}" in point},
-        "unstable_pairs": int(point.special_unstable_pairs),
+        "unstable_roots": int(point.special_unstable_roots),
         **{key: as_digits(point[f"special_{key}"], 6) for key in COEFFICIENTS.get(kind, [])},
         "unfolding": str(point.special_unfolding.values),
     }
@@ -76,7 +76,7 @@ def death_rows_of(scene: str, stability: xr.Dataset) -> list[dict]:
                 omega = stability.tau_change_omega.values[crossing][0]
                 row = {"of": scene, "law": law_of(stability.attrs)}
                 row |= {"kind": f"amplitude_death_{kind}", **known, "tau": as_digits(tau)}
-                rows.append({**row, "unstable_pairs": 0, "omega_1": as_digits(omega)})
+                rows.append({**row, "unstable_roots": 0, "omega_1": as_digits(omega)})
     return rows
 
 

@@ -36,7 +36,7 @@ from scripts.studies.hopf.claims import (
     pairs_gained_and_lost,
 )
 from scripts.studies.hopf.table import rows_of
-from scripts.tables.roots_of_5 import unstable_pairs
+from scripts.tables.roots_of_5 import unstable_roots
 
 PLANES = ["tau_of_epsilon", "xi_of_epsilon"]
 
@@ -83,12 +83,12 @@ def test_window_without_a_curve_makes_an_empty_file(programs, filled_config):
 
 
 def test_map_counts_the_crossings(curves, plane):
-    """In every cell: pairs at tau = 0 plus crossings of all curves below."""
+    """In every cell: roots at tau = 0 plus crossings of all curves below."""
     for i, epsilon in enumerate(curves.map_abscissa.values):
         for j, ordinate in enumerate(curves.map_ordinate.values):
             place = {**plane, plane["ordinate"]: ordinate}
-            expected = unstable_pairs(epsilon, place["tau"], place["xi"], plane["gamma"])
-            assert curves.map_unstable_pairs.values[j, i] == expected
+            expected = unstable_roots(epsilon, place["tau"], place["xi"], plane["gamma"])
+            assert curves.map_unstable_roots.values[j, i] == expected
 
 
 def test_special_points_solve_the_characteristic_equation(curves):
@@ -131,12 +131,14 @@ def test_any_parameter_is_an_ordinate(programs, along):
     for i, epsilon in enumerate(curves.map_abscissa.values):
         for j, y in enumerate(curves.map_ordinate.values):
             place = (0.5, y) if along == "gamma" else (0.5 * (1 + y), 0.8)
-            counted = unstable_pairs(epsilon, 7.0, *place)
-            assert curves.map_unstable_pairs.values[j, i] == counted
+            counted = unstable_roots(epsilon, 7.0, *place)
+            assert curves.map_unstable_roots.values[j, i] == counted
             # a pair becomes unstable at each curve
             pieces = [curves.isel(point=curves.piece.values == k) for k in set(curves.piece.values)]
             here = [one for one in pieces if one[along].min() <= y <= one[along].max()]
-            assert counted == sum(np.interp(y, one[along], one.epsilon) < epsilon for one in here)
+            assert counted == 2 * sum(
+                np.interp(y, one[along], one.epsilon) < epsilon for one in here
+            )
 
 
 def test_table_of_the_workflow(smoke):
@@ -164,8 +166,8 @@ def with_changes(*cells: str | float) -> Results:
     ("cells", "verdict", "words"),
     [
         # stable without delay and unstable at some delay, in one scene at least
-        (["2 (0 -> 1)", "1 (1 -> 0); 5 (0 -> 1)"], YES, "at $tau = 2$."),
-        (["1 (1 -> 0); 5 (0 -> 1)"], NO, "unstable without delay in a ($epsilon"),
+        (["2 (0 -> 2)", "1 (2 -> 0); 5 (0 -> 2)"], YES, "at $tau = 2$."),
+        (["1 (2 -> 0); 5 (0 -> 2)"], NO, "unstable without delay in a ($epsilon"),
         ([math.nan], NO, "No pair crosses the axis in a ($epsilon"),
     ],
 )
@@ -179,7 +181,7 @@ def test_hopf_only_by_delay():
     """A point without delay refutes "only by", in its own plane; "merely by" needs a scene."""
     point = {"of": "plane", "kind": "hopf_without_delay", "xi": 0.5, "gamma": 0.8, "l1_1": -0.05}
     point["epsilon"] = 0.64 * 0.5 / 1.14
-    made = with_changes("2 (0 -> 1)", "1 (1 -> 0); 5 (0 -> 1)")
+    made = with_changes("2 (0 -> 2)", "1 (2 -> 0); 5 (0 -> 2)")
     made.hopf_points = [point]
     assert hopf_only_by_delay(made, plane="plane", scenes=["b"]).verdict == NO
     found = hopf_only_by_delay(made, plane="plane", scenes=["a", "b"])
@@ -190,20 +192,20 @@ def test_hopf_only_by_delay():
 
 
 @pytest.mark.parametrize(
-    ("l1", "pairs", "expected", "verdict"),
+    ("l1", "roots", "expected", "verdict"),
     [
         (-0.1, 0, ["supercritical"], YES),
         (0.1, 0, ["supercritical"], NO),
         (np.where(FIRST, 0.1, -0.1), 0, ["supercritical"], PARTLY),
         (np.where(FIRST, 0.1, -0.1), 0, ["supercritical", "subcritical"], YES),
-        # a bifurcation beside other unstable pairs is counted, not judged
-        (np.where(FIRST, 0.1, -0.1), np.where(FIRST, 1, 0), ["supercritical"], YES),
+        # a bifurcation beside other unstable roots is counted, not judged
+        (np.where(FIRST, 0.1, -0.1), np.where(FIRST, 2, 0), ["supercritical"], YES),
         (-0.1, 2, ["supercritical"], NO),
     ],
 )
-def test_kinds_of_hopf(l1, pairs, expected, verdict):
+def test_kinds_of_hopf(l1, roots, expected, verdict):
     """All of the kind, none, or some of another, where stability changes."""
-    made = on_plane(changed(hopf_curve(), l1=l1, unstable_pairs=pairs))
+    made = on_plane(changed(hopf_curve(), l1=l1, unstable_roots=roots))
     assert kinds_of_hopf(made, planes=["plane"], expected=expected).verdict == verdict
 
 
@@ -216,14 +218,14 @@ def test_pairs_gained_and_lost(crossing, verdict):
 
 
 @pytest.mark.parametrize(
-    ("with_tau", "with_xi", "pairs", "verdict"),
-    [(0.1, 0.1, 0, PARTLY), (0.0, 0.1, 0, YES), (0.1, 0.0, 0, NO), (0.1, 0.1, 1, NO)],
+    ("with_tau", "with_xi", "roots", "verdict"),
+    [(0.1, 0.1, 0, PARTLY), (0.0, 0.1, 0, YES), (0.1, 0.0, 0, NO), (0.1, 0.1, 2, NO)],
 )
-def test_hopf_depends_on(with_tau, with_xi, pairs, verdict):
+def test_hopf_depends_on(with_tau, with_xi, roots, verdict):
     """On xi it must, on the delay it must not; where no stability changes it depends on nothing."""
     curves = {
         name: changed(
-            hopf_curve(), epsilon=np.linspace(0.3, 0.3 + spread, 12), unstable_pairs=pairs
+            hopf_curve(), epsilon=np.linspace(0.3, 0.3 + spread, 12), unstable_roots=roots
         )
         for name, spread in (("a", with_tau), ("b", with_xi))
     }
@@ -250,9 +252,9 @@ def test_numbers_of_a_plane():
     """Counts along the curves, the boundary, and special points with their places."""
     curves = hopf_curve()
     curves["l1"][3] = 0.2
-    curves["unstable_pairs"][curves.epsilon.values.argmax()] = 1
+    curves["unstable_roots"][curves.epsilon.values.argmax()] = 2
     curves["crossing"][:4] = -1
-    curves["map_unstable_pairs"] = (("map_y", "map_x"), [[0, 0], [0, 1]])
+    curves["map_unstable_roots"] = (("map_y", "map_x"), [[0, 0], [0, 2]])
     kinds = ["double_hopf", "hopf_without_delay", "double_hopf"]
     curves["special_kind"] = ("special", np.array(kinds))
     curves["special_epsilon"] = ("special", [1.143, 0.28, 0.336])

@@ -22,7 +22,7 @@ def row_of(scene: str, stability: xr.Dataset) -> dict:
         "scene": scene,
         **{key: float(known[key]) for key in PARAMETERS if key in known},
         "law": law_of(known),
-        "unstable_pairs": int(known["unstable_pairs"]),
+        "unstable_roots": int(known["unstable_roots"]),
         "root_bound": float(known["root_bound"]),
         "roots_above_bound": stability.sizes["root"],
         "leading_roots": leading_roots(stability),
@@ -45,7 +45,7 @@ def leading_roots(stability: xr.Dataset) -> str:
 
 
 def changes(stability: xr.Dataset, parameter: str) -> str:
-    """Where a pair crosses the axis, with the number of unstable pairs before and after.
+    """Where a pair crosses the axis, with the number of unstable roots before and after.
 
     Of a user's model it is not looked for.
     """
@@ -55,8 +55,8 @@ def changes(stability: xr.Dataset, parameter: str) -> str:
         f"{place:.12g} ({before} -> {after})"
         for place, before, after in zip(
             stability[f"{parameter}_of_change"].values,
-            stability[f"{parameter}_change_pairs_before"].values,
-            stability[f"{parameter}_change_pairs_after"].values,
+            stability[f"{parameter}_change_roots_before"].values,
+            stability[f"{parameter}_change_roots_after"].values,
             strict=True,
         )
     )

@@ -12,13 +12,13 @@ from scripts.files.tsv import read_table
 from scripts.namelists.parameters import PARAMETERS
 from scripts.studies.linear_stability import claims
 from scripts.studies.linear_stability.table import amplitude_death, row_of
-from scripts.tables.roots_of_5 import unstable_pairs
+from scripts.tables.roots_of_5 import unstable_roots
 
-SCENES = {"fixed_point": 0, "oscillation": 1, "torus": 1, "chaos": 1}
-SCENES |= {"true_torus": 1, "stick_slip": 1}
-SCENES |= dict.fromkeys(["no_delay", "no_delay_stuck", "no_delay_fast"], 1)
-SCENES |= {"no_delay_less": 1, "no_delay_more": 1, "laboratory": 2, "natural_fault": 2}
-"""Number of unstable pairs."""
+SCENES = {"fixed_point": 0, "oscillation": 2, "torus": 2, "chaos": 2}
+SCENES |= {"true_torus": 2, "stick_slip": 2}
+SCENES |= dict.fromkeys(["no_delay", "no_delay_stuck", "no_delay_fast"], 2)
+SCENES |= {"no_delay_less": 2, "no_delay_more": 2, "laboratory": 4, "natural_fault": 4}
+"""Number of unstable roots."""
 
 
 @pytest.fixture(params=SCENES)
@@ -34,7 +34,7 @@ def parameters(stability, **other):
 
 
 def test_file_and_row_of_a_scene(stability):
-    """Roots and crossings solve (5); unstable pairs are those of roots and those by crossings.
+    """Roots and crossings solve (5); unstable ones are counted among the roots and by crossings.
 
     Roots lie above the bound, the rightmost first, each with its partner.
     """
@@ -44,19 +44,19 @@ def test_file_and_row_of_a_scene(stability):
     assert (roots.real > stability.attrs["root_bound"]).all()
     assert (np.diff(roots.real) <= 0).all()
     assert set(roots) == set(roots.conj())
-    pairs = stability.attrs["unstable_pairs"]
-    assert pairs == np.count_nonzero(roots.real > 0) // 2
-    assert pairs == unstable_pairs(*parameters(stability))
+    number = stability.attrs["unstable_roots"]
+    assert number == np.count_nonzero(roots.real > 0)
+    assert number == unstable_roots(*parameters(stability))
     for key in ("tau", "epsilon"):
         places, omegas = stability[f"{key}_of_change"], stability[f"{key}_change_omega"]
         assert places.size > 0
         for place, omega in zip(places.values, omegas.values, strict=True):
             assert residual(1j * omega, *parameters(stability, **{key: place})) < 1e-12
     row = row_of("mine", stability)
-    assert row["unstable_pairs"] == pairs
+    assert row["unstable_roots"] == number
     first, *others = row["tau_of_changes"].split("; ")
-    before = int(stability.tau_change_pairs_before[0])
-    after = int(stability.tau_change_pairs_after[0])
+    before = int(stability.tau_change_roots_before[0])
+    after = int(stability.tau_change_roots_after[0])
     assert first == f"{float(stability.tau_of_change[0]):.12g} ({before} -> {after})"
     assert len(others) == stability.tau_of_change.size - 1
     assert row["leading_roots"].startswith(f"{float(stability.root_real[0]):.10g}")
@@ -67,9 +67,9 @@ def test_amplitude_death(stability):
     """Unstable without delay, stable between the first two crossings; by the crossings, too."""
     ((begin, end),) = amplitude_death(stability)
     assert (begin, end) == tuple(stability.tau_of_change.values[:2])
-    assert unstable_pairs(*parameters(stability, tau=0.9 * begin)) == 1
-    assert unstable_pairs(*parameters(stability, tau=(begin + end) / 2)) == 0
-    assert unstable_pairs(*parameters(stability, tau=1.1 * end)) == 1
+    assert unstable_roots(*parameters(stability, tau=0.9 * begin)) == 2
+    assert unstable_roots(*parameters(stability, tau=(begin + end) / 2)) == 0
+    assert unstable_roots(*parameters(stability, tau=1.1 * end)) == 2
 
 
 @pytest.mark.parametrize("stability", ["fixed_point", "oscillation"], indirect=True)
@@ -79,7 +79,7 @@ def test_state_stable_without_delay_does_not_die(stability):
 
 def test_table_of_the_workflow(smoke):
     rows = read_table(smoke.folder / "results" / "tables" / "linear-stability.tsv")
-    assert {row["scene"]: row["unstable_pairs"] for row in rows} == SCENES
+    assert {row["scene"]: row["unstable_roots"] for row in rows} == SCENES
 
 
 def test_bound_too_far_is_refused(programs, good_inputs):
@@ -99,7 +99,7 @@ def with_changes(*cells: str | float) -> Results:
 
 
 def test_changes_of_a_cell():
-    assert changes("2.5 (0 -> 1); 1e-3 (12 -> 11)") == [(2.5, 0, 1), (1e-3, 12, 11)]
+    assert changes("2.5 (0 -> 2); 1e-3 (12 -> 10)") == [(2.5, 0, 2), (1e-3, 12, 10)]
     assert changes(math.nan) == []
 
 
@@ -107,11 +107,11 @@ def test_changes_of_a_cell():
     ("test", "cells", "verdict", "words"),
     [
         # every scene must have such a delay
-        ("delay_destabilises", ["2 (0 -> 1); 5 (1 -> 0)", "3 (0 -> 1)"], YES, "; b at $tau = 3$."),
-        ("delay_destabilises", ["2 (0 -> 1)", "2 (1 -> 2); 5 (2 -> 1)"], NO, "; b at no $tau$."),
-        # fewer unstable pairs are not enough: none must be left
-        ("amplitude_death", ["2 (0 -> 1); 5 (1 -> 0)"], YES, "stability: a at $tau = 5$."),
-        ("amplitude_death", ["2 (2 -> 1); 5 (1 -> 2)"], NO, "stability: none."),
+        ("delay_destabilises", ["2 (0 -> 2); 5 (2 -> 0)", "3 (0 -> 2)"], YES, "; b at $tau = 3$."),
+        ("delay_destabilises", ["2 (0 -> 2)", "2 (2 -> 4); 5 (4 -> 2)"], NO, "; b at no $tau$."),
+        # fewer unstable roots are not enough: none must be left
+        ("amplitude_death", ["2 (0 -> 2); 5 (2 -> 0)"], YES, "stability: a at $tau = 5$."),
+        ("amplitude_death", ["2 (4 -> 2); 5 (2 -> 4)"], NO, "stability: none."),
     ],
 )
 def test_changes_with_the_delay(test, cells, verdict, words):

@@ -171,7 +171,7 @@ def two_supercritical_hopfs(results: Results, *, routes: Routes, planes: Planes)
         (curves,) = (
             results.curves[plane] for plane in planes if results.curves[plane].xi[0] == at["xi"]
         )
-        lost = curves.isel(point=(curves.unstable_pairs == 0) & (curves.crossing > 0))
+        lost = curves.isel(point=(curves.unstable_roots == 0) & (curves.crossing > 0))
         first = lost.isel(point=abs(lost.epsilon.values - at["epsilon"]).argmin())
         along = parameter_of(rows)
         fixed = {key: at[key] for key in PARAMETERS if key != along}

@@ -205,7 +205,7 @@ def test_chaos_by_a_and_b(in_epsilon, in_xi, verdict):
         ({"epsilon": 0.3}, ["chaos"] * 4, YES),
         ({}, ["chaos"] * 4, NO),
         ({"epsilon": 0.3}, ["cycle"] * 2 + ["chaos"] * 2, NO),
-        ({"unstable_pairs": 1}, ["chaos"] * 4, NO),
+        ({"unstable_roots": 2}, ["chaos"] * 4, NO),
     ],
 )
 def test_independent_of_spring(given, classes, verdict):

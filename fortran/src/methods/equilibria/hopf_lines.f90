@@ -32,8 +32,8 @@ module hopf_lines
       real(wp) :: delay = 0.0_wp
       !> Whether a pair is double there; the place is then known to 1e-7 of the line
       logical :: is_double = .false.
-      !> Unstable pairs before and behind it along the line
-      integer :: pairs_before = 0, pairs_behind = 0
+      !> Unstable roots before and behind it along the line
+      integer :: roots_before = 0, roots_behind = 0
    end type hopf_on_line_type
 
 contains
@@ -111,8 +111,8 @@ contains
             if (.not. found) call find_double(0.5_wp*(start + end), point, found)
          end if
          if (found) then
-            point%pairs_before = roots_start/2
-            point%pairs_behind = roots_end/2
+            point%roots_before = roots_start
+            point%roots_behind = roots_end
             call insert(point)
          else if (end - start <= narrowest) then
             call raise(error, "Hopf points: a pair of roots crosses the axis between the shares " &

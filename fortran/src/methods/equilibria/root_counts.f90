@@ -7,7 +7,7 @@ module root_counts
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: crossing_frequency, has_more_roots, pairs_beside, roots_right_of
+   public :: crossing_frequency, has_more_roots, roots_beside, roots_right_of
 
    !> Bound on the change of Delta in a step, in units of Delta: below 1, its argument is certain.
    real(wp), parameter :: step_share = 0.9_wp
@@ -106,9 +106,9 @@ contains
       end do
    end function terms_size
 
-   !> Number of pairs of roots with positive real part where some pairs i omega are on the
+   !> Number of roots with positive real part where some pairs i omega are on the
    !> imaginary axis, which are left out.
-   pure integer function pairs_beside(c, omega) result(number)
+   pure integer function roots_beside(c, omega) result(number)
       !> Characteristic function
       type(characteristic_type), intent(in) :: c
       !> Frequencies of the pairs on the axis, ascending
@@ -125,8 +125,8 @@ contains
          from = omega(i) + radius
       end do
       growth = growth + line_growth(c, 0.0_wp, from, max(from, far_end(c, 0.0_wp)))
-      number = number_of(c, growth, 0.0_wp)/2
-   end function pairs_beside
+      number = number_of(c, growth, 0.0_wp)
+   end function roots_beside
 
    !> Number of roots from the growth of the argument up to `far_end`; from there on the argument
    !> grows as that of the leading part.
