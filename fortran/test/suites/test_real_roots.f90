@@ -27,7 +27,8 @@ contains
 
       testsuite = [new_unittest("no Hopf curve", test_no_curve), &
                    new_unittest("Hopf curves", test_curves), &
-                   new_unittest("Hopf points on a line", test_line)]
+                   new_unittest("Hopf points on a line", test_line), &
+                   new_unittest("double root 0", test_double_zero)]
    end subroutine collect_real_roots
 
    !> A real root passes 0 and no pair is on the axis.
@@ -44,6 +45,18 @@ contains
 
       call check_window([-3.0_wp, 3.0_wp, -12.0_wp, 4.0_wp], [0, 1, 2, 3, 5], 3, error)
    end subroutine test_curves
+
+   !> With a = -1, b = 1 Delta is s**2/2 near 0, to rounding 0 below 1e-8: counting comes to an end.
+   subroutine test_double_zero(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(curve_plane_type) :: plane
+      integer :: roots(1, 1)
+
+      call make_plane([-1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp], plane, error)
+      if (allocated(error)) return
+      roots = plane%unstable_roots([0.0_wp], [1.0_wp])
+      call expect(error, roots(1, 1) >= 0 .and. roots(1, 1) <= 2, text(roots(1, 1))//" roots")
+   end subroutine test_double_zero
 
    !> A window on a and b: its numbers of roots, and as many pieces of curves.
    subroutine check_window(window, numbers, pieces, error)

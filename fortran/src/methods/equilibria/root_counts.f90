@@ -13,6 +13,8 @@ module root_counts
    real(wp), parameter :: step_share = 0.9_wp
    !> Least step, in units of w and for w = 0, so that a root on the line does not stop the walk.
    real(wp), parameter :: least_share = 1.0e-14_wp, least_step = 1.0e-30_wp
+   !> In a step this small in units of the line Delta may be no more than its rounding errors.
+   real(wp), parameter :: short_step = 1.0e-10_wp
    !> Radius, in units of omega, of the way around a known root i omega.
    real(wp), parameter :: radius_share = 1.0e-5_wp
    !> Steps of that way.
@@ -177,8 +179,12 @@ contains
       do while (w < to)
          slope = abs(c%by_s(s))
          change = step_share*abs(value)
-         ! the bound grows with w: a step that holds it at the end of a longer one holds it
          step = step_of(change, slope, c%curvature_bound(s))
+         if (step < short_step*to) then
+            change = max(change, epsilon(change)*c%largest_term(s))
+            step = step_of(change, slope, c%curvature_bound(s))
+         end if
+         ! the bound grows with w: a step that holds it at the end of a longer one holds it
          step = step_of(change, slope, c%curvature_bound(cmplx(bound, w + step, kind=wp)))
          step = max(step, least_share*w + least_step)
          w = min(w + step, to)
