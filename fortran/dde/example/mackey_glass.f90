@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The solver for a model of your own: Mackey and Glass's equation (1977),
 !>
 !>     y' = 0.2 y(t - 17)/(1 + y(t - 17)^10) - 0.1 y,   y = 1.2 for t <= 0.

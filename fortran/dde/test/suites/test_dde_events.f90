@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Events: where they are found, in what order, and that one can end a run.
 module test_dde_events
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
