@@ -95,7 +95,7 @@ def test_fpm_builds_it(tmp_path):
     shutil.copytree(OUTSIDE / "by_fpm", tmp_path / "mine")
     printed = run("fpm", "run", cwd=tmp_path / "mine")
     assert largest_error(printed) < 100 * TOLERANCE
-    assert "1.060954363" in run("fpm", "run", "--example", cwd=tmp_path / "dde")
+    assert "1.060954363" in run("fpm", "run", "--example", "--all", cwd=tmp_path / "dde")
 
 
 @pytest.mark.long
