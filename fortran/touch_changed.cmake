@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Make judges sources by their times. A source that has changed since the last call of CMake and has
 # an old time, as an upgrade may leave it, is touched.
 file(GLOB_RECURSE all_sources *.f90 *.c)

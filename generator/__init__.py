@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Makes a Fortran module of a delay-differential model from its definition; see README.md."""
 
 __version__ = "0.1.0"

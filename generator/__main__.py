@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Write the Fortran module of a model, or compile it.
 
     python -m generator DEFINITION.yaml ... MODULE.f90

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Where a block has its states and what is kept of it: alone, or at its turn in a chain.
 
 A model is a chain where an equation has the second difference of a state. The states of its blocks

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The shared object of a model: its module, compiled with what all models share."""
 
 import shutil

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A model as its author writes it: parameters, states, equations with delayed states, as text.
 
 Expressions are read by Python's own parser and never evaluated: a definition cannot run commands.

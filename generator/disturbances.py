@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Taylor series of small disturbances: the derivatives of the recurrences.
 
     p = a b       dp = a db + b da            e = exp(a)    de = e da

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What the procedures of a model share: rates as a graph, where they have no value, exponentials.
 
 For each state w of which exp(w) is taken, v = exp(w) may be integrated beside w, by v' = v w'.

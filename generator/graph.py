@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Right-hand sides as a graph of operations whose Taylor coefficients follow by recurrences."""
 
 from dataclasses import dataclass

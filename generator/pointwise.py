@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Procedures that need one state: the right-hand side and its derivatives."""
 
 import sympy

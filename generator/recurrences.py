@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Statements that compute the Taylor coefficients of a graph, order by order.
 
 With a_k for coefficient k (Jorba and Zou 2005, "A software package for the numerical integration of

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Procedures at the steady state: itself, derivative forms there, and the characteristic function.
 
 A steady state is an expression of the parameters, or numbers: Newton's method finds these from

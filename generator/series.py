@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Procedures that compute Taylor series of solutions, order by order.
 
 One block alone has its coefficients in scalars. Blocks of a chain are computed in tiles of some

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The slow solution of a stiff model, on which a fast state is in balance.
 
 The fast state w with v = exp(w) has w' = (rate/v) (balance - w). Its slow solution is the balance

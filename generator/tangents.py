@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Procedures that compute Taylor series of small disturbances.
 
 Blocks of a chain are computed one at a time: block i is at order k when the front is at

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* delaykit: runs of compiled models with constant delays, and methods for them.
  *
  * A model is an object that the generator made (python -m generator DEFINITION.yaml NAME.so), opened

@@ -69,7 +69,7 @@ def anchors_of(document: str) -> set[str]:
 def code() -> str:
     """All of the project's own text that is no document, and the names of its files."""
     names = [name for name in project_files() if not name.endswith((".md", ".lock", ".png"))]
-    names = [name for name in names if name not in ("LICENSE", "tests/test_documents.py")]
+    names = [name for name in names if not name.endswith(("LICENSE", "tests/test_documents.py"))]
     return "\n".join([*names, *((ROOT / name).read_text(errors="replace") for name in names)])
 
 

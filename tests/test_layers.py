@@ -5,7 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from conftest import ROOT
+from conftest import ROOT, project_files
 from scripts.files.read_config import read
 
 FORTRAN = ROOT / "fortran"
@@ -130,6 +130,36 @@ def test_generator_and_methods_know_no_block():
     files += (FORTRAN / "src" / "methods").glob("**/*.f90")
     found = {path: words.findall(path.read_text()) for path in files}
     assert [(path, met) for path, met in found.items() if met] == []
+
+
+NO_SOURCES = (
+    ".ipynb",
+    ".json",
+    ".lock",
+    ".md",
+    ".tsv",
+    ".typed",
+    "LICENSE",
+    "packages.txt",
+    "ts.in",
+)
+"""Ends of names of data and documents."""
+
+
+def test_packages_are_permissive():
+    """Each source names its licence: that of GSL and FFTW where it calls them, in no package."""
+    licences, calling = {}, set()
+    for name in project_files():
+        if name.startswith(("fortran/", "generator/", "python/")) and not name.endswith(NO_SOURCES):
+            text = (ROOT / name).read_text()
+            found = re.match(r"(?:#!.*\n)?\W*SPDX-License-Identifier: (\S+)", text)
+            licences[name] = found and found[1]
+            calling |= {name} if re.search(r"fftw3\.f03|\bgsl_\w", text) else set()
+    bound = {f"src/bindings/{name}.f90" for name in ("fourier_transform", "student_distribution")}
+    assert calling == {f"fortran/{name}" for name in bound | {"test/suites/gsl_block.c"}}
+    assert {*licences.values()} == {"BSD-3-Clause", "GPL-3.0-or-later"}
+    assert {name for name in licences if licences[name] != "BSD-3-Clause"} == calling
+    assert len({(ROOT / name / "LICENSE").read_text() for name in ("fortran", "generator")}) == 1
 
 
 PYTHON_LAYERS = [

@@ -1,6 +1,7 @@
 """The solver outside this project: installed, found, and built by projects of others."""
 
 import os
+import platform
 import re
 import shutil
 import subprocess
@@ -95,7 +96,22 @@ def test_fpm_builds_it(tmp_path):
     shutil.copytree(OUTSIDE / "by_fpm", tmp_path / "mine")
     printed = run("fpm", "run", cwd=tmp_path / "mine")
     assert largest_error(printed) < 100 * TOLERANCE
-    assert "1.060954363" in run("fpm", "run", "--example", cwd=tmp_path / "dde")
+    assert "1.060954363" in run("fpm", "run", "--example", "--all", cwd=tmp_path / "dde")
+
+
+@pytest.mark.skipif(platform.machine() != "x86_64", reason="other processors have other bits")
+def test_five_problems_cost_what_the_manual_says(installed, tmp_path):
+    source = PACKAGE / "benchmarks" / "delay_problems.f90"
+    run("sh", "-c", f'gfortran "{source}" -o mine {compiler_flags(installed)}', cwd=tmp_path)
+    assert run(tmp_path / "mine") in (PACKAGE / "README.md").read_text()
+
+
+@pytest.mark.long
+def test_references_agree_in_quadruple_precision(tmp_path):
+    """By two methods, and with those that the program holds."""
+    run("cmake", "-D", "DDE_QUAD=ON", "-S", PACKAGE, "-B", tmp_path)
+    run("cmake", "--build", tmp_path, "--target", "dde_delay_problems")
+    run(tmp_path / "dde_delay_problems")
 
 
 @pytest.mark.long

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Attractors of a model on a grid of its parameters, from one history or several, or
 !> along a sweep, with their classes.
 module attractors_command

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Cycles along a line of parameters: stable and unstable branches, their special points, and curves
 !> of these over two parameters.
 module cycles_command

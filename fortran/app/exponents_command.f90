@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Lyapunov exponents of one scene, at its own tolerance, at others, and with shorter steps.
 module exponents_command
    use dde, only: integration_options

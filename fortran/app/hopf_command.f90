@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Hopf curves in one plane of parameters, their special points, and the number of unstable roots.
 module hopf_command
    use dde_errors, only: error_type

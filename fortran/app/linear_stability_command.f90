@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Linear stability of a model at rest, at one set of parameters.
 module linear_stability_command
    use dde_errors, only: error_type

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Measured runs: cases solved by several methods at several tolerances, with what each run gave and
 !> what it cost. A run that fails is a row with its reason.
 module measure_command

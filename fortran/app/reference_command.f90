@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Reference solutions of cases in quadruple precision, each with the evidence of its own
 !> uncertainty and of how much the case magnifies a disturbance of its history.
 module reference_command

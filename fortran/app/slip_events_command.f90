@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Events of the blocks of one scene after its transient.
 module slip_events_command
    use dde_errors, only: error_type

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Power spectrum of the signal over a trajectory after its transient, with its peaks labelled.
 module spectrum_command
    use base_frequencies, only: bases_type, label_peaks

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The program: `spring_block COMMAND NAMELIST OUTPUT`. Each command is a file beside this one.
 program spring_block_program
    use attractors_command, only: run_attractors

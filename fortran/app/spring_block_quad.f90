@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The program in quadruple precision: `spring_block_quad reference NAMELIST OUTPUT`.
 program spring_block_quad
    use program_arguments, only: command_type, run_command

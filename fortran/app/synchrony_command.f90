@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The growth of disturbances of chains that move as one block, by the stiffness of their modes.
 module synchrony_command
    use dde_errors, only: error_type

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Trajectory of one scene: its model integrated from its history to t_end.
 module trajectory_command
    use dde, only: integrate, integration_result

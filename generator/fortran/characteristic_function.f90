@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The characteristic function of a model at its steady state,
 !>
 !>     Delta(s) = det(s I - A_0 - sum over k of A_k exp(-s lag_k)) = sum over d of P_d(s) exp(-s d),

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Blocks in a row, each coupled to its neighbours by second differences of states. Here
 !> is where they stand in the state vector, and which are their neighbours there.
 !>

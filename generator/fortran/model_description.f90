@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> What the definition of a compiled model says, read from the lines of its description.
 module model_description
    use, intrinsic :: iso_c_binding, only: c_char

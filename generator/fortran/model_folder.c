@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What C alone knows of models: the program's own place, how they are opened, and folders. */
 #define _POSIX_C_SOURCE 200809L
 #include <dirent.h>

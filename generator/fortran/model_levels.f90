@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Levels of the signal of a model, as its definition says or at rest.
 module model_levels
    use dde_kinds, only: wp

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Compiled models, opened by name: shared objects NAME.so in a folder. The folders are those of the
 !> environment variable `MODELS`, with colons between them, or else the folder `models` beside that
 !> of the program (`models_quad` of a program in quadruple precision).

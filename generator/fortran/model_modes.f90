@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Modes of disturbances of a chain at rest, one for each block.
 module model_modes
    use dde_kinds, only: wp

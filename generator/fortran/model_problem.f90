@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> A model whose equations were made from a definition and compiled (generator/README.md): a problem
 !> of the solver, its derivatives of any order at the steady state, and its characteristic function.
 !> `open_model` (model_library) fills it with the procedures of a shared object.

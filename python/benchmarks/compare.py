@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """delaykit, JiTCDDE, ddeint and SciPy with steps by hand, on the equation of Mackey and Glass.
 
     python python/benchmarks/compare.py --peers ENVIRONMENT/bin/python > table.md

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Models with constant delays: runs, exponents, Hopf points, cycles and scans."""
 
 from delaykit.errors import CompilerError, DelaykitError, ModelError, RunError, RunInterruptedError

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Arguments of runs, checked and as the library takes them."""
 
 import ctypes

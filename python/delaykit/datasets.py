@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Runs and results as xarray.Datasets."""
 
 import numpy as np

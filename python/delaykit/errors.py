@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Exceptions of this package. A message says what is wrong, the value met, and what is expected."""
 
 import difflib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Events: passages of a state, or of its slope, through a level."""
 
 import re

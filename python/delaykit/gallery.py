@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What the files of the gallery share when they are run."""
 
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What a model did before the initial time: as numbers, functions, arrays, or an earlier run."""
 
 import math

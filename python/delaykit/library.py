@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The compiled library of the solver and the methods, called over its interface to C."""
 
 import ctypes

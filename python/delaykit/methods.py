@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Exponents, classes of motion, roots, Hopf curves and cycles of a model, by the library.
 
 Each gives an xarray.Dataset whose variables have descriptions (`long_name`). Times and rates are in

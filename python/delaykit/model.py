@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A model with constant delays: its equations, parameters, and what can be computed of it."""
 
 import ctypes

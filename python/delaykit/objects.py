@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Compiled models, kept in the user's cache by a digest of all that they are made of."""
 
 import functools

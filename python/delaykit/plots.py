@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Pictures of results by matplotlib, an optional part of the package."""
 
 from collections.abc import Iterator

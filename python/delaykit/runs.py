@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Runs: a model integrated from its history."""
 
 import ctypes

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Scans: what is measured of runs, over arrays of parameters and all cores."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Spring blocks in a row with free ends, joined by springs (docs/chains.md).
 
 Exact: mode m of N blocks, cos(pi m (j - 1/2)/N), moves as one block with gamma**2 and xi times

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Duffing's oscillator with delayed feedback: Yanchuk and Perlikowski (2009), PRE 79, 046221.
 
 Published: special points of the Hopf curves, by the demonstration "minimal_demo" of DDE-BIFTOOL.

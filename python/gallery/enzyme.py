@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Enzyme kinetics: Hairer, Norsett and Wanner (1993), II.17, and the test set of RADAR5.
 
 Published: values at t = 160.

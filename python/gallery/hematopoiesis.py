@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Stem cells at rest: Mackey (1978), Blood 51, 941; rates per day, s in units of theta.
 
 Exact: a pair of roots is imaginary where cos(omega tau) = (delta + slope)/(2 exp(-gamma tau) slope)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Light in a ring cavity: Ikeda, Daido and Akimoto (1980), Phys. Rev. Lett. 45, 709; x0 = pi here.
 
 Exact: a pair of roots is imaginary where omega = sqrt(mu**2 - 1), tan(omega tau) = -omega; there

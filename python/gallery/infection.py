@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """An infection: Hairer, Norsett and Wanner (1993), Solving ODEs I, section II.17.
 
 Published: values at t = 40. Exact: y1 + y2 + y3 stays 6.1.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A laser with feedback: Lang and Kobayashi (1980), IEEE J. Quantum Electron. 16, 347.
 
 Parameters: demonstration "rotsym" of DDE-BIFTOOL. Exact: E = R exp(i omega t), fed back at a phase

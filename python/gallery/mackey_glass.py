@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Blood cells: Mackey and Glass (1977), Science 197, 287; chaotic at tau = 17 and 23.
 
 Published exponents spread over 0.0050 to 0.0086 at tau = 17; these are well resolved ones.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Two neurons: Shayer and Campbell (2000), SIAM J. Appl. Math. 61, 673.
 
 Published: the demonstration "neuron" of DDE-BIFTOOL. A branch of cycles begins at a Hopf point,

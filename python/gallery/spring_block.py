@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The paper's spring block with delayed friction; w = ln v, nondimensional (docs/method.md).
 
 Exact: (5) on Hopf curves; without delay epsilon = omega**2 = gamma**2 xi/(xi + gamma**2) (Rice and

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A simple chaotic delay equation: Sprott (2007), Phys. Lett. A 366, 397.
 
 Exact: a Hopf point at tau = pi/2, omega = 1. A cycle with x(t - 2 tau) = -x(t) has the period 4 tau

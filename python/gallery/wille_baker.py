@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Wille and Baker (1992), Appl. Numer. Math. 9, 223; example 1 of the tutorial of MATLAB's dde23.
 
 Exact: polynomials on each interval between breaking points.

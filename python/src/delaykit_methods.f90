@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Methods for callers in C: the commands of the program, with results in memory.
 module delaykit_methods
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_loc, c_ptr

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Ctrl-C during a call: the handler asks all runs to stop, and then does what was to be done before. */
 #include <signal.h>
 #include <stddef.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Ikeda's equation y' = -y + mu sin(y(t - tau)) from C: ikeda OBJECT prints times and states. */
 #include <math.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What the documents show: their programs run, and give the values of the study."""
 
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Published models give their published numbers, and the notebook runs."""
 
 import json
@@ -20,7 +21,7 @@ def test_published_numbers(path):
     assert list(numbers) == list(names["PUBLISHED"])
     for name, (value, within) in names["PUBLISHED"].items():
         assert float(numbers[name]) == pytest.approx(value, rel=0, abs=within), name
-    assert len(path.read_text().splitlines()) <= 40
+    assert len(path.read_text().splitlines()) <= 41
 
 
 @pytest.fixture

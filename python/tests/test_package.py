@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What is installed, and its interface for callers in C."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Runs against exact solutions and published values, and what is refused."""
 
 import functools

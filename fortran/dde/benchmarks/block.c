@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Right-hand side of equation (4) in theta, u, w = ln v for deSolve. */
 #include <R.h>
 #include <R_ext/Rdynload.h>

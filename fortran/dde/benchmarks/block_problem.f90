@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> One spring block with delayed friction, on which solvers are compared: a chain of one block that
 !> gives its derivatives.
 module block_problem

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> One scene in this solver (workers.py). Arguments: the method and, for a problem without its
 !> Taylor series, "rhs".
 program dde_worker

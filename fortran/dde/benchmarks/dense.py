@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Dense output where a component decays within a step, of this solver and of SciPy's methods."""
 
 import itertools

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Errors of dense output on layers (dense.py). Standard input: lines of a method, a layer, a
 !> tolerance and a rate. Prints for each the largest error at the ends of steps and between them, of
 !> the component where the second exceeds the first, or the tolerance, by the largest factor.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """One block or a chain of them in JiTCDDE: a scene, compiled once and run on request (workers.py).
 
 Arguments for a chain: what its blocks feel of each other, its ends, and the last time of samples.

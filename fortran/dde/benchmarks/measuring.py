@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What all benchmarks share: CPU seconds of a command, and tables."""
 
 import argparse

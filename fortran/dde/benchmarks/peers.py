@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Other solvers beside this one at equal error (run peers)."""
 
 import math

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> One scene in RADAR5, version 2.1 (workers.py): stiff, Radau IIA of order 5.
 module radar5_scene
    use dde_kinds, only: wp

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> One scene in RETARD (workers.py): not stiff, the pair of Dormand and Prince.
 module retard_scene
    use dde_kinds, only: wp

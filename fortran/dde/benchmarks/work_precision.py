@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Error and time of solvers on one scene, and their ratios at equal error."""
 
 import math

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> What the workers in Fortran share (workers.py): a scene and requests from standard input, answers
 !> to standard output. Scene and samples are global, as Hairer's codes call back without them.
 module worker_protocol

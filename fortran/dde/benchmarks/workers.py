@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Solvers as processes: each integrates one scene on request, and may fail without harm."""
 
 import os

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The solver for a model of your own: Mackey and Glass's equation (1977),
 !>
 !>     y' = 0.2 y(t - 17)/(1 + y(t - 17)^10) - 0.1 y,   y = 1.2 for t <= 0.
@@ -54,4 +55,8 @@ program mackey_glass_example
                   outcome, error, table)
    if (allocated(error)) error stop error%message
    print "(f6.1, f14.9)", (table%time(i), table%values(1, i), i=1, table%received)
+   ! published
+   if (any(abs(table%values(1, 2:5:3) - [1.060954362898_wp, 1.186718107117_wp]) > 1.0e-8_wp)) then
+      error stop "expected 1.060954363 and 1.186718107"
+   end if
 end program mackey_glass_example

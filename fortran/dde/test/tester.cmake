@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 set(tester_main "${CMAKE_CURRENT_LIST_DIR}/main.f90.in")
 
 # A program that runs the suites of a folder, each a file test_SUITE.f90 with collect_SUITE, beside the

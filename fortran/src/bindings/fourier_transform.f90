@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: GPL-3.0-or-later
 !> Fourier transforms of real numbers by FFTW.
 module fourier_transform
    use, intrinsic :: iso_c_binding

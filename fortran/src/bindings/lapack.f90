@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Dense linear algebra by LAPACK: eigenvalues and eigenvectors, systems of equations and null
 !> vectors.
 module lapack

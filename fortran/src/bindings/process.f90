@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The end of the program.
 module process
    use, intrinsic :: iso_c_binding, only: c_int

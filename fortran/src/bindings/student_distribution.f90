@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: GPL-3.0-or-later
 !> Quantiles of distributions by GSL.
 module student_distribution
    use, intrinsic :: iso_c_binding, only: c_double

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What C alone knows of files that appear only when they are complete (unfinished_file.f90). `why` says why something
    failed; it is empty if nothing did. */
 #define _POSIX_C_SOURCE 200809L

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Files that appear only when they are complete, by the C library (unfinished_file.c): gfortran's
 !> own output does not report a full disk, and no Fortran says why a file cannot be written.
 !>

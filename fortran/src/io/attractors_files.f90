@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> What the program `attractors` reads and writes: how attractors are found and judged, and at which
 !> points; what was found there.
 module attractors_files

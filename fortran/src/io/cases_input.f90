@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Cases to measure, from the section `cases` of a namelist, an element a case.
 module cases_input
    use dde_errors, only: error_type

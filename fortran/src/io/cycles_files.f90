@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> What the program `cycles` reads and writes: the line on which cycles are followed; branches,
 !> special points and their curves.
 module cycles_files

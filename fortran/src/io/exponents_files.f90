@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> What the program `exponents` reads and writes: a scene and how its exponents are measured; these.
 module exponents_files
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Histories, from the namelist group `history` of a file.
 module history_input
    use dde_errors, only: error_type, raise

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> What the program `hopf` reads and writes: the plane and window of Hopf curves; these curves.
 module hopf_files
    use dde_errors, only: error_type, raise, text

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> What the program `linear_stability` reads and writes: a model; its roots and stability changes.
 module linear_stability_files
    use dde_errors, only: error_type

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> What the program `measure` reads and writes: cases and what to measure; a row a run, with its
 !> samples.
 module measure_files

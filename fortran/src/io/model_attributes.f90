@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Models, their parameters and histories in files.
 module model_attributes
    use dde_errors, only: error_type

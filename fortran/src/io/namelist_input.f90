@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Reading of namelist files. Every program reads one group, &settings, into variables of derived
 !> types: the keys are their components, as scene%t_end. A component without a value keeps its
 !> default, `missing` where it must be given. So each key stands once, in its type.

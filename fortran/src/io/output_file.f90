@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Results as NetCDF-4 files by the CF conventions, which appear only when they are complete.
 module output_file
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value

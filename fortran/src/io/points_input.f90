@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Points at which attractors are looked for, from the section `points` of a namelist: a grid in at
 !> most two parameters and a list of histories, or a sweep along one parameter.
 module points_input

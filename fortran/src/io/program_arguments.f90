@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The command line of the program: a command, a namelist file and the path of the output. How the
 !> program ends.
 module program_arguments

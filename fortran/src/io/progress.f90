@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Progress of a long program on standard error: a line after a second, with a forecast, and one
 !> every 5 %. Short programs write nothing.
 module progress

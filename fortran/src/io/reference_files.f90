@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> What the program `reference` reads and writes: cases and how their references are computed;
 !> tables of text with 20 digits, more than a number in double precision holds.
 module reference_files

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Results in memory: dimensions, variables over them and attributes, by names. A variable has a
 !> name, dimensions, values and a description, its `long_name`.
 module results

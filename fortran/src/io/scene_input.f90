@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> A scene: a model with its parameters and its history, from the section `scene` of a namelist.
 module scene_input
    use dde, only: integration_options

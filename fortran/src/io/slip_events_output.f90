@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Files of events.
 module slip_events_output
    use dde_errors, only: error_type

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> What the program `spectrum` reads and writes: a trajectory, source and method of a spectrum; the
 !> spectrum.
 module spectrum_files

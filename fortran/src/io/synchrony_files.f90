@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> What the program `synchrony` reads and writes: a scene and the modes of chains that are tried;
 !> whether their disturbances grow.
 module synchrony_files

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Trajectory files: samples go to disk in blocks while the integration runs, only the variables
 !> that the scene lists. Where the fast state of a block alone relaxes within the sample interval,
 !> they also follow the steps of the solver, so that events shorter than the interval are resolved.

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Receiver of the progress of long work.
 module progress_receiver
    implicit none (type, external)

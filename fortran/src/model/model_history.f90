@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Values up to the initial time by their names: of states, or of exponentials of states.
 module model_history
    use dde_errors, only: error_type, raise, text

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> A model by its name, with its parameters by their names, as namelists give it.
 module model_settings
    use model_chain, only: chain_ends, find_neighbours

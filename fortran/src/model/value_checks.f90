@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Values of settings that were not given, and refusal of values out of range: the message names
 !> place, key, value and range.
 module value_checks

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Attractors at many points: parameters and histories. Points are shared among threads, or stand on
 !> a sweep: there each starts where the one before ended, with all of its past, so that the motion
 !> stays on its attractor as long as that exists.

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The class of an attractor by its observation: by Lyapunov exponents, confirmed by a Poincare
 !> section and by the spectrum of the signal.
 module attractor_verdict

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The attractor that a model reaches from one history, and its class.
 !>
 !> The approach ends when the motion is at rest or on a cycle, at the latest after a stated time.

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Cycles of a model along a line of one parameter: branches from all Hopf points on it and from
 !> trajectories, with their special points.
 module cycle_branches

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Curves of special points of cycles over two parameters.
 module cycle_curves
    use branch_ends, only: follow_settings_type

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The baseline of the paper's time: the classical Runge-Kutta method of order 4 with steps of one
 !> length as a method of steps, delayed values interpolated between grid points, linearly or by
 !> cubic Hermite polynomials. No error control; kinks are met only where they lie on the grid.

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Hopf curves in a plane of two parameters. The number of unstable roots is counted on a grid.
 !> Wherever it changes between neighbours and no known curve passes, a point of a curve is looked
 !> for, and the curve is followed from there in both directions: so all curves are found but those

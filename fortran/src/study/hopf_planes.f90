@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> A plane of two parameters of a model with a window, in which Hopf curves are drawn, and points of
 !> these curves: where Delta(i omega) = 0.
 module hopf_planes

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> What happens along Hopf curves: the first Lyapunov coefficient and the roots that are unstable
 !> beside the pair on the axis, and the points at which the kind of the bifurcation changes.
 module hopf_points

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> What begins at special points of Hopf curves: the curve of folds of cycles at a generalised Hopf
 !> point, two curves of torus bifurcations at a double Hopf point. To leading order, with the growth
 !> rate mu of a pair and r = |z|^2, for the motion 2 Re(z q exp(i omega t)) with |q| = 1.

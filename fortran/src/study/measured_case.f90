@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> A case to measure: a model with its parameters, its history and its sample times. A program
 !> compiled in quadruple precision rounds them to double precision, so that it solves the very
 !> problem that the program in double precision solves.

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> One measured run: a case by one method at one tolerance or step length, its results and its
 !> cost.
 module measured_run

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> A piece of a motion to be drawn: the signal over time, and over the last coordinate of the
 !> section, as a line through few points.
 module motion_path

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> What is kept of a motion: samples of the signal, its maxima that stand out, and the section, in
 !> which it rises through a level, with two coordinates of each point.
 module observed_motion

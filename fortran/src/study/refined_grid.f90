@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> A grid that is computed only where neighbours differ. It knows the kind of each point, a number.
 !>
 !> The points on every s-th line and on the last one are computed first. Then s is halved until it

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Whether a motion comes to rest, and the exponents there: the real parts of the characteristic
 !> roots.
 module rest

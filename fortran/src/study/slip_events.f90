@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Events are the times in which the signal of a block is above a threshold. Of the spring block
 !> they are slips: with v > 1 it is faster than the plate, and its spring unloads.
 module slip_events

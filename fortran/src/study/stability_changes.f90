@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Where the stability of a model at rest changes along a parameter: Hopf points of all modes.
 module stability_changes
    use characteristic_function, only: characteristic_of, characteristic_type

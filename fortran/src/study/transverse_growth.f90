@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Whether blocks that move alike stay alike: the master stability function (Pecora and Carroll
 !> 1998, Phys. Rev. Lett. 80, 2109). Along the motion of one block, disturbances of a mode of a
 !> chain have second differences of -mu times the disturbance, where mu is the eigenvalue of the

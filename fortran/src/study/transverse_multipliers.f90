@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Whether blocks that move alike on a cycle stay alike: the largest exponents of disturbances of
 !> the modes of a chain by Floquet multipliers, ln|mu|/T, with the same linear equations as in
 !> `transverse_growth`. All is found on two meshes, the second finer.

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Blocks and chains for tests from keywords; the history is rest where a value is left out.
 module block_builder
    use dde_errors, only: error_type

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The solver compiled in quadruple precision, on problems with exact solutions far below what
 !> double precision holds.
 module test_quadruple

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Models whose right-hand side is written once, for complex numbers, and not by a definition. Their
 !> derivatives are imaginary parts of f(x + i h) over h, without rounding; forms of any order come
 !> from values on circles in the complex plane (Cauchy's integral).

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Searches for attractors in tests: blocks near steady sliding, and settings as in the
 !> configuration or coarser.
 module attractor_searches

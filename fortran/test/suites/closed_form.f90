@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The Hopf curves in closed form, apart from the pipeline's own formulas: with
 !> B = xi (gamma^2 - omega^2)/(gamma^2 omega),
 !>

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Growth of tangent vectors and Lyapunov exponents of a problem, in one call.
 module exponent_runs
    use dde, only: continuation_type, dde_problem_type, integration_options

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The spring block without delay, equation (3) of the paper, in v and not in ln v, integrated by
    GSL: Prince and Dormand's pair 8(9), which shares no coefficient with ours. */
 #include <gsl/gsl_errno.h>

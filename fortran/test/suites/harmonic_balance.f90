@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Cycles of the block as trigonometric polynomials, by collocation: for a given amplitude of the
 !> first harmonic of ln v, the epsilon and the frequency that it needs.
 module harmonic_balance

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Models with normal forms or cycles of which something is known.
 module known_models
    use analytic_models, only: analytic_model

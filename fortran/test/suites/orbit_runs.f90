@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Periodic orbits and branches for tests: made up, corrected, or reached by a trajectory.
 module orbit_runs
    use block_builder, only: index_of_ln_v

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The paper's own equations for its law, corrected where docs/method.md, "What was corrected", says
 !> so: (5), and (7) to (10) on the Hopf set. The tests compare what was made from (4) with them.
 module paper_equations

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> A receiver that keeps the progress reported to it.
 module progress_recorder
    use expectations, only: expect

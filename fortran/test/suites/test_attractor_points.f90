@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Attractors at many points: trouble at one is none of the others'. On sweeps coexisting motions
 !> show, and a sweep goes through a change between delay and none.
 module test_attractor_points

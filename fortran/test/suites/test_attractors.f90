@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Attractors of the delayed block: those of the scenes, and what cannot be told.
 module test_attractors
    use block_builder, only: build_block

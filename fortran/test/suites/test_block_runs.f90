@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Runs of the block: by Taylor series, with and without slow ones, and by implicit steps through
 !> slips; a quantity that is conserved at infinite gamma; continuations.
 module test_block_runs

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Chains of blocks: their modes are blocks with other parameters, and so are disturbances of blocks
 !> that move alike.
 module test_chains

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Characteristic functions made from the laws against the determinant of the model's own
 !> linearisation; those of the paper's law against (5) as the paper has it, and (5) to (10) against
 !> the Hopf curves in closed form.

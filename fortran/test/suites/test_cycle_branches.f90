@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Cycles of the block along lines, against its Hopf points and their kinds.
 module test_cycle_branches
    use block_builder, only: block_at, build_block, by_epsilon, by_tau, by_xi

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Lyapunov exponents against characteristic roots and published values;
 !> averages of growth and the dimension against values by hand.
 module test_exponents

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Floquet multipliers against exact ones, characteristic roots and Lyapunov exponents; the normal
 !> form of torus points against an exact one.
 module test_floquet_multipliers

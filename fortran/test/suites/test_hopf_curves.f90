@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Hopf curves of the block in their windows, those of the paper's Figures 2 and 3 and seven more,
 !> against the closed form; curves of other models against numbers of roots.
 module test_hopf_curves

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Hopf points on lines of one parameter, against the closed form and against the number of roots
 !> between them.
 module test_hopf_lines

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Special points of the Hopf curves of Figures 2 and 3, and what the normal forms predict beside
 !> them: directions against roots and points of the curves, cycles against harmonic balance.
 module test_hopf_points

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Linear stability: characteristic roots, their number, and the first Lyapunov coefficient, also
 !> at extreme gamma.
 module test_linear_stability

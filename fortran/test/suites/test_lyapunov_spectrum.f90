@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Growth of tangent vectors: measured in one go and in two, from where a run ended, in halves of an
 !> interval, and where vectors are lost.
 module test_lyapunov_spectrum

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The baseline with fixed steps on problems with exact solutions, and measured runs.
 module test_measured_run
    use block_builder, only: build_block

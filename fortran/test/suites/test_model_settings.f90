@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Models by the names and values of their parameters, histories by the names of states, and the
 !> words of a refusal.
 module test_model_settings

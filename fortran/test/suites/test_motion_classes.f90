@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Classes of motion from exponents, and the verdict of three witnesses.
 module test_motion_classes
    use dde_errors, only: text

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The path of a motion that is drawn: it is the solution, it shows the fastest slip events, and the
 !> points left out are as close to its line as is asked.
 module test_motion_path

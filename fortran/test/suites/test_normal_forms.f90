@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Normal forms beyond the first Lyapunov coefficient.
 module test_normal_forms
    use block_builder, only: block_at

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Branches of periodic orbits and their special points, against published values, simulations on
 !> both sides, and other meshes.
 module test_orbit_branches

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Curves of special points of periodic orbits, against published values.
 module test_orbit_curves
    use branch_ends, only: follow_settings_type

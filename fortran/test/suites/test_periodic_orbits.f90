@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Single periodic orbits, against exact solutions and other discretisations.
 module test_periodic_orbits
    use block_builder, only: build_block, index_of_ln_v

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Numbers of unstable roots and Hopf curves of x' = -a x - b x(t - 1), whose roots may be real. In
 !> closed form (Hayes 1950): a root passes 0 where a + b = 0. A pair is on the axis where
 !> omega^2 = b^2 - a^2, cos(omega) = -a/b and sin(omega) = omega/b, and leaves it to the right as

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Grids that are computed only where neighbours differ, on made-up maps of kinds.
 module test_refined_grid
    use dde_errors, only: text

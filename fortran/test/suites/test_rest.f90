@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Motions that approach rest, the exponents there, and the characteristic roots of the block.
 module test_rest
    use block_builder, only: block_at

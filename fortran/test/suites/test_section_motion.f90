@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Made-up sections whose motion is known.
 module test_section_motion
    use dde_errors, only: text

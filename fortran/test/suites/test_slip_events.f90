@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Slip events of prescribed velocities, ln v = a sin t + b sin 3t, by integrals in closed form.
 module test_slip_events
    use block_builder, only: build_block, index_of_ln_v, index_of_theta, index_of_u

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Lines in spectra of sums of sines and noise: where the peaks are, how high, and above what; their
 !> labels by one or two fundamental frequencies; and whether the spectrum is one of lines or of a
 !> continuum.

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Power spectral density: a direct Fourier sum, lines of known power, and threads.
 module test_spectrum
    use dde_errors, only: failure_type => error_type, text

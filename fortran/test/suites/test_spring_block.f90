@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The spring block against equations (3) and (4) written in v, and runs without delay against GSL.
 module test_spring_block
    use, intrinsic :: iso_c_binding, only: c_double, c_int

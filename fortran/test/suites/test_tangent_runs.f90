@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Tangent vectors: their equations, norm and restart; runs by Taylor series beside other methods.
 module test_tangent_runs
    use block_builder, only: build_block

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Motions with known frequencies: 3-tori by exponents and by the section, and what is none.
 module test_three_torus
    use analytic_models, only: analytic_model

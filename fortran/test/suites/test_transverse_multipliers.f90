@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Exponents of modes along cycles by multipliers, against the block's own multipliers, against
 !> characteristic roots, and against exponents along the motion.
 module test_transverse_multipliers

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Planes of Hopf curves of the block as traced, and what is known of them in closed form.
 module traced_planes
    use block_builder, only: block_at, by_epsilon, by_gamma, by_tau, by_xi

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Two rotating waves,
 !>
 !>     w z1' = z1 (alpha1 + p11 |z1|^2 + p12 |z2|^2) + k1 z1(t - lag),

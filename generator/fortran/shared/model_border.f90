@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> What a compiled model and a program that opens it share: the procedures of a model, over plain
 !> arrays. No type with procedures and no allocatable array crosses, so that the two may come from
 !> different compilers. A digest of this file is the first thing that a program asks of a model.

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Functions of nilpotent numbers, each from its derivatives at the number without units.
 module nilpotent_functions
    use dde_kinds, only: wp

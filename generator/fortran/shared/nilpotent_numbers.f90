@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Numbers a_0 + sum of a_S e_S over sets S of nilpotent units, e_i**2 = 0: in f(y + sum of x_i e_i)
 !> the coefficient of the product of all units is the derivative form of f of arguments x_i. Sets
 !> are written as bits: a_S is coefficient number S, the sum of 2**(i - 1) over the units in S.

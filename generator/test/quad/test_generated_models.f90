@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Models made from definitions, in quadruple precision: all forms against the right-hand side, and
 !> against the same models written by hand.
 module test_generated_models

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> All that is made from the equations of a model, against its right-hand side: by differences, and
 !> by inserting the Taylor series. In quadruple precision differences of step 1e-8 are good to 15
 !> digits.

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Fourier transforms of real numbers without a library: powers of two by halves, other lengths as a
 !> convolution of such (Bluestein 1970, IEEE Transactions on Audio and Electroacoustics 18, 451).
 module fourier_transform

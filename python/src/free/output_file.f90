@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Results that go to a caller, in place of the files of `fortran/src/io/output_file.f90`.
 module output_file
    use, intrinsic :: iso_c_binding, only: c_f_pointer, c_intptr_t, c_null_ptr, c_ptr

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Progress of long work, of which nobody is told: a library writes nothing.
 module progress
    use progress_receiver, only: progress_receiver_type

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Quantiles of Student's distribution without a library.
 module student_distribution
    use dde_kinds, only: wp

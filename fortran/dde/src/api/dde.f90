@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The solver for delay differential equations: all that a user of it needs.
 module dde
    use dde_continuation, only: continuation_type

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Errors as values: a procedure that can fail ends with `error`, its caller tests
 !> `allocated(error)`.
 module dde_errors

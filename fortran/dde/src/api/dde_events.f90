@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Events are times where a function of time, state and slope passes zero: the maxima of a
 !> component or its passages through a section. The integrator finds them on dense output and passes
 !> them to the watcher, which chooses the functions and decides what is done with an event.

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The kinds of number used everywhere.
 module dde_kinds
    use, intrinsic :: iso_fortran_env, only: int64, real64

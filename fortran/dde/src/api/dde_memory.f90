@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Whether memory can be had, asked before it is allocated: a failed allocation would end the
 !> program.
 module dde_memory

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The result of an integration, and why it ended.
 module dde_outcome
    use, intrinsic :: iso_c_binding, only: c_int

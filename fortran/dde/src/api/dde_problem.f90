@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> What a user of the solver writes: an initial value problem with constant delays,
 !>
 !>     dy/dt = f(t, y(t), z),   z(k) = y_c(k)(t - lag(k)),   y(t0) given,   y_c(t) given for t < t0.

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The options of an integration, and the refusal of wrong arguments.
 module dde_request
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan

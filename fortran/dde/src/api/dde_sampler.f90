@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Receivers of samples. The integrator passes the wanted components at the wanted times, from dense
 !> output. The sampler decides what is done with them.
 module dde_sampler

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Time as an unevaluated sum of two numbers. A step far below spacing(t) still changes it
 !> (error-free sums of Knuth and Dekker).
 module dde_time

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The tolerance of one step, absolute(i) + relative(i) |y(i)| for component i, and the norm in
 !> which errors are measured.
 module dde_tolerance

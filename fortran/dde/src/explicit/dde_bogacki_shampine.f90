@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The explicit pair 5(4) of Bogacki and Shampine (1996, "An efficient Runge-Kutta (4,5) pair",
 !> Comput. Math. Applic. 32, 15). Its dense output of order 4 takes no further stages: the cubic
 !> Hermite polynomial, and a multiple of s**2 (1 - s)**2.

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The explicit pair 8(5,3) of Dormand and Prince with its dense output of order 7 (Hairer, Norsett
 !> and Wanner 1993, sec. II.5, II.6 and II.10).
 module dde_dop853

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Coefficients of the explicit Runge-Kutta pair 8(5,3) of Dormand and Prince with its dense output
 !> of order 7, named and printed to 30 digits as in Hairer, Norsett and Wanner, "Solving Ordinary
 !> Differential Equations I", 2nd ed. 1993, sec. II.5 and II.6 (code DOP853).

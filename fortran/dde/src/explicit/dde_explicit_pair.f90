@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> What the explicit Runge-Kutta pairs have in common. Each of them writes out its sums over slopes:
 !> components are stored in blocks of a few lanes, and the number is known to the compiler, which
 !> therefore makes vector instructions without a loop.

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> One step of an explicit Runge-Kutta pair. It is at most as long as the shortest delay, so that
 !> all delayed values lie in the past.
 module dde_explicit_step

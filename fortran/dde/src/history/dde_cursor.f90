@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Where one step stands, and the delayed values over it: for each of them a cursor walks from
 !> polynomial to polynomial of the past.
 module dde_cursor

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The past of one integration: polynomials of accepted steps, of the delayed components or more.
 !> It is a ring of slots. It drops the oldest steps on request and doubles when it is full. The
 !> coefficients of a step never move: a new step takes over those of a dropped one. Other

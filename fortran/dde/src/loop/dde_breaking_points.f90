@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Breaking points: a kink (or jump) returns after each delay, one derivative smoother at each
 !> passage (Bellen and Zennaro 2003, "Numerical Methods for Delay Differential Equations", sec.
 !> 2.2). A point that the run lands on adds those of the next generation.

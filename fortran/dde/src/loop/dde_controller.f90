@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> From the error of one step to the size of the next: proportional-integral control after
 !> Gustafsson (Hairer and Wanner 1996, "Solving Ordinary Differential Equations II", sec. IV.2).
 module dde_controller

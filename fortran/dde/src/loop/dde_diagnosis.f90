@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The error of a run that could not continue.
 module dde_diagnosis
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The method of steps: controlled steps from breaking point to breaking point. The polynomial of
 !> each accepted step is stored in the past that later steps read.
 module dde_integrator

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The methods: how a step of each is made, how one follows another, and how long steps may be.
 module dde_methods
    use dde_explicit_step, only: explicit_step_type

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The order of each family of methods, by the tolerance. It is chosen once a run. The figure
 !> `work_precision` shows what each order costs.
 module dde_orders

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The state of a run between two steps: how it begins, how the next step is planned, and what is
 !> kept when it ends.
 module dde_run

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> A step of some method. A method attempts the step on which the cursor stands, estimates its
 !> error, and gives the polynomial of an accepted step. The run chooses the step size, counts the
 !> steps and stores the polynomials. METHODS.md tells how to write a method.

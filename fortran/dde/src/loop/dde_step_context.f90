@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The context of a step: what every method is given to attempt one.
 module dde_step_context
    use dde_cursor, only: cursor_type

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The choice of `auto` between the explicit and the implicit method while a run goes on.
 !>
 !> A step is limited where something else than the change of the solution keeps it short. Work in

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> What a run has computed so far.
 module dde_work
    use dde_kinds, only: int64, wp

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> All that a later run needs to continue where one ended, in plain arrays that a caller can write
 !> to a file and read back.
 module dde_continuation

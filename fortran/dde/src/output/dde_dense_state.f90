@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> State and slope at any place of an accepted step, from its dense output, of the components that
 !> are looked at.
 module dde_dense_state

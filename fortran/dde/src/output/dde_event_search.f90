@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The search for events in a step. Where bounds of dense output exclude events there is none. Else
 !> event functions are evaluated on it, at a number of places that its degree requires, and each
 !> where a parabola through three of these is nearest to zero. A passage between two places is

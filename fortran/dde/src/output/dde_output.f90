@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The dense output of accepted steps: events go to the watcher, samples to the sampler, and the
 !> polynomials of the components that are kept to the past.
 module dde_output

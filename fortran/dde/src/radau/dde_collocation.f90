@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Polynomials of a collocation method, from its nodes.
 module dde_collocation
    use dde_kinds, only: wp

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> One step of a Radau IIA method as method of steps, by simplified Newton iteration (Hairer and
 !> Wanner 1996, sec. IV.8). Where the step is longer than a delay, its own collocation polynomial is
 !> the past. The embedded error estimate overlooks very stiff components, so that `confirm` and

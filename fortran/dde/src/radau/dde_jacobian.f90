@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The Jacobian of a problem at one place. The problem gives it, or it is found by forward
 !> differences. Columns that share no equation are moved together (Curtis, Powell and Reid 1974, "On
 !> the estimation of sparse Jacobian matrices", J. Inst. Maths Applics 13, 117): a banded Jacobian

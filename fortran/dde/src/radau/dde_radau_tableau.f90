@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Radau IIA methods of 3, 5 and 7 stages (orders 5, 9 and 13) in the form in which their simplified
 !> Newton iteration splits into one real and some complex systems (Hairer and Wanner 1996, "Solving
 !> Ordinary Differential Equations II", sec. IV.8): inverse(A) T = T L, where L has the real

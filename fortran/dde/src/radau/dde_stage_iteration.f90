@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The stages of a Radau IIA step, and the simplified Newton iteration that finds them (Hairer and
 !> Wanner 1996, sec. IV.8).
 module dde_stage_iteration

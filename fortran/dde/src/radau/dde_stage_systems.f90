@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The linear systems of the simplified Newton iteration of a Radau IIA step. The stages part into
 !> one real and some complex systems of size n (Hairer and Wanner 1996, sec. IV.8). Delayed values
 !> that lie in the step itself couple these systems. Then there is one system for all stages.

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The linear systems (shift - J) x = b of an implicit step, where J is the Jacobian, by Gaussian
 !> elimination, real and complex, full and banded. Each pivot is the largest of its column relative
 !> to its row. Otherwise a row of huge numbers in a stiff system would be the pivot for the others.

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The delayed values over one step as Taylor series: the polynomials of the past, shifted to the
 !> start of the step. Where many delays would make many short steps, each polynomial is one over
 !> several steps of the past.

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> A delayed value over a step that spans several polynomials of the past, as one polynomial: a
 !> truncated Chebyshev series through its values at Chebyshev nodes of the step (Trefethen 2013,
 !> "Approximation Theory and Approximation Practice", ch. 3).

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Whether the series of a step solves the equations of the problem: its slope is compared with the
 !> right-hand side within the step.
 module dde_series_check

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> How far a Taylor series is valid, and the series of a slow solution, which is valid farther. On a
 !> slow solution fast components are in balance with the others, so that their rates do not limit
 !> the step size. The difference between state and slow solution is at most the tolerance.

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The Taylor series of the solution from the start of a step on, and the time for which it is
 !> valid. It is the series of the state, or that of a slow solution near it.
 module dde_taylor_series

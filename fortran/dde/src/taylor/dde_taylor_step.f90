@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> One step by the Taylor series of the solution, for problems that give it. The last coefficients
 !> give the step size before the step, so that hardly a step is rejected. The series is its own
 !> dense output. As far as it converges it is also valid beyond the end of the step.

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> CPU time of a chain of blocks (chain_of_blocks) per unit of time and block. Arguments: number of
 !> blocks, gamma, tolerance, method, end of the run; optional: relative spread of the delays, 1 for
 !> a problem with Taylor series or 0, 1 for a banded Jacobian or 0, delay.

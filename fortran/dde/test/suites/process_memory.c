@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* What memory this process has. */
 #include <stdio.h>
 #include <sys/resource.h>

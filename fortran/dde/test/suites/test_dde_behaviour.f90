@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> What the solver does on its way: samples, breaking points, limits, and only the work it needs.
 module test_dde_behaviour
    use dde, only: dde_problem_type, integrate, integration_options, integration_result, &

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Jumps: those that the caller declares, changes of the state between runs, and the breaking points
 !> of many delays.
 module test_dde_breaks

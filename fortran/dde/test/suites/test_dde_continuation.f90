@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Runs that go on from where one ended: they agree with the exact solution as one run does.
 module test_dde_continuation
    use dde, only: continuation_type, dde_problem_type, event_met, event_table, integrate, &

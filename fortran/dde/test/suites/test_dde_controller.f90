@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Step control: bounds on the ratio of steps (those of Hairer, Norsett and Wanner's DOP853, 1/3 and
 !> 6), no growth after a rejection, few rejections at a near-jump, where the closed loop settles.
 module test_dde_controller

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Events: where they are found, in what order, and that one can end a run.
 module test_dde_events
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
@@ -286,12 +287,15 @@ contains
    !> Neither the location of an event nor the event itself evaluates what it does not read.
    subroutine test_frugal(error)
       type(error_type), allocatable, intent(out) :: error
-      type(frugal_watcher) :: watcher
+      type(frugal_watcher), allocatable :: watcher
       type(integration_result) :: outcome
       integer :: i
 
       do i = 1, size(methods)
-         watcher = frugal_watcher(direction=[0, 0], terminal=[.false., .false.])
+         if (allocated(watcher)) deallocate (watcher)
+         allocate (watcher)
+         watcher%direction = [0, 0]
+         watcher%terminal = [.false., .false.]
          call run(error, swing(), 0.1_wp, 12.0_wp, at_tolerance(1.0e-10_wp, methods(i)), outcome, &
                   watcher=watcher)
          call expect(error, watcher%received == 7, text(watcher%received)//" events")

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The past: look-ups in a ring of polynomials of two kinds, growth, and forgetting; and runs that
 !> need more memory than there is, which end with an error.
 module test_dde_history

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Order of one Radau IIA step, of its interpolant and of its error estimate, for 3, 5 and 7 stages.
 module test_dde_implicit_order
    use dde_collocation, only: combine, lagrange_factors, lagrange_weights

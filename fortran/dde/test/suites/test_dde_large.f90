@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Many equations: a delayed reaction with diffusion by the method of lines. CTest runs this suite
 !> with a stack of 512 kB, on which no array of its 100 000 equations would find place.
 module test_dde_large

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Layers and stiff runs: dense output where a component decays within a step, accuracy at and
 !> between the ends of stiff steps, steps longer than the delay, and the unit of the state.
 module test_dde_layers

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Order of one step of the explicit pairs 8(5,3) and 5(4), of its interpolant and of its error
 !> estimate: Butcher's condition of every rooted tree, and powers of t.
 module test_dde_order

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The past as Taylor series: of which step, carried how far, and how long they are valid.
 module test_dde_past_series
    use dde_delayed_series, only: delayed_series

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Integrations side by side give the same bits as one after the other.
 module test_dde_reentrant
    use dde, only: dde_problem_type, integrate, integration_result, table_sampler

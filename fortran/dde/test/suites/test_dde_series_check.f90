@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> That series of a problem which are not those of its right-hand side or history are refused, and
 !> that rounding errors and jumps are not.
 module test_dde_series_check

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Components of different size and number: one beside another that is huge or tiny, tolerances of
 !> each, and many copies of one equation.
 module test_dde_sizes

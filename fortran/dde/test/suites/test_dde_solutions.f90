@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> All methods against exact solutions and published values, and how errors fall with the length of
 !> the steps and with the tolerance (tables in the texts cited in
 !> test_problems; piecewise polynomials by hand).

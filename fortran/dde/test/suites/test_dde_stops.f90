@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Why an integration ends, and that time and state say how far it came.
 module test_dde_stops
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> When `auto` changes the method, what that costs, and how work is counted.
 module test_dde_switch
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Steps by Taylor series: order and length, slow series and the balance they keep, pasts of other
 !> methods.
 module test_dde_taylor

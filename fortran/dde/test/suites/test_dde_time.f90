@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Time that does not lose small steps, by itself and in an integration.
 module test_dde_time
    use dde, only: integration_options, integration_result

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> A chain of spring blocks with delayed friction and free ends: for block j, with w = ln v,
 !>
 !>     theta' = -v [theta + (1 + epsilon) w(t - lag)],   u' = v - 1,

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> What a test expects. The first expectation that fails is kept and told with its numbers; a value
 !> that is not a number fails.
 module expectations

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Problems with a component that is much faster than the others, with exact solutions.
 module fast_problems
    use dde_kinds, only: wp

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> A component that decays within a step and returns after the delay, with exact solutions: what is
 !> wrong between the ends of the step shows in the other component. The same without delay, and what
 !> measures the errors of a run.

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> A delayed logistic reaction that diffuses between cells, y_i' = 1.8 y_i (1 - z_i) + d (y_(i-1) -
 !> 2 y_i + y_(i+1)) without flux at the ends, z_i = y_i(t - 1), or y_i itself without delay.
 module lines_of_cells

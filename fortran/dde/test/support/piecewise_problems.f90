@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Problems that jump, and a problem of many delays or of components of any size.
 module piecewise_problems
    use dde_kinds, only: wp

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Numbers that look random and are the same in every run (Park and Miller 1988).
 module pseudo_random
    use dde_kinds, only: int64, wp

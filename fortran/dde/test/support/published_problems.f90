@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Delay equations with published solutions (Hairer, Norsett and Wanner 1993, sec. II.17; Guglielmi
 !> and Hairer 2001; Mackey and Glass 1977).
 module published_problems

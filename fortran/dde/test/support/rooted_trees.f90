@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Butcher's order conditions as one differential equation: to each rooted tree belongs a component
 !> whose derivative is the product of the components of its subtrees. From y = 0 its solution is
 !> t**order/density, and a Runge-Kutta step of order p gives just that for all trees up to order p

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> One step without delays, as tests look at it.
 module single_step
    use dde_cursor, only: cursor_type

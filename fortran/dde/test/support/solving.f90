@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Runs of the solver that tests compare with what is known.
 module solving
    use dde, only: continuation_type, dde_problem_type, event_watcher_type, integrate, &

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Problems that ask for an implicit method, all but `sdisc` with exact solutions.
 module stiff_problems
    use dde_kinds, only: wp

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Delay equations with exact solutions (Wille and Baker 1992; Hairer, Norsett and Wanner 1993, sec.
 !> II.17), and what all problems of the tests share.
 module test_problems

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Ordinary differential equations, as delay equations without delays.
 module undelayed_problems
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> What the unit tests use of mctc-lib's module of the same name, for compilers that cannot read
 !> Debian's build of it (only gfortran can).
 module mctc_env_testing

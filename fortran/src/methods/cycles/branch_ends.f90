@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> How far a branch or a curve of periodic orbits is followed.
 module branch_ends
    use dde_kinds, only: wp

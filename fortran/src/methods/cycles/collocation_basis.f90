@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Polynomials on the unit interval by their values at nodes, and the points at which they fulfil an
 !> equation: those of Radau IIA, which damp fast components. Gauss points leave them undamped.
 module collocation_basis

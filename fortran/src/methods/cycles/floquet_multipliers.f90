@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Floquet multipliers of a periodic orbit: eigenvalues of the map that takes a small disturbance of
 !> the past over one period.
 module floquet_multipliers

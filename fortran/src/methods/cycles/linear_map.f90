@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Linear maps that are known by what they do to a vector: systems of equations by GMRES (Saad and
 !> Schultz 1986, SIAM J. Sci. Stat. Comput. 7, 856), eigenvalues of greatest modulus by Arnoldi's
 !> method. Both converge fast where all eigenvalues but a few are close to one value.

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> A model of which some parameters may vary.
 module model_family
    use dde_kinds, only: wp

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Changes of periodic orbits as vectors, with an inner product.
 module orbit_change
    use dde_kinds, only: wp

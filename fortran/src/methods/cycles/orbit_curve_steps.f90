@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Steps along a curve of special points of periodic orbits: the orbits near a point are a surface
 !> over the tangent plane of two parameters; the next point is sought on it beside the direction of
 !> the curve, by the secant method.

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Curves of special points of periodic orbits in two parameters. The orbits near a point are a
 !> surface over its tangent plane. The curve is where a test function of the point is 0 on it.
 module orbit_curves

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Periodic orbits by Newton's method: collocation equations, phase condition and further linear
 !> conditions. Unknowns are the past of one period, the period and free parameters.
 module orbit_equations

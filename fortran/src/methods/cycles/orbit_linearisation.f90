@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The collocation equations of a periodic orbit of x' = T f(x(s), z(s)), z = x_c(s - lag/T), made
 !> linear about an approximation and solved on each interval.
 module orbit_linearisation

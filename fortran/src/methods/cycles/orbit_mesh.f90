@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Meshes that follow an orbit: the (m + 1)-th derivative of each component, scaled by the range of
 !> the component, is distributed evenly (de Boor 1973; Ascher, Christiansen and Russell 1979, Math.
 !> Comp. 33, 659). It is found from the jumps of the m-th derivative between intervals.

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Small changes of a periodic orbit. On one interval of the mesh the nodes follow from the left
 !> end, the delayed values and the forcing. So all follow, interval by interval, from the past.
 module orbit_passes

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Special points on branches of periodic orbits: folds, period doublings, torus (Neimark-Sacker)
 !> points, and points at which another branch crosses. Each is a root of a test function on the
 !> segment between two orbits, and each is found on two meshes.

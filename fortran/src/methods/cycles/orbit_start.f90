@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> First approximations of periodic orbits: from a trajectory that has reached a cycle, from a
 !> Hopf point, and from a period doubling.
 module orbit_start

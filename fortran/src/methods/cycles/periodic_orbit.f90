@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> A periodic orbit as a continuous piecewise polynomial of s = t/T, with its period T and the
 !> parameters it belongs to.
 module periodic_orbit

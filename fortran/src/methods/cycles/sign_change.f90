@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> A change of sign of a function whose evaluation may fail, narrowed by the secant method with the
 !> Illinois rule: Dowell and Jarratt (1971), BIT 11, 168. The caller evaluates the function.
 module sign_change

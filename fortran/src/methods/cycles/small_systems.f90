@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Systems of some tens of equations with some tens of right-hand sides: calls of BLAS cost more
 !> than their sums.
 module small_systems

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Special points of periodic orbits with their test functions.
 module special_points
    use branch_ends, only: follow_settings_type

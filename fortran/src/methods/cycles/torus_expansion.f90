@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Expansion of the right-hand side T f of a delay equation about a periodic orbit x0 along a
 !> complex disturbance q with the amplitude z:
 !>

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Normal form of a torus (Neimark-Sacker) bifurcation of a periodic orbit x0 with period T. On the
 !> centre manifold, with r = t/T,
 !>

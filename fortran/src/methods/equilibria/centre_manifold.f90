@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The normal form on the centre manifold of a delay equation with one or more pairs of imaginary
 !> roots, to any order (Kuznetsov 2004, sections 8.6 and 8.7; for delay equations Janssens 2010).
 !>

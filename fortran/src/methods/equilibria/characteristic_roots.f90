@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Characteristic roots of a linear delay system: Chebyshev collocation of the infinitesimal
 !> generator (Breda, Maset and Vermiglio 2005), each eigenvalue refined by Newton's method on
 !> det Delta(s). The number of nodes grows until the expected number of roots is found.

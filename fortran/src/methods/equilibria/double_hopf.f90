@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The normal form of two pairs of imaginary roots without low resonance (double Hopf bifurcation),
 !>
 !>     z_j' = (mu_j + i omega_j) z_j + z_j sum_k g_jk |z_k|^2,   p_jk = Re g_jk,   j, k = 1, 2

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Hopf points on a line of one parameter: where the number of unstable characteristic roots changes
 !> by a pair. This holds for every model and parameter.
 module hopf_lines

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> A delayed model about its state at rest: the linear system
 !>
 !>     y'(t) = sum_j A_j y(t - lag_j).

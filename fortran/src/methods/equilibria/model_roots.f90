@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Characteristic roots of a model at rest: counted, and found, in two independent ways.
 module model_roots
    use characteristic_function, only: characteristic_of, characteristic_type

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The normal form of a Hopf bifurcation of a delayed model.
 module normal_form
    use dde_errors, only: error_type

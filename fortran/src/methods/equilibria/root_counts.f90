@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> How many characteristic roots lie to the right of a line, by the principle of the
 !> argument: along s = bound + i w, w = 0..infinity, the argument of Delta(s) grows by
 !> (n/2 - Z) pi, where Z is their number and n that of equations. The largest terms of Delta(s) at

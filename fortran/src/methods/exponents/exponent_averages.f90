@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> From the growth of tangent vectors, interval by interval, to exponents with error bars and the
 !> dimension of the attractor.
 module exponent_averages

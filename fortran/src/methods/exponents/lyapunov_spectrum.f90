@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The leading Lyapunov exponents of a delayed problem: tangent vectors are integrated beside the
 !> solution by the same solver, interval by interval, and made orthonormal in the space of histories
 !> in between (Benettin et al. 1980, Meccanica 15, 9; Farmer 1982, Physica D 4, 366).

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> A delayed problem together with small disturbances of its solution: the variational equations
 !>
 !>     d delta_j/dt = (df/dy) delta_j(t) + (df/dz) [component c(k) of delta_j](t - lag(k)),

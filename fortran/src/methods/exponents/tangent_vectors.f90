@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Tangent vectors in the space of histories: a vector is a disturbance of the state and of what the
 !> delays still reach of the delayed components, with the inner product
 !>

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The classes of motion, and the class by Lyapunov exponents.
 module motion_classes
    use exponent_averages, only: error_bars, exponent_type, positive, sign_of, unclear, zero

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The class of motion by the points of a Poincare section: a few points that repeat are a cycle;
 !> points that are a smooth function of two phases, each turning at a fundamental frequency, are a
 !> torus, and a smooth function of three phases but not of two is a 3-torus. Other points have no

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> One or two fundamental frequencies that explain the peaks of a spectrum as harmonics and
 !> combinations.
 !>

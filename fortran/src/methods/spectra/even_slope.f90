@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Slopes at even times of a function known at uneven times, for spectra of motions whose fast
 !> events are shorter than the time between even samples.
 module even_slope

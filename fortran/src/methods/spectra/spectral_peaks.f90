@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Peaks of a power spectrum: where they are and how high.
 module spectral_peaks
    use dde_kinds, only: wp

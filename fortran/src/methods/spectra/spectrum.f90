@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Power spectral density after Welch (1967): segments that overlap, windowed, transformed by FFTW,
 !> averaged. One-sided, normalised so that its integral over frequency is the variance.
 module spectrum

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Whether a spectrum consists of lines of one fundamental frequency, of two, or of a continuum.
 module spectrum_verdict
    use base_frequencies, only: bases_type
