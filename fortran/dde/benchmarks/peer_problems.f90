@@ -10,13 +10,14 @@ module peer_problems
    private
    public :: breaking_points, problem_of, slopes
 
-   !> Numbers of equations and of delayed values, and components that these are; of the block without
-   !> delay, z is w
-   integer, parameter, public :: n = merge(4, merge(1, 3, PROBLEM == 3), PROBLEM == 1), &
-                                 delayed = merge(2, 1, PROBLEM == 2 .or. PROBLEM == 4), &
-                                 component(2) = [merge(2, merge(1, n, PROBLEM > 2), PROBLEM == 2), 2]
-   !> Generations of breaking points that matter up to order 5; at k delays the derivative of theta of
-   !> order 2k jumps
+   !> Numbers of equations, of delayed values, and components that these are, of each problem: the
+   !> block, enzyme, infection, mackey_glass, wille_baker. Without delay z of the block is w.
+   integer, parameter :: sizes(0:4) = [3, 4, 3, 1, 3], values(0:4) = [1, 1, 2, 1, 2], &
+                         components(2, 0:4) = reshape([3, 0, 4, 0, 2, 2, 1, 0, 1, 2], [2, 5])
+   integer, parameter, public :: n = sizes(PROBLEM), delayed = values(PROBLEM), &
+                                 component(delayed) = components(:delayed, PROBLEM)
+   !> Generations of breaking points that matter up to order 5; at k delays the derivative of theta
+   !> of order 2k jumps
    integer, parameter :: generations = merge(2, 5, PROBLEM == 0)
 
 contains
@@ -39,13 +40,13 @@ contains
          problem = infection()
       case (3)
          problem = mackey_glass()
-      case (4)
+      case default
          problem = wille_baker()
       end select
       problem%analytic = given == "series"
    end subroutine problem_of
 
-   !> f(y, z) for other solvers: a call of the problem's own would cost them a quarter of their time.
+   !> f(y, z) for other solvers: a call of the problem's own would cost a quarter of their time.
    pure subroutine slopes(y, z, f)
       real(wp), intent(in) :: y(*), z(*)
       real(wp), intent(out) :: f(*)
@@ -69,7 +70,7 @@ contains
          f(3) = y(2) - z(2)
       case (3)
          f(1) = 0.2_wp*z(1)/(1.0_wp + z(1)**10) - 0.1_wp*y(1)
-      case (4)
+      case default
          f(1) = z(1)
          f(2) = z(1) + z(2)
          f(3) = y(2)

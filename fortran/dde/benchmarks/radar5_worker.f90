@@ -15,7 +15,7 @@ module radar5_scene
    character(len=16) :: given
    !> The same as this solver holds it
    integer :: delays
-   real(wp) :: lag(delayed), past(n)
+   real(wp) :: lags(delayed), past(n)
    real(wp), allocatable :: grid(:)
    integer :: next_sample, stored = most_stored
    real(wp) :: last_tolerance = 0.0_wp
@@ -27,7 +27,7 @@ contains
    !> Keep what does not change from run to run.
    subroutine prepare()
       delays = size(problem%lag)
-      lag(:delays) = problem%lag
+      lags(:delays) = problem%lag
       past = problem%past
       grid = [breaking_points(problem%lag, t_end), t_end]
    end subroutine prepare
@@ -136,7 +136,7 @@ contains
       external :: phi
       real(wp) :: time
 
-      time = t - lag(delay)
+      time = t - lags(delay)
    end function delayed_time
 
    !> The constant past.

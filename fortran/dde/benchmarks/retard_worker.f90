@@ -14,7 +14,7 @@ module retard_scene
    class(constant_past), allocatable :: problem
    !> The same as this solver holds it
    integer :: delays
-   real(wp) :: lag(delayed), past(n)
+   real(wp) :: lags(delayed), past(n)
    real(wp), allocatable :: grid(:)
    integer :: next_sample, stored = most_stored
    real(wp) :: last_tolerance = 0.0_wp
@@ -30,7 +30,7 @@ contains
    !> Keep what does not change from run to run.
    subroutine prepare()
       delays = size(problem%lag)
-      lag(:delays) = problem%lag
+      lags(:delays) = problem%lag
       past = problem%past
       grid = breaking_points(problem%lag, t_end)
    end subroutine prepare
@@ -54,8 +54,8 @@ contains
       work(parameters + 1:parameters + size(grid)) = grid
       kept = n
       if (.not. allocated(samples)) then
-         kept = count([(any(component(:delayed) == k), k=1, n)])
-         components(2:kept + 1) = pack([(k, k=1, n)], [(any(component(:delayed) == k), k=1, n)])
+         kept = count([(any(component == k), k=1, n)])
+         components(2:kept + 1) = pack([(k, k=1, n)], [(any(component == k), k=1, n)])
       end if
       if (abs(tolerance - last_tolerance) > 0.0_wp) stored = most_stored
       iwork(1) = most_steps
@@ -84,7 +84,7 @@ contains
       z(1) = y(component(1))
       if (delays > 0) then
          do k = 1, delayed
-            z(k) = ylag(component(k), t - lag(k), history, rpar, ipar)
+            z(k) = ylag(component(k), t - lags(k), history, rpar, ipar)
          end do
       end if
       call slopes(y, z, f)
