@@ -1,6 +1,7 @@
 """The benchmarks where they need no other solver: ratios, scenes, workers, tables."""
 
 import math
+import re
 import subprocess
 import sys
 
@@ -49,7 +50,7 @@ POINTS = [(1e-4, 1.0), (1e-6, 4.0)]
     ],
 )
 def test_time_at_an_error(level, points, expected):
-    assert work_precision.seconds_at(level, points) == (expected and pytest.approx(expected))
+    assert work_precision.cost_at(level, points) == (expected and pytest.approx(expected))
 
 
 def test_ratios_are_of_runs_that_ended_well():
@@ -125,8 +126,8 @@ def test_solver_that_is_missing_says_what_it_needs(monkeypatch):
         workers.chosen_solvers(["radar5"])
 
 
-def test_solver_is_compared_on_cases_of_its_kind(monkeypatch):
-    """With f only, this solver gets a word more."""
+def test_solvers_are_given_what_the_cell_says(monkeypatch):
+    """RADAR5 gets derivatives where this solver has more than f, deSolve f of the block alone."""
     asked = []
 
     def measure(pair, *_):
@@ -135,12 +136,48 @@ def test_solver_is_compared_on_cases_of_its_kind(monkeypatch):
 
     monkeypatch.setattr(peers, "measure", measure)
     monkeypatch.setattr(workers.Worker, "samples", lambda *_: np.zeros((1, 4)))
-    solvers = {name: workers.SOLVERS[name] for name in (workers.OURS, "radar5")}
-    assert peers.ratio_rows("torus", solvers, 1, 30.0) == []
-    rows = peers.ratio_rows("gamma 1e4, f only", solvers, 1, 30.0)
-    assert [row["solver"] for row in rows] == ["radar5"] * len(peers.LEVELS)
-    [(ours, others)] = asked
-    assert (ours[1:], others) == (["auto", "rhs"], workers.SOLVERS["radar5"].command)
+    rows = peers.cell_rows("gamma 1e6", "series", ["radar5", "desolve"], 1, 30.0, count=False)
+    assert [row["solver"] for row in rows] == [
+        solver for solver in ("radar5", "desolve") for _ in peers.LEVELS
+    ]
+    [(ours, radar5, desolve)] = asked
+    assert ours[1:] == ["auto", "series"]
+    assert radar5[1:] == ["jacobian"]
+    assert desolve == workers.SOLVERS["desolve"].command
+    peers.cell_rows("enzyme", "f", ["radar5"], 1, 30.0, count=False)
+    assert [command[0].rsplit("/")[-1] for command in asked[1]] == ["dde_enzyme", "radar5_enzyme"]
+    assert asked[1][1][1:] == ["f"]
+
+
+def test_spread_is_that_of_single_turns():
+    turns = {"ours": [1.0, 2.0, 1.0], "other": [2.0, 2.0, 3.0]}
+    rows = [
+        {"solver": name, "status": "ok", "error_max": 1e-5, "turns": found}
+        for name, found in turns.items()
+    ]
+    assert work_precision.spread(rows, 1e-4, "other") == (1.0, 3.0)
+    assert work_precision.spread(rows, 1e-6, "other") is None
+
+
+def test_worst_cells_are_shown_first(capsys):
+    rows = [
+        {"case": name, "given": "f", "solver": "retard", "error": level}
+        | {"ratio": ratio, "least": ratio, "most": ratio}
+        for name, ratio in (("torus", 2.0), ("chaos", 0.5), ("infection", None))
+        for level in peers.LEVELS
+    ]
+    peers.show(rows)
+    _, title, _, *lines = capsys.readouterr().out.splitlines()
+    assert title == "retard over this solver, f: geometric mean 1.00, least 0.50"
+    assert [line.split()[0] for line in lines] == ["chaos", "torus", "infection"]
+    assert lines[0].split()[1:3] == ["0.50", "(0.50-0.50)"]
+
+
+def test_problems_of_other_solvers_are_known():
+    """Each case has a program; its number is the one that the compiler is given."""
+    build = (measuring.HERE / "CMakeLists.txt").read_text()
+    names = re.search(r"foreach\(problem ([\w ]+)\)", build)[1].split()
+    assert {case.problem for case in peers.CASES.values()} == set(names)
 
 
 def test_error_of_dense_output_counts_by_the_run_where_it_is_worst():

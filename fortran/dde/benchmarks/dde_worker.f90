@@ -1,23 +1,28 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> One scene in this solver (workers.py). Arguments: the method and, for a problem without its
-!> Taylor series, "rhs".
+!> One problem in this solver (workers.py). Arguments: the method, and what the problem gives
+!> besides f (peers.py).
 program dde_worker
-   use block_problem, only: spring_block
    use dde, only: integrate, integration_options, integration_result, table_sampler
    use dde_errors, only: error_type
    use dde_kinds, only: wp
-   use worker_protocol, only: answer_requests, epsilon, gamma, past, sample_time, samples, t_end, &
-                              tau, xi
+   use peer_problems, only: problem_of
+   use test_problems, only: constant_past
+   use worker_protocol, only: answer_requests, read_scene, sample_time, samples, t_end
    implicit none (type, external)
-   character(len=8) :: arguments(2)
+   character(len=16) :: arguments(2)
+   class(constant_past), allocatable :: problem
+   integer :: i
 
-   call get_command_argument(1, arguments(1))
-   call get_command_argument(2, arguments(2))
-   call answer_requests(DDE_VERSION, integrate_once)
+   do i = 1, size(arguments)
+      call get_command_argument(i, arguments(i))
+   end do
+   call read_scene()
+   call problem_of(trim(arguments(2)), problem)
+   call answer_requests(DDE_VERSION, problem%n, integrate_once)
 
 contains
 
-   !> Integrate the block once.
+   !> Integrate the problem once.
    subroutine integrate_once(tolerance, failure)
       real(wp), intent(in) :: tolerance
       character(len=:), allocatable, intent(out) :: failure
@@ -25,14 +30,11 @@ contains
       type(error_type), allocatable :: error
       type(integration_options) :: options
       type(integration_result) :: outcome
-      type(spring_block) :: problem
       type(table_sampler) :: table
 
-      problem = spring_block(tau, epsilon, xi, gamma, past)
-      problem%analytic = arguments(2) /= "rhs"
       options = integration_options(method=arguments(1), relative=tolerance, absolute=tolerance)
       if (allocated(samples)) then
-         table = table_sampler([1, 2, 3], [(sample_time(i), i=0, ubound(samples, 2))])
+         table = table_sampler([(i, i=1, problem%n)], [(sample_time(i), i=0, ubound(samples, 2))])
          call integrate(problem, 0.0_wp, t_end, options, outcome, error, table)
          samples = table%values
       else

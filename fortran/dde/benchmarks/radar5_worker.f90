@@ -1,13 +1,23 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> One scene in RADAR5, version 2.1 (workers.py): stiff, Radau IIA of order 5.
+!> One problem in RADAR5, version 2.1 (workers.py): stiff, Radau IIA of order 5. Argument: what
+!> the problem gives besides f (peers.py).
 module radar5_scene
    use dde_kinds, only: wp
-   use worker_protocol, only: epsilon, gamma, past, sample_time, samples, t_end, tau, xi
+   use peer_problems, only: breaking_points, component, delayed, n, slopes
+   use test_problems, only: constant_past
+   use worker_protocol, only: epsilon, gamma, xi, sample_time, samples, t_end
    implicit none (type, external)
    private
-   public :: integrate_once
+   public :: given, integrate_once, prepare, problem
 
-   integer, parameter :: n = 3, delayed = 3, most_steps = 10**7, most_stored = 200000
+   integer, parameter :: most_steps = 10**7, most_stored = 200000
+   !> The problem, and whether its derivatives are given
+   class(constant_past), allocatable :: problem
+   character(len=16) :: given
+   !> The same as this solver holds it
+   integer :: delays
+   real(wp) :: lags(delayed), past(n)
+   real(wp), allocatable :: grid(:)
    integer :: next_sample, stored = most_stored
    real(wp) :: last_tolerance = 0.0_wp
    external :: lagr5, radar5
@@ -15,76 +25,82 @@ module radar5_scene
 
 contains
 
-   !> Integrate the block once.
+   !> Keep what does not change from run to run.
+   subroutine prepare()
+      delays = size(problem%lag)
+      lags(:delays) = problem%lag
+      past = problem%past
+      grid = [breaking_points(problem%lag, t_end), t_end]
+   end subroutine prepare
+
+   !> Integrate the problem once.
    subroutine integrate_once(tolerance, failure)
       real(wp), intent(in) :: tolerance
       character(len=:), allocatable, intent(out) :: failure
-      integer, parameter :: points = 2
-      integer :: band(2), delays, i, iwork(30), outcome, past_components(2), ipar(1)
-      real(wp) :: absolute(1), grid(points + 1), relative(1), rpar(1), step, t, t_last, &
-                  work(30), y(n)
+      integer :: band(2), iwork(30), outcome, ipar(1)
+      real(wp) :: absolute(1), relative(1), rpar(1), step, t, t_last, work(30), y(n)
+      logical :: analytic
 
       t = 0.0_wp
       t_last = t_end
-      y = past
-      step = min(1e-3_wp, 1.0_wp/gamma**2)
+      call problem%initial(y)
+      ! of the stiff block the fast time; 1e-3 else
+      step = 1e-3_wp
+      if (gamma > 0.0_wp) step = min(step, 1.0_wp/gamma**2)
       relative = tolerance
       absolute = tolerance
-      ! at k delays the derivative of theta of order 2k jumps, which matters up to order 5
-      grid = [(i*tau, i=1, points), t_end]
+      analytic = given == "jacobian"
+      ! RADAR5 changes them
       band = n
       iwork = 0
       work = 0.0_wp
-      delays = merge(1, 0, tau > 0.0_wp)
       if (abs(tolerance - last_tolerance) > 0.0_wp) stored = most_stored
-      past_components(1) = delayed
       iwork(2) = most_steps
       iwork(12) = stored
-      iwork(13) = count(grid(:points) > 0.0_wp .and. grid(:points) < t_end)
-      iwork(15) = 1
+      iwork(13) = size(grid) - 1
+      iwork(15) = delays
       next_sample = 0
       call radar5(n, right_side, history, delayed_time, t, y, t_last, step, relative, absolute, 0, &
-                  jacobian, 1, band(1), band(2), delayed_jacobian, delays, delays, 0, &
+                  jacobian, merge(1, 0, analytic), band(1), band(2), delayed_jacobian, &
+                  merge(delays, 0, analytic), merge(delays, 0, analytic), 0, &
                   take_samples, merge(1, 0, allocated(samples)), work, iwork, rpar, ipar, &
-                  outcome, grid, past_components, right_side, n, n)
+                  outcome, grid, problem%component, right_side, n, n)
       if (outcome /= 1) failure = "RADAR5 returned IDID = -"//achar(iachar("0") - outcome)
       ! its preparation costs time that grows with its storage: the next run gets what this one used
       stored = min(most_stored, iwork(17) + 10)
       last_tolerance = tolerance
    end subroutine integrate_once
 
-   !> Equation (4).
+   !> f(t, y, z).
    subroutine right_side(m, t, y, f, lag, phi, rpar, ipar, dense, ipast, nrds)
       integer, intent(in) :: m, ipar(*), ipast(*), nrds
       real(wp), intent(in) :: t, y(m), rpar(*), dense(*)
       real(wp), intent(out) :: f(m)
       external :: lag, phi
-      real(wp) :: v
+      real(wp) :: z(delayed)
 
-      v = exp(y(3))
-      f(1) = -v*(y(1) + (1.0_wp + epsilon)*delayed_w(t, y, rpar, ipar, dense, ipast, nrds))
-      f(2) = v - 1.0_wp
-      f(3) = -gamma**2/v*(y(2) + (y(1) + y(3))/xi)
+      call delayed_values(t, y, z, rpar, ipar, dense, ipast, nrds)
+      call slopes(y, z, f)
    end subroutine right_side
 
-   !> Derivatives by y.
+   !> Derivatives of the block by y.
    subroutine jacobian(m, t, y, by_y, rows, lag, phi, rpar, ipar, dense, ipast, nrds)
       integer, intent(in) :: m, rows, ipar(*), ipast(*), nrds
       real(wp), intent(in) :: t, y(m), rpar(*), dense(*)
       real(wp), intent(out) :: by_y(rows, m)
       external :: lag, phi
-      real(wp) :: stiffness, v
+      real(wp) :: stiffness, v, z(delayed)
 
+      call delayed_values(t, y, z, rpar, ipar, dense, ipast, nrds)
       v = exp(y(3))
       stiffness = gamma**2/v
-      by_y(1, :) = [-v, 0.0_wp, -v*(y(1) + (1.0_wp + epsilon) &
-                                    *delayed_w(t, y, rpar, ipar, dense, ipast, nrds))]
-      if (.not. tau > 0.0_wp) by_y(1, 3) = by_y(1, 3) - v*(1.0_wp + epsilon)
+      by_y(1, :) = [-v, 0.0_wp, -v*(y(1) + (1.0_wp + epsilon)*z(1))]
+      if (delays == 0) by_y(1, 3) = by_y(1, 3) - v*(1.0_wp + epsilon)
       by_y(2, :) = [0.0_wp, 0.0_wp, v]
       by_y(3, :) = [-stiffness/xi, -stiffness, stiffness*(y(2) + (y(1) + y(3) - 1.0_wp)/xi)]
    end subroutine jacobian
 
-   !> Derivative of theta' by w(t - tau).
+   !> Derivative of theta' by w(t - tau), the only one of the block.
    subroutine delayed_jacobian(m, t, y, by_z, lag, phi, row, column, delay, rpar, ipar, dense, &
                                ipast, nrds)
       integer, intent(in) :: m, ipar(*), ipast(*), nrds
@@ -95,31 +111,33 @@ contains
 
       delay(1) = 1
       row(1) = 1
-      column(1) = delayed
+      column(1) = 3
       by_z(1) = -exp(y(3))*(1.0_wp + epsilon)
    end subroutine delayed_jacobian
 
-   !> w(t - tau).
-   function delayed_w(t, y, rpar, ipar, dense, ipast, nrds) result(w)
+   !> The delayed values.
+   subroutine delayed_values(t, y, z, rpar, ipar, dense, ipast, nrds)
       integer, intent(in) :: ipar(*), ipast(*), nrds
-      real(wp), intent(in) :: t, y(n), rpar(*), dense(*)
-      integer :: place
-      real(wp) :: share, w
+      real(wp), intent(in) :: t, y(*), rpar(*), dense(*)
+      real(wp), intent(inout) :: z(delayed)
+      integer :: k, place
+      real(wp) :: share
 
-      w = y(3)
-      if (.not. tau > 0.0_wp) return
-      call lagr5(1, t, y, delayed_time, dense, share, place, rpar, ipar, history, ipast, nrds)
-      w = ylagr5(delayed, share, place, history, rpar, ipar, dense, ipast, nrds)
-   end function delayed_w
+      z(1) = y(component(1))
+      do k = 1, delays
+         call lagr5(k, t, y, delayed_time, dense, share, place, rpar, ipar, history, ipast, nrds)
+         z(k) = ylagr5(component(k), share, place, history, rpar, ipar, dense, ipast, nrds)
+      end do
+   end subroutine delayed_values
 
-   !> t - tau.
+   !> t minus a delay.
    function delayed_time(delay, t, y, rpar, ipar, phi, dense, ipast, nrds) result(time)
       integer, intent(in) :: delay, ipar(*), ipast(*), nrds
       real(wp), intent(in) :: t, y(n), rpar(*), dense(*)
       external :: phi
       real(wp) :: time
 
-      time = t - tau
+      time = t - lags(delay)
    end function delayed_time
 
    !> The constant past.
@@ -155,9 +173,14 @@ contains
 end module radar5_scene
 
 program radar5_worker
-   use radar5_scene, only: integrate_once
-   use worker_protocol, only: answer_requests
+   use peer_problems, only: problem_of
+   use radar5_scene, only: given, integrate_once, prepare, problem
+   use worker_protocol, only: answer_requests, read_scene
    implicit none (type, external)
 
-   call answer_requests("2.1", integrate_once)
+   call get_command_argument(1, given)
+   call read_scene()
+   call problem_of(trim(given), problem)
+   call prepare()
+   call answer_requests("2.1", problem%n, integrate_once)
 end program radar5_worker

@@ -1,13 +1,22 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> One scene in RETARD (workers.py): not stiff, the pair of Dormand and Prince.
+!> One problem in RETARD (workers.py): not stiff, the pair of Dormand and Prince. It uses
+!> f alone, whatever the argument says.
 module retard_scene
    use dde_kinds, only: wp
-   use worker_protocol, only: epsilon, gamma, past, sample_time, samples, t_end, tau, xi
+   use peer_problems, only: breaking_points, component, delayed, n, slopes
+   use test_problems, only: constant_past
+   use worker_protocol, only: sample_time, samples, t_end
    implicit none (type, external)
    private
-   public :: integrate_once
+   public :: integrate_once, prepare, problem
 
-   integer, parameter :: n = 3, delayed = 3, most_steps = 10**8, most_stored = 200000
+   integer, parameter :: most_steps = 10**8, most_stored = 200000
+   !> The problem
+   class(constant_past), allocatable :: problem
+   !> The same as this solver holds it
+   integer :: delays
+   real(wp) :: lags(delayed), past(n)
+   real(wp), allocatable :: grid(:)
    integer :: next_sample, stored = most_stored
    real(wp) :: last_tolerance = 0.0_wp
    integer :: components(n + 1)
@@ -19,33 +28,42 @@ module retard_scene
 
 contains
 
-   !> Integrate the block once.
+   !> Keep what does not change from run to run.
+   subroutine prepare()
+      delays = size(problem%lag)
+      lags(:delays) = problem%lag
+      past = problem%past
+      grid = breaking_points(problem%lag, t_end)
+   end subroutine prepare
+
+   !> Integrate the problem once.
    subroutine integrate_once(tolerance, failure)
       real(wp), intent(in) :: tolerance
       character(len=:), allocatable, intent(out) :: failure
-      integer, parameter :: points = 2, parameters = 20
-      integer :: i, iwork(20), ipar(1), kept, outcome
-      real(wp) :: absolute(1), grid(points), relative(1), rpar(1), t, t_last, &
-                  work(8*n + parameters + 1 + points), y(n)
+      integer, parameter :: parameters = 20
+      integer :: iwork(20), ipar(1), k, kept, outcome
+      real(wp) :: absolute(1), relative(1), rpar(1), t, t_last, y(n)
+      real(wp), allocatable :: work(:)
 
       t = 0.0_wp
       t_last = t_end
-      y = past
+      call problem%initial(y)
       relative = tolerance
       absolute = tolerance
-      ! at k delays the derivative of theta of order 2k jumps, which matters up to order 5
-      grid = [(i*tau, i=1, points)]
+      allocate (work(8*n + parameters + 1 + size(grid)), source=0.0_wp)
       iwork = 0
-      work = 0.0_wp
-      work(parameters + 1:parameters + points) = grid
-      kept = merge(n, 1, allocated(samples))
-      components(2) = delayed
+      work(parameters + 1:parameters + size(grid)) = grid
+      kept = n
+      if (.not. allocated(samples)) then
+         kept = count([(any(component == k), k=1, n)])
+         components(2:kept + 1) = pack([(k, k=1, n)], [(any(component == k), k=1, n)])
+      end if
       if (abs(tolerance - last_tolerance) > 0.0_wp) stored = most_stored
       iwork(1) = most_steps
       iwork(3) = -1
       iwork(4) = -1
       iwork(5) = kept
-      iwork(6) = count(grid > 0.0_wp .and. grid < t_end)
+      iwork(6) = size(grid)
       next_sample = 0
       call retard(n, right_side, t, y, t_last, relative, absolute, 0, take_samples, &
                   merge(1, 0, allocated(samples)), work, size(work), iwork, size(iwork), &
@@ -56,19 +74,21 @@ contains
       last_tolerance = tolerance
    end subroutine integrate_once
 
-   !> Equation (4).
+   !> f(t, y, z).
    subroutine right_side(m, t, y, f, rpar, ipar)
       integer, intent(in) :: m, ipar(*)
       real(wp), intent(in) :: t, y(m), rpar(*)
       real(wp), intent(out) :: f(m)
-      real(wp) :: v, w
+      real(wp) :: z(n)
+      integer :: k
 
-      w = y(3)
-      if (tau > 0.0_wp) w = ylag(delayed, t - tau, history, rpar, ipar)
-      v = exp(y(3))
-      f(1) = -v*(y(1) + (1.0_wp + epsilon)*w)
-      f(2) = v - 1.0_wp
-      f(3) = -gamma**2/v*(y(2) + (y(1) + y(3))/xi)
+      z(1) = y(component(1))
+      if (delays > 0) then
+         do k = 1, delayed
+            z(k) = ylag(component(k), t - lags(k), history, rpar, ipar)
+         end do
+      end if
+      call slopes(y, z, f)
    end subroutine right_side
 
    !> The constant past.
@@ -103,9 +123,13 @@ contains
 end module retard_scene
 
 program retard_worker
-   use retard_scene, only: integrate_once
-   use worker_protocol, only: answer_requests
+   use peer_problems, only: problem_of
+   use retard_scene, only: integrate_once, prepare, problem
+   use worker_protocol, only: answer_requests, read_scene
    implicit none (type, external)
 
-   call answer_requests("1995", integrate_once)
+   call read_scene()
+   call problem_of("f", problem)
+   call prepare()
+   call answer_requests("1995", problem%n, integrate_once)
 end program retard_worker

@@ -3,7 +3,7 @@
 
 import math
 import statistics
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from itertools import pairwise
 
 import numpy as np
@@ -103,34 +103,53 @@ def measure_seconds(
                 waiting.remove(row)
     for row in rows:
         if row["status"] == "ok":
-            row["seconds"] = statistics.median(measured[id(row)])
+            row["turns"] = measured[id(row)]
+            row["seconds"] = statistics.median(row["turns"])
 
 
-def seconds_at(level: float, points: Iterable[tuple[float, float]]) -> float | None:
-    """Least time for an error of at most `level`; None where no point reaches it.
+def count_instructions(rows: list[dict], workers: dict[str, Worker], errors: tuple) -> None:
+    """Add the instructions of one integration to rows with an error in a range."""
+    for row in rows:
+        if row["status"] == "ok" and errors[0] <= row["error_max"] <= errors[1]:
+            worker = workers[row["solver"]]
+            # the first ones of a process prepare what later ones use
+            few, more = (worker.instructions(row["tolerance"], runs) for runs in (2, 4))
+            row["instructions"] = (more - few) / 2
 
-    `points` are errors and seconds in the order of their tolerances; between neighbours the
-    logarithm of time is linear in the logarithm of the error.
+
+def cost_at(level: float, points: Iterable[tuple[float, float]]) -> float | None:
+    """Least cost of an error of at most `level`; None where no point reaches it.
+
+    `points` are errors and costs in the order of their tolerances; between neighbours the
+    logarithm of the cost is linear in the logarithm of the error.
     """
-    points = [(error, seconds) for error, seconds in points if error > 0 and seconds > 0]
-    costs = [seconds for error, seconds in points if error <= level]
-    for (error_a, seconds_a), (error_b, seconds_b) in pairwise(points):
+    points = [(error, cost) for error, cost in points if error > 0 and cost > 0]
+    costs = [cost for error, cost in points if error <= level]
+    for (error_a, cost_a), (error_b, cost_b) in pairwise(points):
         if min(error_a, error_b) < level < max(error_a, error_b):
             share = math.log(level / error_a) / math.log(error_b / error_a)
-            costs.append(seconds_a * (seconds_b / seconds_a) ** share)
+            costs.append(cost_a * (cost_b / cost_a) ** share)
     return min(costs, default=None)
 
 
-def ratios(rows: list[dict], level: float) -> dict[str, float | None]:
-    """At equal error: seconds of this solver, and the time of each other one over it.
+def ratios(rows: list[dict], level: float, cost: Callable = lambda row: row["seconds"]) -> dict:
+    """At equal error: what this solver costs, and the cost of each other one over it.
 
-    None where one of the times is not known.
+    None where one of the costs is not known.
     """
     points = {row["solver"]: [] for row in rows}
     for row in rows:
         if row["status"] == "ok":
-            points[row["solver"]].append((row["error_max"], row["seconds"]))
-    costs = {name: seconds_at(level, found) for name, found in points.items()}
+            points[row["solver"]].append((row["error_max"], cost(row)))
+    costs = {name: cost_at(level, found) for name, found in points.items()}
     ours = costs.pop(OURS)
     found = {name: cost / ours if cost and ours else None for name, cost in costs.items()}
     return {"our_seconds": ours, **found}
+
+
+def spread(rows: list[dict], level: float, solver: str) -> tuple[float, float] | None:
+    """The least and the largest ratio at equal error of one turn of measurements."""
+    turns = min((len(row["turns"]) for row in rows if row["status"] == "ok"), default=0)
+    found = [ratios(rows, level, lambda row, i=i: row["turns"][i])[solver] for i in range(turns)]
+    found = [ratio for ratio in found if ratio]
+    return (min(found), max(found)) if found else None

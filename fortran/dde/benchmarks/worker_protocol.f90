@@ -6,7 +6,7 @@ module worker_protocol
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: answer_requests, sample_time
+   public :: answer_requests, read_scene, sample_time
 
    !> Parameters of the block, nondimensional
    real(wp), public, protected :: tau, epsilon, xi, gamma
@@ -14,7 +14,7 @@ module worker_protocol
    real(wp), public, protected :: past(3)
    !> End of the run
    real(wp), public, protected :: t_end
-   !> Samples of theta, u, ln v in the order of their times, from 0 on; not allocated if none wanted
+   !> Samples of the state in the order of their times, from 0 on; not allocated if none wanted
    real(wp), allocatable, public :: samples(:, :)
    real(wp) :: interval
 
@@ -32,10 +32,21 @@ module worker_protocol
 
 contains
 
-   !> Read the scene, and run it as often as the requests ask.
-   subroutine answer_requests(version, integrate_once)
+   !> Read the scene.
+   subroutine read_scene()
+      character(len=1024) :: message
+      integer :: status
+
+      read (*, *, iostat=status, iomsg=message) tau, epsilon, xi, gamma, past, t_end, interval
+      if (status /= 0) error stop "worker: scene: "//trim(message)
+   end subroutine read_scene
+
+   !> Run the scene as often as the requests ask.
+   subroutine answer_requests(version, n, integrate_once)
       !> Version of the solver
       character(len=*), intent(in) :: version
+      !> Number of equations
+      integer, intent(in) :: n
       !> One integration
       procedure(integrate_scene) :: integrate_once
       character(len=1024) :: message, request
@@ -43,8 +54,6 @@ contains
       integer :: i, runs, status
       real(wp) :: finish, start, tolerance
 
-      read (*, *, iostat=status, iomsg=message) tau, epsilon, xi, gamma, past, t_end, interval
-      if (status /= 0) error stop "worker: scene: "//trim(message)
       print "(a)", "answer: "//version
       flush (6)
       do
@@ -53,7 +62,7 @@ contains
          if (status == 0) read (request, *, iostat=status, iomsg=message) tolerance, runs
          if (status /= 0) error stop "worker: request: "//trim(message)
          if (runs == 0) then
-            allocate (samples(3, 0:nint(t_end/interval)))
+            allocate (samples(n, 0:nint(t_end/interval)))
             call integrate_once(tolerance, failure)
             call write_samples(trim(request(index(request, " 0 ") + 3:)))
             deallocate (samples)
@@ -91,8 +100,7 @@ contains
             iomsg=message)
       if (status /= 0) error stop "worker: "//trim(message)
       do i = 0, ubound(samples, 2)
-         write (unit, "(*(es25.17e3, :, a))") sample_time(i), achar(9), samples(1, i), &
-            achar(9), samples(2, i), achar(9), samples(3, i)
+         write (unit, "(*(es25.17e3, :, 1x))") sample_time(i), samples(:, i)
       end do
       close (unit, iostat=status, iomsg=message)
       if (status /= 0) error stop "worker: "//trim(message)

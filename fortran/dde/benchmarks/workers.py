@@ -25,14 +25,16 @@ class Solver:
     command: list[str]
     needs: str = "nothing else"
     kinds: tuple[str, ...] = ("mild", "stiff")
+    any_problem: bool = False
+    """Whether it has a program for each problem, which is told what the problem gives"""
 
 
 DESOLVE = ["Rscript", "--vanilla", str(HERE / "desolve_worker.R"), str(BUILD / "block.so")]
 OURS = "ours"
 SOLVERS = {
-    OURS: Solver([str(BUILD / "dde_worker"), "auto"]),
-    "radar5": Solver([str(BUILD / "radar5_worker")], "--hairer FOLDER", ("stiff",)),
-    "retard": Solver([str(BUILD / "retard_worker")], "--hairer FOLDER", ("mild",)),
+    OURS: Solver([str(BUILD / "dde_block"), "auto"], any_problem=True),
+    "radar5": Solver([str(BUILD / "radar5_block")], "--hairer FOLDER", ("stiff",), True),
+    "retard": Solver([str(BUILD / "retard_block")], "--hairer FOLDER", ("mild",), True),
     "jitcdde": Solver(
         [str(HERE / ".venv" / "bin" / "python"), "-I", str(HERE / "jitcdde_worker.py")],
         "Python packages of requirements.lock",
@@ -116,6 +118,19 @@ class Worker:
             path = Path(folder) / "samples.tsv"
             self._request(f"{tolerance:g} 0 {path}", limit)
             return np.loadtxt(path, ndmin=2)
+
+    def instructions(self, tolerance: float, runs: int) -> int:
+        """Instructions of a process of its own that integrates several times."""
+        counting = ["valgrind", "--tool=cachegrind", "--cache-sim=no"]
+        run = subprocess.run(
+            [*counting, "--cachegrind-out-file=/dev/null", *self.command],
+            input=f"{self.scene.line()}\n{tolerance:g} {runs} -\n",
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        found = re.search(r"I +refs: +([\d,]+)", run.stderr)
+        return int(found[1].replace(",", ""))
 
     def stop(self) -> None:
         """End the process, if there is one."""
