@@ -1,5 +1,5 @@
 !> One spring block with delayed friction, on which solvers are compared: a chain of one block that
-!> gives its derivatives.
+!> gives its derivatives. Its right-hand side is written out, as those of the other solvers are.
 module block_problem
    use chain_of_blocks, only: chain
    use dde_kinds, only: wp
@@ -11,7 +11,7 @@ module block_problem
    !> The block; without delay if tau is 0.
    type, extends(chain) :: spring_block
    contains
-      procedure :: jacobian
+      procedure :: rhs, jacobian
    end type spring_block
 
    interface spring_block
@@ -29,6 +29,21 @@ contains
       problem%xi = xi
       problem%gamma = gamma
    end function new_block
+
+   !> The equations of theta, u and w.
+   pure subroutine rhs(self, t, y, z, dydt)
+      class(spring_block), intent(in) :: self
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
+      real(wp), intent(out) :: dydt(self%n)
+      real(wp) :: delayed_w, v
+
+      delayed_w = y(3)
+      if (size(z) > 0) delayed_w = z(1)
+      v = exp(y(3))
+      dydt(1) = -v*(y(1) + (1.0_wp + self%epsilon)*delayed_w)
+      dydt(2) = v - 1.0_wp
+      dydt(3) = -self%gamma**2/v*(y(2) + (y(1) + y(3))/self%xi)
+   end subroutine rhs
 
    !> Derivatives by theta, u, w and by w(t - tau).
    pure subroutine jacobian(self, t, y, z, by_y, by_z)

@@ -16,8 +16,6 @@ module dde_cursor
    real(wp), parameter :: spacings = 4.0_wp
    !> Share of a step that may lie on the other side of the initial time without being read there.
    real(wp), parameter :: beside = 1.0e-9_wp
-   !> Most places that a method may read at once.
-   integer, parameter :: most_places = 16
 
    !> One step, and what each delayed value reads at its start.
    type :: cursor_type
@@ -97,40 +95,40 @@ contains
       class(cursor_type), intent(inout) :: self
       class(dde_problem_type), intent(in) :: problem
       type(history_type), intent(in) :: past
-      !> Times since the start of the step, ascending, 0..length, at most `most_places`
+      !> Times since the start of the step, ascending, 0..length
       real(wp), contiguous, intent(in) :: ahead(:)
-      !> Delayed values, shape (size(problem%lag), size(ahead))
-      real(wp), contiguous, intent(out) :: z(:, :)
-      real(wp) :: found(most_places)
+      !> Delayed values
+      real(wp), intent(out) :: z(size(problem%lag), size(ahead))
       integer :: k
 
-      do k = 1, size(z, 1)
-         call self%values_of(problem, past, k, ahead, found)
-         z(k, :) = found(:size(ahead))
+      do k = 1, size(problem%lag)
+         call self%values_of(problem, past, k, size(ahead), ahead, size(problem%lag), z(k, 1))
       end do
    end subroutine values
 
    !> One delayed value at places of the step, each place after the one before.
-   pure subroutine values_of(self, problem, past, k, ahead, z)
+   pure subroutine values_of(self, problem, past, k, places, ahead, stride, z)
       class(cursor_type), intent(inout) :: self
       class(dde_problem_type), intent(in) :: problem
       type(history_type), intent(in) :: past
-      integer, intent(in) :: k
-      real(wp), contiguous, intent(in) :: ahead(:)
-      real(wp), intent(inout) :: z(most_places)
+      integer, intent(in) :: k, places
+      real(wp), intent(in) :: ahead(places)
+      !> Numbers from one of its values to the next
+      integer, intent(in) :: stride
+      real(wp), intent(inout) :: z(stride, *)
       integer :: first
 
       first = 1
       if (self%before_origin(k)) then
-         do first = 1, size(ahead)
+         do first = 1, places
             if (ahead(first) > self%passes_origin(k) .and. past%newest >= past%oldest) exit
-            z(first) = problem%history(self%time_before(past, problem%lag(k), ahead(first)), &
-                                       problem%component(k))
+            z(1, first) = problem%history(self%time_before(past, problem%lag(k), ahead(first)), &
+                                          problem%component(k))
          end do
-         if (first > size(ahead)) return
+         if (first > places) return
          call self%read_from(past, k, past%oldest)
       end if
-      call look_up(self, past, k, first, ahead, z)
+      call look_up(self, past, k, first, places, ahead, stride, z)
    end subroutine values_of
 
    !> A time in the problem's history. Where that may jump it lies between those of the step's ends.
@@ -147,14 +145,15 @@ contains
    end function time_before
 
    !> One delayed value at several places, ascending: step by step of the past.
-   pure subroutine look_up(self, past, k, from, ahead, z)
+   pure subroutine look_up(self, past, k, from, places, ahead, stride, z)
       type(cursor_type), intent(inout) :: self
       type(history_type), intent(in) :: past
       integer, intent(in) :: k
       !> The first place to read
       integer, intent(in) :: from
-      real(wp), contiguous, intent(in) :: ahead(:)
-      real(wp), intent(inout) :: z(most_places)
+      integer, intent(in) :: places, stride
+      real(wp), intent(in) :: ahead(places)
+      real(wp), intent(inout) :: z(stride, *)
       real(wp) :: limit, margin
       integer :: first
 
@@ -164,8 +163,8 @@ contains
       do
          limit = huge(1.0_wp)
          if (self%step(k) < past%newest) limit = past%length_of(self%step(k)) + margin
-         call past%values(self%step(k), k, self%offset(k), limit, ahead, first, z)
-         if (first > size(ahead)) exit
+         call past%values(self%step(k), k, self%offset(k), limit, places, ahead, first, stride, z)
+         if (first > places) exit
          call self%read_from(past, k, self%step(k) + 1)
       end do
    end subroutine look_up

@@ -59,6 +59,8 @@ module dde_history
       integer(int64), private :: spare = 0
       !> Number of polynomials allocated
       integer, private :: used = 0
+      !> Number of slots less 1, a mask of the bits of their numbers
+      integer(int64), private :: mask = 0
       !> The ring, and the polynomials of its steps
       type(slot_type), allocatable, private :: slots(:)
       type(polynomials), allocatable, private :: stored(:)
@@ -95,6 +97,7 @@ contains
       row_of(past%kept) = [(i, i=1, size(past%kept))]
       past%row = [(row_of(problem%component(k)), k=1, size(problem%lag))]
       allocate (past%slots(first_capacity), past%stored(first_capacity))
+      past%mask = first_capacity - 1
    end function new_history
 
    !> Slot of step number `step`.
@@ -102,7 +105,7 @@ contains
       class(history_type), intent(in) :: self
       integer(int64), intent(in) :: step
 
-      slot = 1 + int(iand(step, size(self%slots, kind=int64) - 1_int64))
+      slot = 1 + int(iand(step, self%mask))
    end function slot_of
 
    !> Start of a step.
@@ -143,7 +146,7 @@ contains
    end function value
 
    !> Delayed value number k by the polynomial of a step, at ascending times up to a limit.
-   pure subroutine values(self, step, k, offset, limit, ahead, first, z)
+   pure subroutine values(self, step, k, offset, limit, places, ahead, first, stride, z)
       class(history_type), intent(in) :: self
       integer(int64), intent(in) :: step
       integer, intent(in) :: k
@@ -151,15 +154,17 @@ contains
       real(wp), intent(in) :: offset
       !> Time since the start of the step up to which its polynomial is read
       real(wp), intent(in) :: limit
-      real(wp), contiguous, intent(in) :: ahead(:)
+      integer, intent(in) :: places
+      real(wp), intent(in) :: ahead(places)
       !> First time to read; on return the first that lies beyond the limit
       integer, intent(inout) :: first
-      !> The delayed value at all times, shape (size(ahead))
-      real(wp), contiguous, intent(inout) :: z(:)
+      !> The delayed value at all times, and numbers from one to the next
+      integer, intent(in) :: stride
+      real(wp), intent(inout) :: z(stride, *)
 
       associate (slot => self%slots(slot_of(self, step)))
          call newton_values(slot%degree, slot%nodes, self%stored(slot%place)%a(:, self%row(k)), &
-                            offset, slot%length, limit, size(ahead), ahead, first, z)
+                            offset, slot%length, limit, places, ahead, first, stride, z)
       end associate
    end subroutine values
 
@@ -228,7 +233,7 @@ contains
    pure logical function is_full(self) result(full)
       class(history_type), intent(in) :: self
 
-      full = self%newest - self%oldest + 1 == size(self%slots)
+      full = self%newest - self%oldest == self%mask
    end function is_full
 
    !> Store the step from `start`, `length` long. The caller fills in its coefficients.
@@ -344,5 +349,6 @@ contains
       end do
       call move_alloc(stored, self%stored)
       self%slots = [self%slots, self%slots]
+      self%mask = size(self%slots) - 1
    end subroutine double_capacity
 end module dde_history
