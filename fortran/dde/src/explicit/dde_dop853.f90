@@ -173,7 +173,7 @@ contains
    pure subroutine find_coefficients(self, k, h, y, y_new, a)
       class(dop853), intent(in) :: self
       real(wp), intent(in) :: k(slope_count), h, y, y_new
-      real(wp), intent(out) :: a(0:*)
+      real(wp), contiguous, intent(out) :: a(0:)
       real(wp) :: rise
 
       rise = y_new - y

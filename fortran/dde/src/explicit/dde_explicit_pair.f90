@@ -83,7 +83,7 @@ module dde_explicit_pair
          !> Slopes of the component, length of the step, and the component at its start and end
          real(wp), intent(in) :: k(slope_count), h, y, y_new
          !> Newton coefficients over the nodes 0, 1, 0, 1 and so on
-         real(wp), intent(out) :: a(0:*)
+         real(wp), contiguous, intent(out) :: a(0:)
       end subroutine find_coefficients
    end interface
 
@@ -115,13 +115,11 @@ contains
    pure subroutine evaluate(context, t, z, j, y, k, slope, finite)
       !> The context of the step
       type(step_context), intent(inout) :: context
-      !> Time, and delayed values
-      real(wp), intent(in) :: t, z(*)
+      !> Time, delayed values and state
+      real(wp), intent(in) :: t, z(size(context%problem%lag)), y(context%problem%n)
       integer, intent(in) :: j
-      !> State
-      real(wp), intent(in) :: y(*)
       !> All slopes, and this one, which is computed in one piece
-      real(wp), intent(inout) :: k(slope_count, *), slope(*)
+      real(wp), intent(inout) :: k(slope_count, context%problem%n), slope(context%problem%n)
       !> Whether all slopes so far are finite
       logical, intent(inout) :: finite
       real(wp) :: total

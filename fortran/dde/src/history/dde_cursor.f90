@@ -102,33 +102,33 @@ contains
       integer :: k
 
       do k = 1, size(problem%lag)
-         call self%values_of(problem, past, k, size(ahead), ahead, size(problem%lag), z(k, 1))
+         call self%values_of(problem, past, k, ahead, k, z)
       end do
    end subroutine values
 
    !> One delayed value at places of the step, each place after the one before.
-   pure subroutine values_of(self, problem, past, k, places, ahead, stride, z)
+   pure subroutine values_of(self, problem, past, k, ahead, row, z)
       class(cursor_type), intent(inout) :: self
       class(dde_problem_type), intent(in) :: problem
       type(history_type), intent(in) :: past
-      integer, intent(in) :: k, places
-      real(wp), intent(in) :: ahead(places)
-      !> Numbers from one of its values to the next
-      integer, intent(in) :: stride
-      real(wp), intent(inout) :: z(stride, *)
+      integer, intent(in) :: k
+      real(wp), contiguous, intent(in) :: ahead(:)
+      !> The row of z that its values fill
+      integer, intent(in) :: row
+      real(wp), contiguous, intent(inout) :: z(:, :)
       integer :: first
 
       first = 1
       if (self%before_origin(k)) then
-         do first = 1, places
+         do first = 1, size(ahead)
             if (ahead(first) > self%passes_origin(k) .and. past%newest >= past%oldest) exit
-            z(1, first) = problem%history(self%time_before(past, problem%lag(k), ahead(first)), &
+            z(row, first) = problem%history(self%time_before(past, problem%lag(k), ahead(first)), &
                                           problem%component(k))
          end do
-         if (first > places) return
+         if (first > size(ahead)) return
          call self%read_from(past, k, past%oldest)
       end if
-      call look_up(self, past, k, first, places, ahead, stride, z)
+      call look_up(self, past, k, first, ahead, row, z)
    end subroutine values_of
 
    !> A time in the problem's history. Where that may jump it lies between those of the step's ends.
@@ -145,15 +145,15 @@ contains
    end function time_before
 
    !> One delayed value at several places, ascending: step by step of the past.
-   pure subroutine look_up(self, past, k, from, places, ahead, stride, z)
+   pure subroutine look_up(self, past, k, from, ahead, row, z)
       type(cursor_type), intent(inout) :: self
       type(history_type), intent(in) :: past
       integer, intent(in) :: k
       !> The first place to read
       integer, intent(in) :: from
-      integer, intent(in) :: places, stride
-      real(wp), intent(in) :: ahead(places)
-      real(wp), intent(inout) :: z(stride, *)
+      real(wp), contiguous, intent(in) :: ahead(:)
+      integer, intent(in) :: row
+      real(wp), contiguous, intent(inout) :: z(:, :)
       real(wp) :: limit, margin
       integer :: first
 
@@ -163,8 +163,8 @@ contains
       do
          limit = huge(1.0_wp)
          if (self%step(k) < past%newest) limit = past%length_of(self%step(k)) + margin
-         call past%values(self%step(k), k, self%offset(k), limit, places, ahead, first, stride, z)
-         if (first > places) exit
+         call past%values(self%step(k), k, self%offset(k), limit, ahead, first, row, z)
+         if (first > size(ahead)) exit
          call self%read_from(past, k, self%step(k) + 1)
       end do
    end subroutine look_up

@@ -146,7 +146,7 @@ contains
    end function value
 
    !> Delayed value number k by the polynomial of a step, at ascending times up to a limit.
-   pure subroutine values(self, step, k, offset, limit, places, ahead, first, stride, z)
+   pure subroutine values(self, step, k, offset, limit, ahead, first, row, z)
       class(history_type), intent(in) :: self
       integer(int64), intent(in) :: step
       integer, intent(in) :: k
@@ -154,17 +154,17 @@ contains
       real(wp), intent(in) :: offset
       !> Time since the start of the step up to which its polynomial is read
       real(wp), intent(in) :: limit
-      integer, intent(in) :: places
-      real(wp), intent(in) :: ahead(places)
+      real(wp), contiguous, intent(in) :: ahead(:)
       !> First time to read; on return the first that lies beyond the limit
       integer, intent(inout) :: first
-      !> The delayed value at all times, and numbers from one to the next
-      integer, intent(in) :: stride
-      real(wp), intent(inout) :: z(stride, *)
+      !> The row of z that the values fill
+      integer, intent(in) :: row
+      real(wp), contiguous, intent(inout) :: z(:, :)
 
       associate (slot => self%slots(slot_of(self, step)))
          call newton_values(slot%degree, slot%nodes, self%stored(slot%place)%a(:, self%row(k)), &
-                            offset, slot%length, limit, places, ahead, first, stride, z)
+                            offset, slot%length, limit, size(ahead), ahead, first, row, &
+                            size(z, 1), z)
       end associate
    end subroutine values
 

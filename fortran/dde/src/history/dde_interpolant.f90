@@ -58,7 +58,7 @@ contains
    !> Values of p at ascending places, from number `first` up to a limit. Written out for the usual
    !> degrees, since most time of a step is spent on delayed values.
    pure subroutine newton_values(degree, x, a, offset, length, limit, places, ahead, first, &
-                                 stride, values)
+                                 row, rows, values)
       !> Degree of p
       integer, intent(in) :: degree
       !> Nodes
@@ -77,9 +77,9 @@ contains
       real(wp), intent(in) :: ahead(places)
       !> First place to read; on return the first that lies beyond the limit
       integer, intent(inout) :: first
-      !> Values at all places, and numbers from one to the next
-      integer, intent(in) :: stride
-      real(wp), intent(inout) :: values(stride, *)
+      !> The row that the values fill, and all rows
+      integer, intent(in) :: row, rows
+      real(wp), intent(inout) :: values(rows, places)
       real(wp) :: s, rest
       integer :: i, j
 
@@ -94,7 +94,7 @@ contains
             rest = (s - x(5))*(a(5) + (s - x(6))*(a(6) + (s - x(7))*(a(7) &
                    + (s - x(8))*(a(8) + rest))))
          end if
-         values(1, i) = a(0) + (s - x(1))*(a(1) + (s - x(2))*(a(2) + (s - x(3))*(a(3) &
+         values(row, i) = a(0) + (s - x(1))*(a(1) + (s - x(2))*(a(2) + (s - x(3))*(a(3) &
                         + (s - x(4))*(a(4) + rest))))
       end do
       first = i
