@@ -117,16 +117,16 @@ contains
       t_end = context%cursor%inside(context%cursor%t + h)
       stage = y + h*a21*k(1, :)
       call evaluate(context, t + c2*h, z(:, 1), 2, stage, k, slope, finite)
-      stage = y + h*(a31*k(1, :)) + h*a32*k(2, :)
+      stage = y + h*(a31*k(1, :)) + h*a32*slope
       call evaluate(context, t + c3*h, z(:, 2), 3, stage, k, slope, finite)
-      stage = y + h*(a41*k(1, :) + a42*k(2, :)) + h*a43*k(3, :)
+      stage = y + h*(a41*k(1, :) + a42*k(2, :)) + h*a43*slope
       call evaluate(context, t + c4*h, z(:, 3), 4, stage, k, slope, finite)
-      stage = y + h*(a51*k(1, :) + a52*k(2, :) + a53*k(3, :)) + h*a54*k(4, :)
+      stage = y + h*(a51*k(1, :) + a52*k(2, :) + a53*k(3, :)) + h*a54*slope
       call evaluate(context, t + c5*h, z(:, 4), 5, stage, k, slope, finite)
-      stage = y + h*(a61*k(1, :) + a62*k(2, :) + a63*k(3, :) + a64*k(4, :)) + h*a65*k(5, :)
+      stage = y + h*(a61*k(1, :) + a62*k(2, :) + a63*k(3, :) + a64*k(4, :)) + h*a65*slope
       call evaluate(context, t + c6*h, z(:, 5), 6, stage, k, slope, finite)
       stage = y + h*(a71*k(1, :) + a72*k(2, :) + a73*k(3, :) + a74*k(4, :) + a75*k(5, :)) &
-              + h*a76*k(6, :)
+              + h*a76*slope
       call evaluate(context, t_end, z(:, 6), 7, stage, k, slope, finite)
       y_new = y + h*(b1*k(1, :) + b3*k(3, :) + b4*k(4, :) + b5*k(5, :) + b6*k(6, :) &
                      + b7*k(7, :))

@@ -55,30 +55,30 @@ contains
       t_end = context%cursor%inside(context%cursor%t + h)
       stage = y + h*a21*k(1, :)
       call evaluate(context, t + c2*h, z(:, 1), 2, stage, k, slope, finite)
-      stage = y + h*(a31*k(1, :)) + h*a32*k(2, :)
+      stage = y + h*(a31*k(1, :)) + h*a32*slope
       call evaluate(context, t + c3*h, z(:, 2), 3, stage, k, slope, finite)
-      stage = y + h*(a41*k(1, :)) + h*a43*k(3, :)
+      stage = y + h*(a41*k(1, :)) + h*a43*slope
       call evaluate(context, t + c4*h, z(:, 3), 4, stage, k, slope, finite)
-      stage = y + h*(a51*k(1, :) + a53*k(3, :)) + h*a54*k(4, :)
+      stage = y + h*(a51*k(1, :) + a53*k(3, :)) + h*a54*slope
       call evaluate(context, t + c5*h, z(:, 5), 5, stage, k, slope, finite)
-      stage = y + h*(a61*k(1, :) + a64*k(4, :)) + h*a65*k(5, :)
+      stage = y + h*(a61*k(1, :) + a64*k(4, :)) + h*a65*slope
       call evaluate(context, t + c6*h, z(:, 7), 6, stage, k, slope, finite)
-      stage = y + h*(a71*k(1, :) + a74*k(4, :) + a75*k(5, :)) + h*a76*k(6, :)
+      stage = y + h*(a71*k(1, :) + a74*k(4, :) + a75*k(5, :)) + h*a76*slope
       call evaluate(context, t + c7*h, z(:, 4), 7, stage, k, slope, finite)
-      stage = y + h*(a81*k(1, :) + a84*k(4, :) + a85*k(5, :) + a86*k(6, :)) + h*a87*k(7, :)
+      stage = y + h*(a81*k(1, :) + a84*k(4, :) + a85*k(5, :) + a86*k(6, :)) + h*a87*slope
       call evaluate(context, t + c8*h, z(:, 6), 8, stage, k, slope, finite)
       stage = y + h*(a91*k(1, :) + a94*k(4, :) + a95*k(5, :) + a96*k(6, :) + a97*k(7, :)) &
-              + h*a98*k(8, :)
+              + h*a98*slope
       call evaluate(context, t + c9*h, z(:, 9), 9, stage, k, slope, finite)
       stage = y + h*(a10_1*k(1, :) + a10_4*k(4, :) + a10_5*k(5, :) + a10_6*k(6, :) &
-                     + a10_7*k(7, :) + a10_8*k(8, :)) + h*a10_9*k(9, :)
+                     + a10_7*k(7, :) + a10_8*k(8, :)) + h*a10_9*slope
       call evaluate(context, t + c10*h, z(:, 8), 10, stage, k, slope, finite)
       stage = y + h*(a11_1*k(1, :) + a11_4*k(4, :) + a11_5*k(5, :) + a11_6*k(6, :) &
-                     + a11_7*k(7, :) + a11_8*k(8, :) + a11_9*k(9, :)) + h*a11_10*k(10, :)
+                     + a11_7*k(7, :) + a11_8*k(8, :) + a11_9*k(9, :)) + h*a11_10*slope
       call evaluate(context, t + c11*h, z(:, 10), 11, stage, k, slope, finite)
       stage = y + h*(a12_1*k(1, :) + a12_4*k(4, :) + a12_5*k(5, :) + a12_6*k(6, :) &
                      + a12_7*k(7, :) + a12_8*k(8, :) + a12_9*k(9, :) + a12_10*k(10, :)) &
-              + h*a12_11*k(11, :)
+              + h*a12_11*slope
       call evaluate(context, t_end, z(:, 11), 12, stage, k, slope, finite)
       y_new = y + h*(b1*k(1, :) + b6*k(6, :) + b7*k(7, :) + b8*k(8, :) &
                      + b9*k(9, :) + b10*k(10, :) + b11*k(11, :) + b12*k(12, :))
@@ -96,13 +96,13 @@ contains
 
       t = context%cursor%t
       stage = y + h*(a14_1*k(1, :) + a14_7*k(7, :) + a14_8*k(8, :) + a14_9*k(9, :) &
-                     + a14_10*k(10, :) + a14_11*k(11, :) + a14_12*k(12, :)) + h*a14_13*k(13, :)
+                     + a14_10*k(10, :) + a14_11*k(11, :) + a14_12*k(12, :)) + h*a14_13*slope
       call evaluate(context, t + c14*h, z(:, 1), 14, stage, k, slope, finite)
       stage = y + h*(a15_1*k(1, :) + a15_6*k(6, :) + a15_7*k(7, :) + a15_8*k(8, :) &
-                     + a15_11*k(11, :) + a15_12*k(12, :) + a15_13*k(13, :)) + h*a15_14*k(14, :)
+                     + a15_11*k(11, :) + a15_12*k(12, :) + a15_13*k(13, :)) + h*a15_14*slope
       call evaluate(context, t + c15*h, z(:, 2), 15, stage, k, slope, finite)
       stage = y + h*(a16_1*k(1, :) + a16_6*k(6, :) + a16_7*k(7, :) + a16_8*k(8, :) &
-                     + a16_9*k(9, :) + a16_13*k(13, :) + a16_14*k(14, :)) + h*a16_15*k(15, :)
+                     + a16_9*k(9, :) + a16_13*k(13, :) + a16_14*k(14, :)) + h*a16_15*slope
       call evaluate(context, t + c16*h, z(:, 3), 16, stage, k, slope, finite)
    end subroutine take_dense_stages
 

@@ -116,6 +116,7 @@ contains
       !> The row of z that its values fill
       integer, intent(in) :: row
       real(wp), contiguous, intent(inout) :: z(:, :)
+      real(wp) :: margin
       integer :: first
 
       first = 1
@@ -128,7 +129,10 @@ contains
          if (first > size(ahead)) return
          call self%read_from(past, k, past%oldest)
       end if
-      call look_up(self, past, k, first, ahead, row, z)
+      margin = overlap*self%h
+      call self%walk_to(past, k, max(ahead(first), margin))
+      call past%values(k, self%delayed_start(k), margin, ahead, first, row, self%step(k), &
+                       self%offset(k), z)
    end subroutine values_of
 
    !> A time in the problem's history. Where that may jump it lies between those of the step's ends.
@@ -143,31 +147,6 @@ contains
       margin = spacings*spacing(max(abs(self%t), lag))
       time = max(min(time, self%t + (self%h - lag) - margin), self%t - lag + margin)
    end function time_before
-
-   !> One delayed value at several places, ascending: step by step of the past.
-   pure subroutine look_up(self, past, k, from, ahead, row, z)
-      type(cursor_type), intent(inout) :: self
-      type(history_type), intent(in) :: past
-      integer, intent(in) :: k
-      !> The first place to read
-      integer, intent(in) :: from
-      real(wp), contiguous, intent(in) :: ahead(:)
-      integer, intent(in) :: row
-      real(wp), contiguous, intent(inout) :: z(:, :)
-      real(wp) :: limit, margin
-      integer :: first
-
-      margin = overlap*self%h
-      call self%walk_to(past, k, max(ahead(from), margin))
-      first = from
-      do
-         limit = huge(1.0_wp)
-         if (self%step(k) < past%newest) limit = past%length_of(self%step(k)) + margin
-         call past%values(self%step(k), k, self%offset(k), limit, ahead, first, row, z)
-         if (first > size(ahead)) exit
-         call self%read_from(past, k, self%step(k) + 1)
-      end do
-   end subroutine look_up
 
    !> Let delayed value k read the past step that holds a place of the current step.
    pure subroutine walk_to(self, past, k, ahead)
