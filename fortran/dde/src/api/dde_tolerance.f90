@@ -20,7 +20,7 @@ module dde_tolerance
       !> follow from it. Where all are 0 it is the strictest absolute one, as for a state of size 1.
       real(wp) :: level = 0.0_wp
    contains
-      procedure, non_overridable :: scale, scale_between, of_component
+      procedure, non_overridable :: scale, of_component
    end type tolerance_type
 
    interface tolerance_type
@@ -53,22 +53,8 @@ contains
       !> Tolerance of each component, shape (n)
       real(wp), contiguous, intent(out) :: values(:)
 
-      call self%scale_between(size(y), y, y, values)
+      values = self%absolute + self%relative*abs(y)
    end subroutine scale
-
-   !> Tolerances for two states, those of the larger values.
-   pure subroutine scale_between(self, n, y, other, values)
-      class(tolerance_type), intent(in) :: self
-      integer, intent(in) :: n
-      real(wp), intent(in) :: y(n), other(n)
-      !> Tolerance of each component
-      real(wp), intent(out) :: values(n)
-      integer :: i
-
-      do i = 1, n
-         values(i) = self%absolute(i) + self%relative(i)*max(abs(y(i)), abs(other(i)))
-      end do
-   end subroutine scale_between
 
    !> Tolerance of one component.
    pure real(wp) function of_component(self, i, value) result(tolerance)

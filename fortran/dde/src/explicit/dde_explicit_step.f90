@@ -77,7 +77,7 @@ contains
       real(wp), intent(out) :: error
       real(wp) :: error_between, times(slope_count)
       logical :: finite
-      integer :: last
+      integer :: i, last
 
       self%t = context%cursor%t
       self%h = context%cursor%h
@@ -96,7 +96,9 @@ contains
                           pair%stages + 1, self%y_new, self%k, self%work(:, newest), finite)
          end if
          if (finite) then
-            call tolerance%scale_between(n, self%y, self%y_new, self%scale)
+            do i = 1, n
+               self%scale(i) = tolerance%of_component(i, max(abs(self%y(i)), abs(self%y_new(i))))
+            end do
             call pair%find_error(n, self%k, h, self%scale, tolerance%level, self%embedded, error)
             last = size(pair%dense_places)
             if (error > 1.0_wp .or. last == 0 .or. .not. context%between) return

@@ -91,7 +91,9 @@ contains
       real(wp), intent(out) :: lacking
       character(len=8) :: name
 
-      name = name_of(problem, method, tolerance, origin)
+      name = method
+      if (name == "auto") name = matching_method(problem, tolerance, origin, implicit=.false.)
+      if (name == "explicit") name = explicit_method(tolerance%level)
       lacking = find_lacking(size_of_step(problem, name))
       if (lacking > 0.0_wp) return
       select case (name)
@@ -111,20 +113,6 @@ contains
          call step%set_up(problem, name)
       end select
    end subroutine choose_method
-
-   !> The method that a run begins with.
-   pure function name_of(problem, method, tolerance, origin) result(name)
-      class(dde_problem_type), intent(in) :: problem
-      !> Method asked for
-      character(len=8), intent(in) :: method
-      type(tolerance_type), intent(in) :: tolerance
-      real(wp), intent(in) :: origin
-      character(len=8) :: name
-
-      name = method
-      if (name == "auto") name = matching_method(problem, tolerance, origin, implicit=.false.)
-      if (name == "explicit") name = explicit_method(tolerance%level)
-   end function name_of
 
    !> The explicit or the implicit method of `auto`. A loose tolerance asks for less than a series
    !> gives, unless that of a slow solution may hold in steps up to the shortest delay.

@@ -10,7 +10,7 @@ module dde_orders
    !> Least tolerance of the pair 5(4); below it the pair is 8(5,3).
    real(wp), parameter :: least_of_bs5 = 3.0e-6_wp
    !> Least tolerance at which the pair takes fewer instructions than a Taylor series.
-   real(wp), parameter :: least_of_loose = 3.0e-5_wp
+   real(wp), parameter :: least_of_loose = 1.0e-3_wp
    !> Least tolerances of Radau IIA of order 5 and 9; below them the order is 13.
    real(wp), parameter :: least_of_radau5 = 3.0e-5_wp, least_of_radau9 = 1.0e-11_wp
    !> Degree of a Taylor series = this - log10(tolerance), near the degree of least cost for an
