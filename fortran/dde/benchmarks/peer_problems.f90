@@ -2,7 +2,7 @@
 !> The problem on which solvers are compared: PROBLEM is its number, given to the compiler, so that
 !> others than this solver have f in one piece, as their users write it.
 module peer_problems
-   use block_problem, only: spring_block
+   use block_problem, only: block_with_jacobian, spring_block
    use dde_kinds, only: wp
    use published_problems, only: enzyme, infection, mackey_glass
    use test_problems, only: constant_past, wille_baker
@@ -28,13 +28,13 @@ contains
       !> f, jacobian (of the block) or series: what it gives
       character(len=*), intent(in) :: given
       class(constant_past), allocatable, intent(out) :: problem
-      type(spring_block) :: with_jacobian
+      type(block_with_jacobian) :: block
 
       select case (PROBLEM)
       case (0)
-         with_jacobian = spring_block(tau, epsilon, xi, gamma, past)
-         if (given == "f") problem = with_jacobian%chain
-         if (given /= "f") problem = with_jacobian
+         block%spring_block = spring_block(tau, epsilon, xi, gamma, past)
+         if (given == "f") problem = block%spring_block
+         if (given /= "f") problem = block
       case (1)
          problem = enzyme()
       case (2)

@@ -6,7 +6,7 @@ module dde_tolerance
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: hopeless, scaled_norm, tolerance_type
+   public :: all_finite, hopeless, scaled_norm, tolerance_type
 
    !> Bounds of `level`: a smaller tolerance is below rounding, a larger one asks for no digit.
    real(wp), parameter :: least_level = epsilon(1.0_wp), most_level = 1.0_wp
@@ -21,7 +21,7 @@ module dde_tolerance
       !> follow from it. Where all are 0 it is the strictest absolute one, as for a state of size 1.
       real(wp) :: level = 0.0_wp
    contains
-      procedure :: scale, of_component
+      procedure, non_overridable :: scale, of_component
    end type tolerance_type
 
    interface tolerance_type
@@ -78,12 +78,12 @@ contains
       real(wp) :: norm
       integer :: i
 
+      if (.not. all_finite(n, x)) then
+         norm = ieee_value(1.0_wp, ieee_quiet_nan)
+         return
+      end if
       norm = 0.0_wp
       do i = 1, n
-         if (.not. ieee_is_finite(x(i))) then
-            norm = ieee_value(1.0_wp, ieee_quiet_nan)
-            return
-         end if
          if (abs(x(i))/hopeless > scale(i)) then
             norm = huge(1.0_wp)
          else
@@ -91,4 +91,18 @@ contains
          end if
       end do
    end function scaled_norm
+
+   !> Whether n numbers are finite, and their sum, too.
+   pure logical function all_finite(n, x) result(value)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: x(n)
+      real(wp) :: total
+      integer :: i
+
+      total = 0.0_wp
+      do i = 1, n
+         total = total + abs(x(i))
+      end do
+      value = ieee_is_finite(total)
+   end function all_finite
 end module dde_tolerance

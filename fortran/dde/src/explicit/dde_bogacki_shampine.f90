@@ -3,7 +3,7 @@
 !> Comput. Math. Applic. 32, 15). Its dense output of order 4 takes no further stages: the cubic
 !> Hermite polynomial, and a multiple of s**2 (1 - s)**2.
 module dde_bogacki_shampine
-   use dde_explicit_pair, only: add, explicit_pair, lanes, slope_count
+   use dde_explicit_pair, only: evaluate, explicit_pair, slope_count
    use dde_step_context, only: step_context
    use dde_tolerance, only: scaled_norm
    use dde_kinds, only: wp
@@ -86,71 +86,65 @@ module dde_bogacki_shampine
    !> The pair. Slope 8 is that at the end.
    type, extends(explicit_pair) :: bogacki_shampine
    contains
-      procedure :: take_stages, find_error, find_coefficients
+      procedure :: set_up, take_stages, find_error, find_coefficients
    end type bogacki_shampine
-
-   interface bogacki_shampine
-      module procedure :: new_pair
-   end interface bogacki_shampine
 
 contains
 
    !> Its constants. The explicit method is stable up to 4.
-   pure function new_pair() result(pair)
-      type(bogacki_shampine) :: pair
+   pure subroutine set_up(self, nodes)
+      class(bogacki_shampine), intent(inout) :: self
+      real(wp), allocatable, intent(out) :: nodes(:)
 
-      pair%order = 5
-      pair%stages = 7
-      pair%limited_by_stability = 1.75_wp
-      pair%places = [c2, c3, c4, c5, c6, 1.0_wp]
-      allocate (pair%dense_places(0))
-      pair%nodes = real([0, 1, 0, 1], wp)
-   end function new_pair
+      self%order = 5
+      self%stages = 7
+      self%limited_by_stability = 1.75_wp
+      self%places = [c2, c3, c4, c5, c6, 1.0_wp]
+      allocate (self%dense_places(0))
+      nodes = real([0, 1, 0, 1], wp)
+   end subroutine set_up
 
    !> Stages 2 to 7 and the state at the end of the step.
-   pure subroutine take_stages(self, context, h, blocks, y, z, k, stage, y_new, finite)
+   pure subroutine take_stages(self, context, n, h, y, z, k, slope, stage, y_new, finite)
       class(bogacki_shampine), intent(in) :: self
       type(step_context), intent(inout) :: context
-      real(wp), intent(in) :: h
-      integer, intent(in) :: blocks
-      real(wp), intent(in) :: y(lanes, blocks), z(size(context%problem%lag), size(self%places))
-      real(wp), intent(inout) :: k(lanes, blocks, slope_count)
-      real(wp), intent(inout) :: stage(lanes, blocks), y_new(lanes, blocks)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: h, y(n), z(size(context%problem%lag), size(self%places))
+      real(wp), intent(inout) :: k(slope_count, n), slope(n), stage(n), y_new(n)
       logical, intent(inout) :: finite
       real(wp) :: t, t_end
 
       t = context%cursor%inside(context%cursor%t)
       t_end = context%cursor%inside(context%cursor%t + h)
-      stage = y
-      call add(context, t + c2*h, stage, h*a21, k(:, :, 1), z(:, 1), k(:, :, 2), finite)
-      stage = y + h*(a31*k(:, :, 1))
-      call add(context, t + c3*h, stage, h*a32, k(:, :, 2), z(:, 2), k(:, :, 3), finite)
-      stage = y + h*(a41*k(:, :, 1) + a42*k(:, :, 2))
-      call add(context, t + c4*h, stage, h*a43, k(:, :, 3), z(:, 3), k(:, :, 4), finite)
-      stage = y + h*(a51*k(:, :, 1) + a52*k(:, :, 2) + a53*k(:, :, 3))
-      call add(context, t + c5*h, stage, h*a54, k(:, :, 4), z(:, 4), k(:, :, 5), finite)
-      stage = y + h*(a61*k(:, :, 1) + a62*k(:, :, 2) + a63*k(:, :, 3) + a64*k(:, :, 4))
-      call add(context, t + c6*h, stage, h*a65, k(:, :, 5), z(:, 5), k(:, :, 6), finite)
-      stage = y + h*(a71*k(:, :, 1) + a72*k(:, :, 2) + a73*k(:, :, 3) + a74*k(:, :, 4) &
-                     + a75*k(:, :, 5))
-      call add(context, t_end, stage, h*a76, k(:, :, 6), z(:, 6), k(:, :, 7), finite)
-      y_new = y + h*(b1*k(:, :, 1) + b3*k(:, :, 3) + b4*k(:, :, 4) + b5*k(:, :, 5) &
-                     + b6*k(:, :, 6) + b7*k(:, :, 7))
+      stage = y + h*a21*k(1, :)
+      call evaluate(context, t + c2*h, z(:, 1), 2, stage, k, slope, finite)
+      stage = y + h*(a31*k(1, :)) + h*a32*slope
+      call evaluate(context, t + c3*h, z(:, 2), 3, stage, k, slope, finite)
+      stage = y + h*(a41*k(1, :) + a42*k(2, :)) + h*a43*slope
+      call evaluate(context, t + c4*h, z(:, 3), 4, stage, k, slope, finite)
+      stage = y + h*(a51*k(1, :) + a52*k(2, :) + a53*k(3, :)) + h*a54*slope
+      call evaluate(context, t + c5*h, z(:, 4), 5, stage, k, slope, finite)
+      stage = y + h*(a61*k(1, :) + a62*k(2, :) + a63*k(3, :) + a64*k(4, :)) + h*a65*slope
+      call evaluate(context, t + c6*h, z(:, 5), 6, stage, k, slope, finite)
+      stage = y + h*(a71*k(1, :) + a72*k(2, :) + a73*k(3, :) + a74*k(4, :) + a75*k(5, :)) &
+              + h*a76*slope
+      call evaluate(context, t_end, z(:, 6), 7, stage, k, slope, finite)
+      y_new = y + h*(b1*k(1, :) + b3*k(3, :) + b4*k(4, :) + b5*k(5, :) + b6*k(6, :) &
+                     + b7*k(7, :))
    end subroutine take_stages
 
    !> The sum of both embedded errors, the largest of all components. In steps far too long each of
    !> them alone can be small by chance.
-   pure subroutine find_error(self, n, blocks, k, h, scale, tolerance, embedded, error)
+   pure subroutine find_error(self, n, k, h, scale, tolerance, embedded, error)
       class(bogacki_shampine), intent(in) :: self
-      integer, intent(in) :: n, blocks
-      real(wp), intent(in) :: k(lanes, blocks, slope_count), h, scale(n), tolerance
-      real(wp), intent(out) :: embedded(lanes, blocks, 2), error
+      integer, intent(in) :: n
+      real(wp), intent(in) :: k(slope_count, n), h, scale(n), tolerance
+      real(wp), intent(out) :: embedded(n, 2), error
 
-      embedded(:, :, 2) = f1*k(:, :, 1) + f3*k(:, :, 3) + f4*k(:, :, 4) + f5*k(:, :, 5) &
-                          + f6*k(:, :, 6) + f7*k(:, :, 7) + f8*k(:, :, 8)
-      embedded(:, :, 1) = strictness*h*(abs(e1*k(:, :, 1) + e3*k(:, :, 3) + e4*k(:, :, 4) &
-                                            + e5*k(:, :, 5) + e6*k(:, :, 6)) &
-                                        + abs(embedded(:, :, 2)))
+      embedded(:, 1) = strictness*h*(abs(e1*k(1, :) + e3*k(3, :) + e4*k(4, :) + e5*k(5, :) &
+                                         + e6*k(6, :)) &
+                                     + abs(f1*k(1, :) + f3*k(3, :) + f4*k(4, :) + f5*k(5, :) &
+                                           + f6*k(6, :) + f7*k(7, :) + f8*k(8, :)))
       error = scaled_norm(n, embedded, scale)
    end subroutine find_error
 
@@ -158,7 +152,7 @@ contains
    pure subroutine find_coefficients(self, k, h, y, y_new, a)
       class(bogacki_shampine), intent(in) :: self
       real(wp), intent(in) :: k(slope_count), h, y, y_new
-      real(wp), intent(out) :: a(0:size(self%nodes))
+      real(wp), contiguous, intent(out) :: a(0:)
       real(wp) :: rise
 
       rise = y_new - y

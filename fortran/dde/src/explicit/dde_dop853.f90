@@ -3,7 +3,7 @@
 !> and Wanner 1993, sec. II.5, II.6 and II.10).
 module dde_dop853
    use dde_dop853_tableau
-   use dde_explicit_pair, only: add, explicit_pair, lanes, slope_count
+   use dde_explicit_pair, only: evaluate, explicit_pair, slope_count
    use dde_step_context, only: step_context
    use dde_tolerance, only: scaled_norm
    use dde_kinds, only: wp
@@ -23,94 +23,88 @@ module dde_dop853
    !> The pair. Slope 13 is that at the end, slopes 14 to 16 serve the dense output.
    type, extends(explicit_pair) :: dop853
    contains
-      procedure :: take_stages, take_dense_stages, find_error, find_dense_error, find_coefficients
+      procedure :: set_up, take_stages, take_dense_stages, find_error, find_dense_error
+      procedure :: find_coefficients
    end type dop853
-
-   interface dop853
-      module procedure :: new_pair
-   end interface dop853
 
 contains
 
    !> Its constants. The explicit method is stable up to 6 (Hairer and Wanner 1996, sec. IV.2).
-   pure function new_pair() result(pair)
-      type(dop853) :: pair
+   pure subroutine set_up(self, nodes)
+      class(dop853), intent(inout) :: self
+      real(wp), allocatable, intent(out) :: nodes(:)
 
-      pair%order = 8
-      pair%stages = 12
-      pair%limited_by_stability = 2.5_wp
-      pair%places = [c2, c3, c4, c7, c5, c8, c6, c10, c9, c11, 1.0_wp]
-      pair%dense_places = [c14, c15, c16]
-      pair%nodes = real([0, 1, 0, 1, 0, 1, 0], wp)
-   end function new_pair
+      self%order = 8
+      self%stages = 12
+      self%limited_by_stability = 2.5_wp
+      self%places = [c2, c3, c4, c7, c5, c8, c6, c10, c9, c11, 1.0_wp]
+      self%dense_places = [c14, c15, c16]
+      nodes = real([0, 1, 0, 1, 0, 1, 0], wp)
+   end subroutine set_up
 
    !> Stages 2 to 12 and the state at the end of the step.
-   pure subroutine take_stages(self, context, h, blocks, y, z, k, stage, y_new, finite)
+   pure subroutine take_stages(self, context, n, h, y, z, k, slope, stage, y_new, finite)
       class(dop853), intent(in) :: self
       type(step_context), intent(inout) :: context
-      real(wp), intent(in) :: h
-      integer, intent(in) :: blocks
-      real(wp), intent(in) :: y(lanes, blocks), z(size(context%problem%lag), size(self%places))
-      real(wp), intent(inout) :: k(lanes, blocks, slope_count)
-      real(wp), intent(inout) :: stage(lanes, blocks), y_new(lanes, blocks)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: h, y(n), z(size(context%problem%lag), size(self%places))
+      real(wp), intent(inout) :: k(slope_count, n), slope(n), stage(n), y_new(n)
       logical, intent(inout) :: finite
       real(wp) :: t, t_end
 
       t = context%cursor%inside(context%cursor%t)
       t_end = context%cursor%inside(context%cursor%t + h)
-      stage = y
-      call add(context, t + c2*h, stage, h*a21, k(:, :, 1), z(:, 1), k(:, :, 2), finite)
-      stage = y + h*(a31*k(:, :, 1))
-      call add(context, t + c3*h, stage, h*a32, k(:, :, 2), z(:, 2), k(:, :, 3), finite)
-      stage = y + h*(a41*k(:, :, 1))
-      call add(context, t + c4*h, stage, h*a43, k(:, :, 3), z(:, 3), k(:, :, 4), finite)
-      stage = y + h*(a51*k(:, :, 1) + a53*k(:, :, 3))
-      call add(context, t + c5*h, stage, h*a54, k(:, :, 4), z(:, 5), k(:, :, 5), finite)
-      stage = y + h*(a61*k(:, :, 1) + a64*k(:, :, 4))
-      call add(context, t + c6*h, stage, h*a65, k(:, :, 5), z(:, 7), k(:, :, 6), finite)
-      stage = y + h*(a71*k(:, :, 1) + a74*k(:, :, 4) + a75*k(:, :, 5))
-      call add(context, t + c7*h, stage, h*a76, k(:, :, 6), z(:, 4), k(:, :, 7), finite)
-      stage = y + h*(a81*k(:, :, 1) + a84*k(:, :, 4) + a85*k(:, :, 5) + a86*k(:, :, 6))
-      call add(context, t + c8*h, stage, h*a87, k(:, :, 7), z(:, 6), k(:, :, 8), finite)
-      stage = y + h*(a91*k(:, :, 1) + a94*k(:, :, 4) + a95*k(:, :, 5) + a96*k(:, :, 6) &
-                     + a97*k(:, :, 7))
-      call add(context, t + c9*h, stage, h*a98, k(:, :, 8), z(:, 9), k(:, :, 9), finite)
-      stage = y + h*(a10_1*k(:, :, 1) + a10_4*k(:, :, 4) + a10_5*k(:, :, 5) + a10_6*k(:, :, 6) &
-                     + a10_7*k(:, :, 7) + a10_8*k(:, :, 8))
-      call add(context, t + c10*h, stage, h*a10_9, k(:, :, 9), z(:, 8), k(:, :, 10), finite)
-      stage = y + h*(a11_1*k(:, :, 1) + a11_4*k(:, :, 4) + a11_5*k(:, :, 5) + a11_6*k(:, :, 6) &
-                     + a11_7*k(:, :, 7) + a11_8*k(:, :, 8) + a11_9*k(:, :, 9))
-      call add(context, t + c11*h, stage, h*a11_10, k(:, :, 10), z(:, 10), k(:, :, 11), finite)
-      stage = y + h*(a12_1*k(:, :, 1) + a12_4*k(:, :, 4) + a12_5*k(:, :, 5) + a12_6*k(:, :, 6) &
-                     + a12_7*k(:, :, 7) + a12_8*k(:, :, 8) + a12_9*k(:, :, 9) &
-                     + a12_10*k(:, :, 10))
-      call add(context, t_end, stage, h*a12_11, k(:, :, 11), z(:, 11), k(:, :, 12), finite)
-      y_new = y + h*(b1*k(:, :, 1) + b6*k(:, :, 6) + b7*k(:, :, 7) + b8*k(:, :, 8) &
-                     + b9*k(:, :, 9) + b10*k(:, :, 10) + b11*k(:, :, 11) + b12*k(:, :, 12))
+      stage = y + h*a21*k(1, :)
+      call evaluate(context, t + c2*h, z(:, 1), 2, stage, k, slope, finite)
+      stage = y + h*(a31*k(1, :)) + h*a32*slope
+      call evaluate(context, t + c3*h, z(:, 2), 3, stage, k, slope, finite)
+      stage = y + h*(a41*k(1, :)) + h*a43*slope
+      call evaluate(context, t + c4*h, z(:, 3), 4, stage, k, slope, finite)
+      stage = y + h*(a51*k(1, :) + a53*k(3, :)) + h*a54*slope
+      call evaluate(context, t + c5*h, z(:, 5), 5, stage, k, slope, finite)
+      stage = y + h*(a61*k(1, :) + a64*k(4, :)) + h*a65*slope
+      call evaluate(context, t + c6*h, z(:, 7), 6, stage, k, slope, finite)
+      stage = y + h*(a71*k(1, :) + a74*k(4, :) + a75*k(5, :)) + h*a76*slope
+      call evaluate(context, t + c7*h, z(:, 4), 7, stage, k, slope, finite)
+      stage = y + h*(a81*k(1, :) + a84*k(4, :) + a85*k(5, :) + a86*k(6, :)) + h*a87*slope
+      call evaluate(context, t + c8*h, z(:, 6), 8, stage, k, slope, finite)
+      stage = y + h*(a91*k(1, :) + a94*k(4, :) + a95*k(5, :) + a96*k(6, :) + a97*k(7, :)) &
+              + h*a98*slope
+      call evaluate(context, t + c9*h, z(:, 9), 9, stage, k, slope, finite)
+      stage = y + h*(a10_1*k(1, :) + a10_4*k(4, :) + a10_5*k(5, :) + a10_6*k(6, :) &
+                     + a10_7*k(7, :) + a10_8*k(8, :)) + h*a10_9*slope
+      call evaluate(context, t + c10*h, z(:, 8), 10, stage, k, slope, finite)
+      stage = y + h*(a11_1*k(1, :) + a11_4*k(4, :) + a11_5*k(5, :) + a11_6*k(6, :) &
+                     + a11_7*k(7, :) + a11_8*k(8, :) + a11_9*k(9, :)) + h*a11_10*slope
+      call evaluate(context, t + c11*h, z(:, 10), 11, stage, k, slope, finite)
+      stage = y + h*(a12_1*k(1, :) + a12_4*k(4, :) + a12_5*k(5, :) + a12_6*k(6, :) &
+                     + a12_7*k(7, :) + a12_8*k(8, :) + a12_9*k(9, :) + a12_10*k(10, :)) &
+              + h*a12_11*slope
+      call evaluate(context, t_end, z(:, 11), 12, stage, k, slope, finite)
+      y_new = y + h*(b1*k(1, :) + b6*k(6, :) + b7*k(7, :) + b8*k(8, :) &
+                     + b9*k(9, :) + b10*k(10, :) + b11*k(11, :) + b12*k(12, :))
    end subroutine take_stages
 
    !> Slopes 14 to 16, for the dense output.
-   pure subroutine take_dense_stages(self, context, h, blocks, y, z, k, stage, finite)
+   pure subroutine take_dense_stages(self, context, n, h, y, z, k, slope, stage, finite)
       class(dop853), intent(in) :: self
       type(step_context), intent(inout) :: context
-      real(wp), intent(in) :: h
-      integer, intent(in) :: blocks
-      real(wp), intent(in) :: y(lanes, blocks), z(size(context%problem%lag), &
-                              size(self%dense_places))
-      real(wp), intent(inout) :: k(lanes, blocks, slope_count), stage(lanes, blocks)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: h, y(n), z(size(context%problem%lag), size(self%dense_places))
+      real(wp), intent(inout) :: k(slope_count, n), slope(n), stage(n)
       logical, intent(inout) :: finite
       real(wp) :: t
 
       t = context%cursor%t
-      stage = y + h*(a14_1*k(:, :, 1) + a14_7*k(:, :, 7) + a14_8*k(:, :, 8) + a14_9*k(:, :, 9) &
-                     + a14_10*k(:, :, 10) + a14_11*k(:, :, 11) + a14_12*k(:, :, 12))
-      call add(context, t + c14*h, stage, h*a14_13, k(:, :, 13), z(:, 1), k(:, :, 14), finite)
-      stage = y + h*(a15_1*k(:, :, 1) + a15_6*k(:, :, 6) + a15_7*k(:, :, 7) + a15_8*k(:, :, 8) &
-                     + a15_11*k(:, :, 11) + a15_12*k(:, :, 12) + a15_13*k(:, :, 13))
-      call add(context, t + c15*h, stage, h*a15_14, k(:, :, 14), z(:, 2), k(:, :, 15), finite)
-      stage = y + h*(a16_1*k(:, :, 1) + a16_6*k(:, :, 6) + a16_7*k(:, :, 7) + a16_8*k(:, :, 8) &
-                     + a16_9*k(:, :, 9) + a16_13*k(:, :, 13) + a16_14*k(:, :, 14))
-      call add(context, t + c16*h, stage, h*a16_15, k(:, :, 15), z(:, 3), k(:, :, 16), finite)
+      stage = y + h*(a14_1*k(1, :) + a14_7*k(7, :) + a14_8*k(8, :) + a14_9*k(9, :) &
+                     + a14_10*k(10, :) + a14_11*k(11, :) + a14_12*k(12, :)) + h*a14_13*slope
+      call evaluate(context, t + c14*h, z(:, 1), 14, stage, k, slope, finite)
+      stage = y + h*(a15_1*k(1, :) + a15_6*k(6, :) + a15_7*k(7, :) + a15_8*k(8, :) &
+                     + a15_11*k(11, :) + a15_12*k(12, :) + a15_13*k(13, :)) + h*a15_14*slope
+      call evaluate(context, t + c15*h, z(:, 2), 15, stage, k, slope, finite)
+      stage = y + h*(a16_1*k(1, :) + a16_6*k(6, :) + a16_7*k(7, :) + a16_8*k(8, :) &
+                     + a16_9*k(9, :) + a16_13*k(13, :) + a16_14*k(14, :)) + h*a16_15*slope
+      call evaluate(context, t + c16*h, z(:, 3), 16, stage, k, slope, finite)
    end subroutine take_dense_stages
 
    !> The largest e5^2/sqrt(e5^2 + 0.01 e3^2) of all components, with e3 and e5 over the tolerance
@@ -118,19 +112,19 @@ contains
    !> a large e3 of one must not hide the e5 of another). It assumes that e3 is of size h^4 and e5
    !> of size h^6. In a step far too long for that e5 can be small by chance while e3 is large.
    !> Therefore each of them has a bound of its own.
-   pure subroutine find_error(self, n, blocks, k, h, scale, tolerance, embedded, error)
+   pure subroutine find_error(self, n, k, h, scale, tolerance, embedded, error)
       class(dop853), intent(in) :: self
-      integer, intent(in) :: n, blocks
-      real(wp), intent(in) :: k(lanes, blocks, slope_count), h, scale(n), tolerance
-      real(wp), intent(out) :: embedded(lanes, blocks, 2), error
+      integer, intent(in) :: n
+      real(wp), intent(in) :: k(slope_count, n), h, scale(n), tolerance
+      real(wp), intent(out) :: embedded(n, 2), error
       real(wp) :: norm3, norm5
 
-      associate (e3 => embedded(:, :, 2), e5 => embedded(:, :, 1))
-         e3 = h*((b1 - bhh1)*k(:, :, 1) + b6*k(:, :, 6) + b7*k(:, :, 7) + b8*k(:, :, 8) &
-                 + (b9 - bhh2)*k(:, :, 9) + b10*k(:, :, 10) + b11*k(:, :, 11) &
-                 + (b12 - bhh3)*k(:, :, 12))
-         e5 = h*(er1*k(:, :, 1) + er6*k(:, :, 6) + er7*k(:, :, 7) + er8*k(:, :, 8) &
-                 + er9*k(:, :, 9) + er10*k(:, :, 10) + er11*k(:, :, 11) + er12*k(:, :, 12))
+      associate (e3 => embedded(:, 2), e5 => embedded(:, 1))
+         e3 = h*((b1 - bhh1)*k(1, :) + b6*k(6, :) + b7*k(7, :) + b8*k(8, :) &
+                 + (b9 - bhh2)*k(9, :) + b10*k(10, :) + b11*k(11, :) &
+                 + (b12 - bhh3)*k(12, :))
+         e5 = h*(er1*k(1, :) + er6*k(6, :) + er7*k(7, :) + er8*k(8, :) &
+                 + er9*k(9, :) + er10*k(10, :) + er11*k(11, :) + er12*k(12, :))
          norm3 = scaled_norm(n, e3, scale)
          norm5 = scaled_norm(n, e5, scale)
          error = huge(1.0_wp)
@@ -164,15 +158,15 @@ contains
    !> The dense output is of one order less than the pair, and where a component decays within the
    !> step its error can be large while that at the end is small. It is estimated by the last
    !> coefficient.
-   pure subroutine find_dense_error(self, n, blocks, k, h, scale, tolerance, last, error)
+   pure subroutine find_dense_error(self, n, k, h, scale, tolerance, last, error)
       class(dop853), intent(in) :: self
-      integer, intent(in) :: n, blocks
-      real(wp), intent(in) :: k(lanes, blocks, slope_count), h, scale(n), tolerance
-      real(wp), intent(out) :: last(lanes, blocks), error
+      integer, intent(in) :: n
+      real(wp), intent(in) :: k(slope_count, n), h, scale(n), tolerance
+      real(wp), intent(out) :: last(n), error
 
-      last = h*(d71*k(:, :, 1) + d76*k(:, :, 6) + d77*k(:, :, 7) + d78*k(:, :, 8) &
-                + d79*k(:, :, 9) + d7_10*k(:, :, 10) + d7_11*k(:, :, 11) + d7_12*k(:, :, 12) &
-                + d7_13*k(:, :, 13) + d7_14*k(:, :, 14) + d7_15*k(:, :, 15) + d7_16*k(:, :, 16))
+      last = h*(d71*k(1, :) + d76*k(6, :) + d77*k(7, :) + d78*k(8, :) &
+                + d79*k(9, :) + d7_10*k(10, :) + d7_11*k(11, :) + d7_12*k(12, :) &
+                + d7_13*k(13, :) + d7_14*k(14, :) + d7_15*k(15, :) + d7_16*k(16, :))
       error = share_of_last*sqrt(sqrt(sqrt(tolerance)))*scaled_norm(n, last, scale)
    end subroutine find_dense_error
 
@@ -180,7 +174,7 @@ contains
    pure subroutine find_coefficients(self, k, h, y, y_new, a)
       class(dop853), intent(in) :: self
       real(wp), intent(in) :: k(slope_count), h, y, y_new
-      real(wp), intent(out) :: a(0:size(self%nodes))
+      real(wp), contiguous, intent(out) :: a(0:)
       real(wp) :: rise
 
       rise = y_new - y

@@ -2,39 +2,39 @@
 !> One step of an explicit Runge-Kutta pair. It is at most as long as the shortest delay, so that
 !> all delayed values lie in the past.
 module dde_explicit_step
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde_bogacki_shampine, only: bogacki_shampine
    use dde_dop853, only: dop853
-   use dde_explicit_pair, only: evaluate, explicit_pair, lanes, slope_count
+   use dde_explicit_pair, only: evaluate, explicit_pair, slope_count
    use dde_controller, only: method_constants
    use dde_problem, only: dde_problem_type
    use dde_step, only: step_type
    use dde_step_context, only: step_context
+   use dde_tolerance, only: all_finite
    use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: explicit_step_type
 
-   !> Stages of the current step. Components fill blocks of lanes; unused lanes of the last are 0.
+   !> Columns of the work array: the newest slope, the argument of the last stage, and that of a
+   !> stage of the dense output.
+   integer, parameter :: newest = 1, stage = 2, dense_stage = 3
+
+   !> Stages of the current step.
    type, extends(step_type) :: explicit_step_type
       !> The pair
       class(explicit_pair), allocatable :: pair
-      !> Slopes of the step and its dense output, shape (lanes, blocks, slopes)
-      real(wp), allocatable :: k(:, :, :)
-      !> State at the start of the step and at its end, shape (lanes, blocks)
-      real(wp), allocatable :: start(:, :), finish(:, :)
-      !> Argument of the last stage, and of one of the dense output, shape (lanes, blocks)
-      real(wp), allocatable :: stage(:, :), dense_stage(:, :)
-      !> Delayed values at the places of the step and of its dense output, shape (delayed values,
-      !> places), and these as times since the start of the step
-      real(wp), allocatable :: delayed(:, :), dense_delayed(:, :)
-      real(wp), allocatable, private :: times(:), dense_times(:)
-      !> Errors of the embedded methods, shape (lanes, blocks, methods)
-      real(wp), allocatable :: embedded(:, :, :)
-      !> Whether all slopes so far are finite
+      !> Slopes of the step and its dense output, shape (slopes, n), and work, shape (n, columns)
+      real(wp), allocatable :: k(:, :), work(:, :)
+      !> Errors of the embedded methods, shape (n, methods)
+      real(wp), allocatable :: embedded(:, :)
+      !> Delayed values at the places of the step or of its dense output, shape (delayed values,
+      !> places)
+      real(wp), allocatable :: delayed(:, :)
+      !> Whether the first slope is finite
       logical :: finite = .true.
    contains
-      procedure :: set_up, attempt, interpolant, stiff, advance
+      procedure :: set_up, reset, attempt, interpolant, stiff, advance
    end type explicit_step_type
 
 contains
@@ -46,28 +46,29 @@ contains
       class(dde_problem_type), intent(in) :: problem
       !> Name of the pair
       character(len=*), intent(in) :: name
-      integer :: blocks
 
       if (name == "bs5") then
-         allocate (self%pair, source=bogacki_shampine())
+         allocate (bogacki_shampine :: self%pair)
       else
-         allocate (self%pair, source=dop853())
+         allocate (dop853 :: self%pair)
       end if
+      call self%pair%set_up(self%nodes)
       self%constants = method_constants(name=name, order=self%pair%order, &
                                         error_order=self%pair%order)
       call self%allocate_state(problem)
-      self%nodes = self%pair%nodes
-      blocks = (problem%n + lanes - 1)/lanes
-      allocate (self%k(lanes, blocks, slope_count), source=0.0_wp)
-      allocate (self%start(lanes, blocks), self%finish(lanes, blocks), source=0.0_wp)
-      allocate (self%stage(lanes, blocks), self%dense_stage(lanes, blocks), source=0.0_wp)
-      allocate (self%embedded(lanes, blocks, 2))
-      associate (places => size(self%pair%places), dense_places => size(self%pair%dense_places))
-         allocate (self%delayed(size(problem%lag), places), self%times(places))
-         allocate (self%dense_delayed(size(problem%lag), dense_places))
-         allocate (self%dense_times(dense_places))
+      associate (n => problem%n)
+         allocate (self%k(slope_count, n), self%work(n, dense_stage), source=0.0_wp)
+         allocate (self%embedded(n, 2))
       end associate
+      allocate (self%delayed(size(problem%lag), size(self%pair%places)))
    end subroutine set_up
+
+   !> See whether the first slope is finite.
+   pure subroutine reset(self)
+      class(explicit_step_type), intent(inout) :: self
+
+      self%finite = all_finite(size(self%slope), self%slope)
+   end subroutine reset
 
    !> Attempt a step. `error` is the estimate in units of the tolerance, at its end and, where they
    !> are read, at the places between, or not finite if an evaluation was not.
@@ -75,51 +76,44 @@ contains
       class(explicit_step_type), intent(inout) :: self
       type(step_context), intent(inout) :: context
       real(wp), intent(out) :: error
-      real(wp) :: error_between
+      real(wp) :: error_between, times(slope_count)
+      logical :: finite
+      integer :: i, last
 
       self%t = context%cursor%t
       self%h = context%cursor%h
-      call copy(size(self%y), self%y, self%start)
-      call copy(size(self%y), self%slope, self%k)
-      self%times = self%h*self%pair%places
-      call context%delayed_values(self%times, self%delayed)
-      self%finite = all(ieee_is_finite(self%slope))
-      if (self%finite) then
-         call self%pair%take_stages(context, self%h, size(self%k, 2), self%start, self%delayed, &
-                                    self%k, self%stage, self%finish, self%finite)
-      end if
-      call copy(size(self%y), self%finish, self%y_new)
-      error = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (.not. (self%finite .and. all(ieee_is_finite(self%y_new)))) return
-      call evaluate(context, context%cursor%inside(self%t + self%h), self%y_new, &
-                    self%delayed(:, size(self%times)), self%k(:, :, self%pair%stages + 1), &
-                    self%finite)
-      if (.not. self%finite) return
-      associate (tolerance => context%tolerance)
-         self%scale = tolerance%absolute + tolerance%relative*max(abs(self%y), abs(self%y_new))
-         call self%pair%find_error(size(self%y), size(self%k, 2), self%k, self%h, self%scale, &
-                                   tolerance%level, self%embedded, error)
-         if (error > 1.0_wp .or. size(self%dense_times) == 0 .or. .not. context%between) return
-         self%dense_times = self%h*self%pair%dense_places
-         call context%delayed_values(self%dense_times, self%dense_delayed)
-         call self%pair%take_dense_stages(context, self%h, size(self%k, 2), self%start, &
-                                          self%dense_delayed, self%k, self%dense_stage, self%finite)
-         call self%pair%find_dense_error(size(self%y), size(self%k, 2), self%k, self%h, &
-                                         self%scale, tolerance%level, self%dense_stage, &
-                                         error_between)
-         error = max(error, error_between)
-         if (.not. self%finite) error = ieee_value(1.0_wp, ieee_quiet_nan)
+      finite = self%finite
+      associate (n => context%problem%n, h => self%h, pair => self%pair, &
+                 tolerance => context%tolerance)
+         if (finite) then
+            last = size(pair%places)
+            times(:last) = h*pair%places
+            call context%delayed_values(times(:last), self%delayed)
+            self%k(1, :) = self%slope
+            call pair%take_stages(context, n, h, self%y, self%delayed, self%k, &
+                                  self%work(:, newest), self%work(:, stage), self%y_new, finite)
+            finite = finite .and. all_finite(n, self%y_new)
+            call evaluate(context, context%cursor%inside(self%t + h), self%delayed(:, last), &
+                          pair%stages + 1, self%y_new, self%k, self%work(:, newest), finite)
+         end if
+         if (finite) then
+            do i = 1, n
+               self%scale(i) = tolerance%of_component(i, max(abs(self%y(i)), abs(self%y_new(i))))
+            end do
+            call pair%find_error(n, self%k, h, self%scale, tolerance%level, self%embedded, error)
+            last = size(pair%dense_places)
+            if (error > 1.0_wp .or. last == 0 .or. .not. context%between) return
+            times(:last) = h*pair%dense_places
+            call context%delayed_values(times(:last), self%delayed(:, :last))
+            call pair%take_dense_stages(context, n, h, self%y, self%delayed, self%k, &
+                                        self%work(:, newest), self%work(:, dense_stage), finite)
+            call pair%find_dense_error(n, self%k, h, self%scale, tolerance%level, &
+                                       self%work(:, dense_stage), error_between)
+            error = max(error, error_between)
+         end if
       end associate
+      if (.not. finite) error = ieee_value(1.0_wp, ieee_quiet_nan)
    end subroutine attempt
-
-   !> Copy n numbers. Either side may be stored in lanes.
-   pure subroutine copy(n, from, to)
-      integer, intent(in) :: n
-      real(wp), intent(in) :: from(n)
-      real(wp), intent(inout) :: to(n)
-
-      to = from
-   end subroutine copy
 
    !> Whether stability limits the step: its length times the difference of the slopes of the last
    !> stage and at the end over the distance of their arguments, both at the end of the step (Hairer
@@ -127,32 +121,28 @@ contains
    pure logical function stiff(self) result(value)
       class(explicit_step_type), intent(in) :: self
       real(wp) :: distance, rise
+      integer :: i
 
-      associate (last => self%pair%stages, n => size(self%scale))
-         rise = largest_difference(n, self%k(:, :, last), self%k(:, :, last + 1), self%scale)
-         distance = largest_difference(n, self%stage, self%finish, self%scale)
+      distance = 0.0_wp
+      rise = 0.0_wp
+      associate (last => self%pair%stages)
+         do i = 1, size(self%scale)
+            rise = max(rise, abs(self%k(last + 1, i) - self%k(last, i))/self%scale(i))
+            distance = max(distance, abs(self%y_new(i) - self%work(i, stage))/self%scale(i))
+         end do
       end associate
       value = self%h*rise > self%pair%limited_by_stability*distance
    end function stiff
 
-   !> Largest difference of n numbers, in units of a scale.
-   pure real(wp) function largest_difference(n, a, b, scale) result(largest)
-      integer, intent(in) :: n
-      real(wp), intent(in) :: a(n), b(n), scale(n)
-      integer :: i
-
-      largest = 0.0_wp
-      do i = 1, n
-         largest = max(largest, abs(b(i) - a(i))/scale(i))
-      end do
-   end function largest_difference
-
    !> The end becomes the start of the next step, and its slope the first one.
    pure subroutine advance(self)
       class(explicit_step_type), intent(inout) :: self
+      integer :: i
 
-      self%y = self%y_new
-      call copy(size(self%y), self%k(:, :, self%pair%stages + 1), self%slope)
+      do i = 1, size(self%y)
+         self%y(i) = self%y_new(i)
+         self%slope(i) = self%k(self%pair%stages + 1, i)
+      end do
    end subroutine advance
 
    !> Dense output of component `i` over an accepted step, before `advance`.
@@ -160,9 +150,7 @@ contains
       class(explicit_step_type), intent(in) :: self
       integer, intent(in) :: i
       real(wp), contiguous, intent(out) :: a(0:)
-      real(wp) :: slopes(slope_count)
 
-      slopes = self%k(1 + modulo(i - 1, lanes), 1 + (i - 1)/lanes, :)
-      call self%pair%find_coefficients(slopes, self%h, self%y(i), self%y_new(i), a)
+      call self%pair%find_coefficients(self%k(:, i), self%h, self%y(i), self%y_new(i), a)
    end subroutine interpolant
 end module dde_explicit_step

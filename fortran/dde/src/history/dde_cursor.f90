@@ -17,8 +17,6 @@ module dde_cursor
    real(wp), parameter :: spacings = 4.0_wp
    !> Share of a step that may lie on the other side of the initial time without being read there.
    real(wp), parameter :: beside = 1.0e-9_wp
-   !> Most places that a method may read at once.
-   integer, parameter :: most_places = 16
 
    !> One step, and what each delayed value reads at its start.
    type :: cursor_type
@@ -98,40 +96,44 @@ contains
       class(cursor_type), intent(inout) :: self
       class(dde_problem_type), intent(in) :: problem
       type(history_type), intent(in) :: past
-      !> Times since the start of the step, ascending, 0..length, at most `most_places`
+      !> Times since the start of the step, ascending, 0..length
       real(wp), contiguous, intent(in) :: ahead(:)
-      !> Delayed values, shape (size(problem%lag), size(ahead))
-      real(wp), contiguous, intent(out) :: z(:, :)
-      real(wp) :: found(most_places)
+      !> Delayed values
+      real(wp), intent(out) :: z(size(problem%lag), size(ahead))
       integer :: k
 
-      do k = 1, size(z, 1)
-         call self%values_of(problem, past, k, ahead, found)
-         z(k, :) = found(:size(ahead))
+      do k = 1, size(problem%lag)
+         call self%values_of(problem, past, k, ahead, k, z)
       end do
    end subroutine values
 
    !> One delayed value at places of the step, each place after the one before.
-   pure subroutine values_of(self, problem, past, k, ahead, z)
+   pure subroutine values_of(self, problem, past, k, ahead, row, z)
       class(cursor_type), intent(inout) :: self
       class(dde_problem_type), intent(in) :: problem
       type(history_type), intent(in) :: past
       integer, intent(in) :: k
       real(wp), contiguous, intent(in) :: ahead(:)
-      real(wp), intent(inout) :: z(most_places)
+      !> The row of z that its values fill
+      integer, intent(in) :: row
+      real(wp), contiguous, intent(inout) :: z(:, :)
+      real(wp) :: margin
       integer :: first
 
       first = 1
       if (self%before_origin(k)) then
          do first = 1, size(ahead)
             if (ahead(first) > self%passes_origin(k) .and. past%newest >= past%oldest) exit
-            z(first) = problem%history(self%time_before(past, problem%lag(k), ahead(first)), &
-                                       problem%component(k))
+            z(row, first) = problem%history(self%time_before(past, problem%lag(k), ahead(first)), &
+                                          problem%component(k))
          end do
          if (first > size(ahead)) return
          call self%read_from(past, k, past%oldest)
       end if
-      call look_up(self, past, k, first, ahead, z)
+      margin = overlap*self%h
+      call self%walk_to(past, k, max(ahead(first), margin))
+      call past%values(k, self%delayed_start(k), margin, ahead, first, row, self%step(k), &
+                       self%offset(k), z)
    end subroutine values_of
 
    !> A time in the problem's history. Where that may jump it lies between those of the step's ends.
@@ -146,30 +148,6 @@ contains
       margin = spacings*spacing(max(abs(self%t), lag))
       time = max(min(time, self%t + (self%h - lag) - margin), self%t - lag + margin)
    end function time_before
-
-   !> One delayed value at several places, ascending: step by step of the past.
-   pure subroutine look_up(self, past, k, from, ahead, z)
-      type(cursor_type), intent(inout) :: self
-      type(history_type), intent(in) :: past
-      integer, intent(in) :: k
-      !> The first place to read
-      integer, intent(in) :: from
-      real(wp), contiguous, intent(in) :: ahead(:)
-      real(wp), intent(inout) :: z(most_places)
-      real(wp) :: limit, margin
-      integer :: first
-
-      margin = overlap*self%h
-      call self%walk_to(past, k, max(ahead(from), margin))
-      first = from
-      do
-         limit = huge(1.0_wp)
-         if (self%step(k) < past%newest) limit = past%length_of(self%step(k)) + margin
-         call past%values(self%step(k), k, self%offset(k), limit, ahead, first, z)
-         if (first > size(ahead)) exit
-         call self%read_from(past, k, self%step(k) + 1)
-      end do
-   end subroutine look_up
 
    !> Let delayed value k read the past step that holds a place of the current step.
    pure subroutine walk_to(self, past, k, ahead)

@@ -16,7 +16,7 @@ module dde_history
    public :: history_type
 
    !> Slots of a new ring. It is a power of two, as are its doubles.
-   integer, parameter :: first_capacity = 64
+   integer, parameter :: first_capacity = 16
    !> Real numbers of a slot beside its coefficients, at most.
    integer, parameter :: slot_size = 40
    !> Share of a step that rounding may hide.
@@ -60,6 +60,8 @@ module dde_history
       integer(int64), private :: spare = 0
       !> Number of polynomials allocated
       integer, private :: used = 0
+      !> Number of slots less 1, a mask of the bits of their numbers
+      integer(int64), private :: mask = 0
       !> The ring, and the polynomials of its steps
       type(slot_type), allocatable, private :: slots(:)
       type(polynomials), allocatable, private :: stored(:)
@@ -84,18 +86,17 @@ contains
       integer, intent(in), optional :: also(:)
       type(history_type) :: past
       integer, allocatable :: row_of(:)
-      logical, allocatable :: wanted(:)
-      integer :: i, k
+      integer :: i
 
       past%origin = origin
-      allocate (wanted(problem%n), source=.false.)
-      wanted(problem%component) = .true.
-      if (present(also)) wanted(also) = .true.
-      past%kept = pack([(i, i=1, problem%n)], wanted)
-      allocate (row_of(problem%n))
+      allocate (row_of(problem%n), source=0)
+      row_of(problem%component) = 1
+      if (present(also)) row_of(also) = 1
+      past%kept = pack([(i, i=1, problem%n)], row_of > 0)
       row_of(past%kept) = [(i, i=1, size(past%kept))]
-      past%row = [(row_of(problem%component(k)), k=1, size(problem%lag))]
+      past%row = row_of(problem%component)
       allocate (past%slots(first_capacity), past%stored(first_capacity))
+      past%mask = first_capacity - 1
    end function new_history
 
    !> Slot of step number `step`.
@@ -103,7 +104,7 @@ contains
       class(history_type), intent(in) :: self
       integer(int64), intent(in) :: step
 
-      slot = 1 + int(iand(step, size(self%slots, kind=int64) - 1_int64))
+      slot = 1 + int(iand(step, self%mask))
    end function slot_of
 
    !> Start of a step.
@@ -143,25 +144,39 @@ contains
       end associate
    end function value
 
-   !> Delayed value number k by the polynomial of a step, at ascending times up to a limit.
-   pure subroutine values(self, step, k, offset, limit, ahead, first, z)
+   !> Delayed value number k at ascending times: step by step of the past, each up to its end and a
+   !> margin.
+   pure subroutine values(self, k, start, margin, ahead, from, row, step, offset, z)
       class(history_type), intent(in) :: self
-      integer(int64), intent(in) :: step
       integer, intent(in) :: k
-      !> Time from the start of the step to the origin of `ahead`
-      real(wp), intent(in) :: offset
-      !> Time since the start of the step up to which its polynomial is read
-      real(wp), intent(in) :: limit
+      !> The origin of `ahead`
+      type(instant), intent(in) :: start
+      real(wp), intent(in) :: margin
       real(wp), contiguous, intent(in) :: ahead(:)
-      !> First time to read; on return the first that lies beyond the limit
-      integer, intent(inout) :: first
-      !> The delayed value at all times, shape (size(ahead))
-      real(wp), contiguous, intent(inout) :: z(:)
+      !> The first time to read
+      integer, intent(in) :: from
+      !> The row of z that the values fill
+      integer, intent(in) :: row
+      !> Step that is read, and time from its start to the origin of `ahead`: first, then last
+      integer(int64), intent(inout) :: step
+      real(wp), intent(inout) :: offset
+      real(wp), contiguous, intent(inout) :: z(:, :)
+      integer :: first
+      real(wp) :: limit
 
-      associate (slot => self%slots(slot_of(self, step)))
-         call newton_values(slot%degree, slot%nodes, self%stored(slot%place)%a(:, self%row(k)), &
-                            offset, slot%length, limit, size(ahead), ahead, first, z)
-      end associate
+      first = from
+      do
+         associate (slot => self%slots(slot_of(self, step)))
+            limit = huge(1.0_wp)
+            if (step < self%newest) limit = slot%length + margin
+            call newton_values(slot%degree, slot%nodes, self%stored(slot%place)%a(:, self%row(k)), &
+                               offset, slot%length, limit, size(ahead), ahead, first, row, &
+                               size(z, 1), z)
+         end associate
+         if (first > size(ahead)) exit
+         step = step + 1
+         offset = elapsed(self%start_of(step), start)
+      end do
    end subroutine values
 
    !> Delayed value number k as a series in powers of a unit of time, by the polynomial of a step.
@@ -229,7 +244,7 @@ contains
    pure logical function is_full(self) result(full)
       class(history_type), intent(in) :: self
 
-      full = self%newest - self%oldest + 1 == size(self%slots)
+      full = self%newest - self%oldest == self%mask
    end function is_full
 
    !> Store the step from `start`, `length` long. The caller fills in its coefficients.
@@ -345,5 +360,6 @@ contains
       end do
       call move_alloc(stored, self%stored)
       self%slots = [self%slots, self%slots]
+      self%mask = size(self%slots) - 1
    end subroutine double_capacity
 end module dde_history

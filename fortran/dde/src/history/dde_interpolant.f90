@@ -58,7 +58,8 @@ contains
 
    !> Values of p at ascending places, from number `first` up to a limit. Written out for the usual
    !> degrees, since most time of a step is spent on delayed values.
-   pure subroutine newton_values(degree, x, a, offset, length, limit, places, ahead, first, values)
+   pure subroutine newton_values(degree, x, a, offset, length, limit, places, ahead, first, &
+                                 row, rows, values)
       !> Degree of p
       integer, intent(in) :: degree
       !> Nodes
@@ -77,8 +78,9 @@ contains
       real(wp), intent(in) :: ahead(places)
       !> First place to read; on return the first that lies beyond the limit
       integer, intent(inout) :: first
-      !> Values at all places
-      real(wp), intent(inout) :: values(places)
+      !> The row that the values fill, and all rows
+      integer, intent(in) :: row, rows
+      real(wp), intent(inout) :: values(rows, places)
       real(wp) :: s, rest
       integer :: i, j
 
@@ -93,8 +95,8 @@ contains
             rest = (s - x(5))*(a(5) + (s - x(6))*(a(6) + (s - x(7))*(a(7) &
                    + (s - x(8))*(a(8) + rest))))
          end if
-         values(i) = a(0) + (s - x(1))*(a(1) + (s - x(2))*(a(2) + (s - x(3))*(a(3) &
-                     + (s - x(4))*(a(4) + rest))))
+         values(row, i) = a(0) + (s - x(1))*(a(1) + (s - x(2))*(a(2) + (s - x(3))*(a(3) &
+                        + (s - x(4))*(a(4) + rest))))
       end do
       first = i
    end subroutine newton_values

@@ -343,6 +343,7 @@ contains
       type(instant), intent(in) :: origin
       type(kink_type), allocatable :: list(:)
 
-      list = each_once(points(ascending(elapsed(origin, points%at))), origin)
+      list = points
+      if (size(points) > 1) list = each_once(list(ascending(elapsed(origin, list%at))), origin)
    end function sorted
 end module dde_breaking_points

@@ -7,7 +7,7 @@ module dde_integrator
    use dde_diagnosis, only: explain
    use dde_event_search, only: endless, most_places
    use dde_events, only: event_watcher_type
-   use dde_methods, only: longest_step, price_of_trial
+   use dde_methods, only: longest_step, matching_method, price_of_trial
    use dde_outcome, only: event_met, integration_result, interrupted, out_of_memory, reached_end, &
                           refused, step_underflow, stop_requested, too_many_steps, value_not_finite
    use dde_output, only: deliver, is_read
@@ -90,7 +90,12 @@ contains
       end if
       longest = longest_step(problem, run%step, longest_of_all)
       automatic = options%method == "auto"
-      if (automatic) switch = switch_type(price_of_trial(problem, run%context%tolerance))
+      if (automatic) then
+         associate (tolerance => run%context%tolerance, origin => run%context%past%origin%hi)
+            switch = switch_type(price_of_trial(problem, tolerance), &
+                                 matching_method(problem, tolerance, origin, .false.) == "taylor")
+         end associate
+      end if
       error_estimate = 0.0_wp
 
       outcome%reason = reached_end

@@ -5,8 +5,9 @@ module dde_methods
    use dde_implicit_step, only: implicit_cost, implicit_step_type, stages_of
    use dde_interpolant, only: highest_degree
    use dde_memory, only: find_lacking
-   use dde_orders, only: explicit_method, radau_method
+   use dde_orders, only: explicit_method, least_of_loose, radau_method
    use dde_problem, only: dde_problem_type
+   use dde_slow_series, only: least_balance
    use dde_step, only: step_type
    use dde_switch, only: least_trial
    use dde_taylor_step, only: taylor_step_type
@@ -76,20 +77,24 @@ contains
    end function size_of_step
 
    !> A step of the chosen method; `auto` begins with an explicit one.
-   subroutine choose_method(problem, method, tolerance, step, lacking)
+   subroutine choose_method(problem, method, tolerance, origin, step, lacking)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Name of the method
       character(len=8), intent(in) :: method
       !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance
+      !> Initial time of the first run
+      real(wp), intent(in) :: origin
       !> Step of the method
       class(step_type), allocatable, intent(out) :: step
       !> Bytes that could not be allocated, or 0
       real(wp), intent(out) :: lacking
       character(len=8) :: name
 
-      name = name_of(problem, method, tolerance)
+      name = method
+      if (name == "auto") name = matching_method(problem, tolerance, origin, implicit=.false.)
+      if (name == "explicit") name = explicit_method(tolerance%level)
       lacking = find_lacking(size_of_step(problem, name))
       if (lacking > 0.0_wp) return
       select case (name)
@@ -110,33 +115,30 @@ contains
       end select
    end subroutine choose_method
 
-   !> The method that a run begins with.
-   pure function name_of(problem, method, tolerance) result(name)
-      class(dde_problem_type), intent(in) :: problem
-      !> Method asked for
-      character(len=8), intent(in) :: method
-      type(tolerance_type), intent(in) :: tolerance
-      character(len=8) :: name
-
-      name = method
-      if (name == "auto") name = matching_method(problem, tolerance, implicit=.false.)
-      if (name == "explicit") name = explicit_method(tolerance%level)
-   end function name_of
-
-   !> The explicit or the implicit method of `auto`.
-   pure function matching_method(problem, tolerance, implicit) result(method)
+   !> The explicit or the implicit method of `auto`. A loose tolerance asks for less than a series
+   !> gives, unless that of a slow solution may hold in steps up to the shortest delay.
+   pure function matching_method(problem, tolerance, origin, implicit) result(method)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance
+      !> Initial time of the first run
+      real(wp), intent(in) :: origin
       !> Which of the two
       logical, intent(in) :: implicit
       character(len=8) :: method
+      real(wp), allocatable :: y(:)
 
+      method = explicit_method(tolerance%level)
       if (implicit) then
          method = radau_method(tolerance%level)
-      else
-         method = merge("taylor  ", explicit_method(tolerance%level), problem%analytic)
+      else if (problem%analytic) then
+         if (tolerance%level >= least_of_loose) then
+            allocate (y(problem%n))
+            call problem%initial(y)
+            if (problem%relaxation_rate(origin, y) < least_balance/minval(problem%lag)) return
+         end if
+         method = "taylor"
       end if
    end function matching_method
 

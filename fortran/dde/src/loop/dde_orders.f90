@@ -6,10 +6,12 @@ module dde_orders
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: explicit_method, radau_method, taylor_degree
+   public :: explicit_method, least_of_loose, radau_method, taylor_degree
 
    !> Least tolerance of the pair 5(4); below it the pair is 8(5,3).
    real(wp), parameter :: least_of_bs5 = 3.0e-6_wp
+   !> Least tolerance at which the pair takes fewer instructions than a Taylor series.
+   real(wp), parameter :: least_of_loose = 1.0e-3_wp
    !> Least tolerances of Radau IIA of order 5 and 9; below them the order is 13.
    real(wp), parameter :: least_of_radau5 = 3.0e-5_wp, least_of_radau9 = 1.0e-11_wp
    !> Degree of a Taylor series = this - log10(tolerance), near the degree of least cost for an

@@ -173,7 +173,8 @@ contains
 
       self%now = start
       associate (context => self%context, problem => self%context%problem)
-         call choose_method(problem, options%method, context%tolerance, self%step, self%lacking)
+         call choose_method(problem, options%method, context%tolerance, start%hi, self%step, &
+                            self%lacking)
          if (self%lacking > 0.0_wp) return
          call check_finite("integrate: the initial state has y", self%step%y, error)
          if (allocated(error)) return
@@ -211,10 +212,10 @@ contains
       associate (context => self%context, problem => self%context%problem, &
                  origin => instant(continuation%origin(1), continuation%origin(2)))
          if (method == "auto") then
-            method = matching_method(problem, context%tolerance, &
+            method = matching_method(problem, context%tolerance, origin%hi, &
                                      implicit=any(continuation%method == implicit_methods))
          end if
-         call choose_method(problem, method, context%tolerance, self%step, self%lacking)
+         call choose_method(problem, method, context%tolerance, origin%hi, self%step, self%lacking)
          if (self%lacking > 0.0_wp) return
          call context%work%set_cost(self%step%constants%evaluation_cost)
          self%step%y = continuation%y
@@ -313,9 +314,10 @@ contains
 
       if (.not. allocated(self%other)) then
          associate (problem => self%context%problem, tolerance => self%context%tolerance, &
+                    origin => self%context%past%origin%hi, &
                     implicit => .not. self%step%constants%implicit)
-            call choose_method(problem, matching_method(problem, tolerance, implicit), tolerance, &
-                               self%other, self%lacking)
+            call choose_method(problem, matching_method(problem, tolerance, origin, implicit), &
+                               tolerance, origin, self%other, self%lacking)
          end associate
          if (self%lacking > 0.0_wp) return
       end if

@@ -44,7 +44,7 @@ contains
    !> All delayed values at ascending places of the step.
    pure subroutine delayed_values(self, ahead, z)
       class(step_context), intent(inout) :: self
-      !> Times since the start of the step, ascending, at most 16
+      !> Times since the start of the step, ascending
       real(wp), contiguous, intent(in) :: ahead(:)
       !> Delayed values, shape (number of delayed values, size(ahead))
       real(wp), contiguous, intent(out) :: z(:, :)

@@ -58,6 +58,8 @@ module dde_switch
       real(wp), private :: pace_of_other = 0.0_wp
       !> Whether the last change ended a trial: it was one back
       logical :: returned = .false.
+      !> Whether the explicit method is that of Taylor series
+      logical, private :: series = .false.
    contains
       procedure :: judge
    end type switch_type
@@ -69,12 +71,15 @@ module dde_switch
 contains
 
    !> The choice at the start of a run.
-   pure type(switch_type) function new_switch(least_price) result(switch)
+   pure type(switch_type) function new_switch(least_price, series) result(switch)
       !> Work of a short trial of the implicit method without its linear systems
       real(wp), intent(in) :: least_price
+      !> Whether the explicit method is that of Taylor series
+      logical, intent(in) :: series
 
       switch%least_price = least_price
       switch%price = least_price
+      switch%series = series
    end function new_switch
 
    !> One more step.
@@ -133,7 +138,7 @@ contains
             end if
          end if
       case default
-         limited = is_limited(problem, step, h_next)
+         limited = is_limited(problem, step, h_next, self%series)
          pace_is_known = .not. limited
          if (step%constants%implicit) then
             pace_is_known = self%recent%steps == longest_trial
@@ -166,27 +171,28 @@ contains
 
    !> Whether something else than the change of the solution limits a step: of the explicit method
    !> stability or a delay; of the implicit one nothing, where an explicit step could be as long.
-   pure logical function is_limited(problem, step, h_next) result(limited)
+   pure logical function is_limited(problem, step, h_next, series) result(limited)
       class(dde_problem_type), intent(in) :: problem
       class(step_type), intent(in) :: step
       real(wp), intent(in) :: h_next
+      logical, intent(in) :: series
       logical :: delay_limits
 
       delay_limits = h_next/beyond_the_delay > minval(problem%lag)
       if (step%constants%implicit) then
-         limited = (.not. step%stiff() .or. in_balance(problem, step)) &
-                   .and. .not. delay_limits
+         limited = .not. step%stiff()
+         if (series) limited = limited .or. in_balance(problem, step)
+         limited = limited .and. .not. delay_limits
       else
          limited = step%stiff() .or. delay_limits
       end if
    end function is_limited
 
-   !> Whether fast components are in balance all along a step, for a problem that gives its series.
+   !> Whether fast components are in balance all along a step.
    pure logical function in_balance(problem, step) result(value)
       class(dde_problem_type), intent(in) :: problem
       class(step_type), intent(in) :: step
 
-      value = problem%analytic .and. step%h*problem%relaxation_rate(step%t + step%h, step%y_new) &
-              > least_balance
+      value = step%h*problem%relaxation_rate(step%t + step%h, step%y_new) > least_balance
    end function in_balance
 end module dde_switch

@@ -80,17 +80,18 @@ contains
       real(wp), contiguous, intent(out) :: coefficients(0:)
       !> Largest difference that is seen, over the largest allowed
       real(wp), intent(out) :: misfit
-      real(wp) :: allowed, chebyshev(0:most_nodes - 1), place, tail, values(0:most_nodes + 1)
+      real(wp) :: allowed, chebyshev(0:most_nodes - 1), place, tail, values(1, 0:most_nodes + 1)
       integer(int64) :: step
       integer :: degree, n
 
       associate (nodes => self%nodes, past => context%past, cursor => context%cursor)
          step = past%oldest
          if (.not. cursor%before_origin(k)) step = cursor%step(k) + 1
-         call cursor%values_of(context%problem, past, k, h*self%places(:nodes + 1), values)
-         allowed = agreement*context%tolerance%of_component(context%problem%component(k), values(0))
+         call cursor%values_of(context%problem, past, k, h*self%places(:nodes + 1), 1, values)
+         allowed = agreement*context%tolerance%of_component(context%problem%component(k), &
+                                                              values(1, 0))
          do n = 0, nodes - 1
-            chebyshev(n) = dot_product(self%to_chebyshev(:nodes, n), values(1:nodes))
+            chebyshev(n) = dot_product(self%to_chebyshev(:nodes, n), values(1, 1:nodes))
          end do
          degree = nodes - 1
          tail = 0.0_wp
@@ -105,8 +106,8 @@ contains
          do n = 0, degree
             coefficients(:n) = coefficients(:n) + chebyshev(n)*self%to_powers(:n, n)
          end do
-         misfit = max(abs(coefficients(0) - values(0)), &
-                      abs(sum(coefficients(:degree)) - values(nodes + 1)))/allowed
+         misfit = max(abs(coefficients(0) - values(1, 0)), &
+                      abs(sum(coefficients(:degree)) - values(1, nodes + 1)))/allowed
          do while (step <= past%newest)
             place = elapsed(cursor%delayed_start(k), past%start_of(step))/h
             if (place >= 1.0_wp) exit
