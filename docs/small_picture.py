@@ -26,7 +26,7 @@ def shrink(figure: Path, picture: Path) -> None:
     """Write the small picture; its bytes depend on the figure's only."""
     with Image.open(figure) as large:
         half = large.convert("RGB").resize((large.width // 2, large.height // 2), Image.LANCZOS)
-    half.quantize(256, method=Image.Quantize.FASTOCTREE).save(picture, optimize=True)
+    half.quantize(256, method=Image.Quantize.MEDIANCUT).save(picture, optimize=True)
 
 
 if __name__ == "__main__":
