@@ -26,7 +26,8 @@ def shrink(figure: Path, picture: Path) -> None:
     """Write the small picture; its bytes depend on the figure's only."""
     with Image.open(figure) as large:
         half = large.convert("RGB").resize((large.width // 2, large.height // 2), Image.LANCZOS)
-    half.quantize(256, method=Image.Quantize.MEDIANCUT).save(picture, optimize=True)
+    few = half.quantize(256, method=Image.Quantize.MEDIANCUT, kmeans=3)
+    few.save(picture, optimize=True)
 
 
 if __name__ == "__main__":
