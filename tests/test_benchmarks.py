@@ -1,6 +1,7 @@
 """The benchmarks where they need no other solver: ratios, scenes, workers, tables."""
 
 import math
+import os
 import re
 import subprocess
 import sys
@@ -11,6 +12,7 @@ import dense
 import measuring
 import numpy as np
 import peers
+import picture
 import pytest
 import work_precision
 import workers
@@ -171,6 +173,33 @@ def test_worst_cells_are_shown_first(capsys):
     assert title == "retard over this solver, f: geometric mean 1.00, least 0.50"
     assert [line.split()[0] for line in lines] == ["chaos", "torus", "infection"]
     assert lines[0].split()[1:3] == ["0.50", "(0.50-0.50)"]
+
+
+def test_picture_is_drawn_of_a_table(tmp_path, monkeypatch):
+    """And the program that writes the table is named where there is none."""
+    monkeypatch.setattr(sys, "argv", ["picture.py", "--output", str(tmp_path)])
+    with pytest.raises(SystemExit, match=r"peers\.tsv is missing; run peers writes it"):
+        picture.main()
+    rows = [
+        {"case": "torus", "given": given, "solver": "retard", "error": 1e-3, "ratio": ratio}
+        for given, ratio in (("series", 0.5), ("f", None))
+    ]
+    measuring.write_table(tmp_path / "peers.tsv", rows, ["a header"])
+    picture.main()
+    assert (tmp_path / "peers.png").stat().st_size > 1000
+
+
+def test_packages_of_debian_are_installed_on_request_alone(tmp_path):
+    (tmp_path / "dpkg-query").write_text("#!/bin/sh\nexit 1\n")
+    (tmp_path / "dpkg-query").chmod(0o755)
+    run = subprocess.run(
+        [measuring.HERE.parents[2] / "benchmarks" / "run"],
+        env={**os.environ, "PATH": f"{tmp_path}:{os.environ['PATH']}"},
+        capture_output=True,
+        text=True,
+    )
+    assert run.returncode == 1
+    assert "r-cran-desolve; --install installs them" in run.stderr
 
 
 def test_problems_of_other_solvers_are_known():
