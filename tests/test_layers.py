@@ -137,6 +137,7 @@ NO_SOURCES = (
     ".json",
     ".lock",
     ".md",
+    ".png",
     ".tsv",
     ".typed",
     "LICENSE",
