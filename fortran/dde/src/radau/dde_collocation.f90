@@ -62,11 +62,10 @@ contains
       select case (stages)
       case (3)
          do k = 1, n
-            total(:4) = matrix(:4, 1)*vectors(k, 1) + matrix(:4, 2)*vectors(k, 2) &
-                        + matrix(:4, 3)*vectors(k, 3)
-            sums(k, 1) = total(1)
-            sums(k, 2) = total(2)
-            sums(k, 3) = total(3)
+            total(:3) = vectors(k, :)
+            sums(k, 1) = matrix(1, 1)*total(1) + matrix(1, 2)*total(2) + matrix(1, 3)*total(3)
+            sums(k, 2) = matrix(2, 1)*total(1) + matrix(2, 2)*total(2) + matrix(2, 3)*total(3)
+            sums(k, 3) = matrix(3, 1)*total(1) + matrix(3, 2)*total(2) + matrix(3, 3)*total(3)
          end do
       case (5)
          do k = 1, n
@@ -113,11 +112,13 @@ contains
 
       do k = 1, n
          total(k) = weights(1)*vectors(k, 1)
-         do j = 2, stages
+      end do
+      do j = 2, stages
+         do k = 1, n
             total(k) = total(k) + weights(j)*vectors(k, j)
          end do
-         total(k) = total(k)/divisor
       end do
+      total = total/divisor
    end subroutine add_up
 
    !> Replace values at x by their divided differences.

@@ -14,7 +14,7 @@ module dde_implicit_step
    use dde_step, only: step_type
    use dde_step_context, only: step_context
    use dde_systems, only: real_system
-   use dde_tolerance, only: hopeless, scaled_norm
+   use dde_tolerance, only: all_finite, hopeless, scaled_norm
    use dde_kinds, only: wp
    implicit none (type, external)
    private
@@ -40,9 +40,8 @@ module dde_implicit_step
       real(wp), allocatable :: bump(:)
       !> Derivative of `bump` at 0
       real(wp) :: bump_slope = 0.0_wp
-      !> Derivatives of the right-hand side, and their norm
+      !> Derivatives of the right-hand side
       type(jacobian_type) :: jacobian
-      real(wp) :: stiffness = 0.0_wp
       !> Stages of the step and the iteration that finds them
       type(stage_iteration) :: stages
       !> Weights of the increments in the Newton coefficients 1 to stages, shape (stages, stages)
@@ -137,7 +136,7 @@ contains
       self%t = context%cursor%t
       self%h = context%cursor%h
       call context%tolerance%scale(self%y, self%scale)
-      self%scale = self%asked_over_level*self%scale
+      self%scale(:) = self%asked_over_level*self%scale
       call self%stages%place_delays(context, self%method)
       error = ieee_value(1.0_wp, ieee_quiet_nan)
       do
@@ -174,23 +173,23 @@ contains
       type(step_context), intent(inout) :: context
       !> Whether there is no Jacobian or a system has no solution
       logical, intent(out) :: singular
-      logical :: coupled, finite
+      logical :: finite
+      real(wp) :: longest
 
       singular = .false.
-      coupled = self%stages%coupled
-      if (.not. self%jacobian_is_good .or. coupled .and. .not. self%jacobian%knows_delays) then
+      longest = merge(self%h, 0.0_wp, self%stages%coupled)
+      if (.not. self%jacobian_is_good .or. self%jacobian%known_to < longest) then
          call self%stages%expect_delayed(context%problem%component, self%y)
          associate (middle => (self%method%stages + 1)/2)
-            self%stages%argument = self%y + self%stages%increments(:, middle)
+            self%stages%argument(:) = self%y + self%stages%increments(:, middle)
             call self%jacobian%evaluate(context%problem, context%tolerance, context%work, &
                                         self%t + self%method%c(middle)*self%h, &
                                         self%stages%argument, self%stages%delayed(:, middle), &
-                                        coupled, finite)
+                                        2*longest, finite)
          end associate
          self%stages%systems%h = 0.0_wp
          singular = .not. finite
          if (singular) return
-         call self%jacobian%find_norm(self%stiffness)
          self%jacobian_is_good = .true.
       end if
       if (.not. abs(self%stages%systems%h - self%h) > 0.0_wp) return
@@ -213,11 +212,11 @@ contains
       associate (stages => self%stages, y_end => self%stages%argument, &
                  slope => self%stages%end_slope, misfit => self%unfiltered, &
                  last => self%method%stages)
-         y_end = self%y + stages%increments(:, last)
+         y_end(:) = self%y + stages%increments(:, last)
          call stages%find_end_slope(self%h)
          call context%evaluate(t_end, y_end, stages%delayed(:, last), misfit)
-         if (.not. all(ieee_is_finite(misfit))) return
-         misfit = misfit - slope
+         if (.not. all_finite(size(misfit), misfit)) return
+         misfit(:) = misfit - slope
          ! a part of the tolerance, and what rounding does to the slope
          allowed = 0.1_wp + 4.0_wp*epsilon(1.0_wp)*maxval(abs(y_end)/self%scale) &
                    *stages%sum_of_end_weights
@@ -225,7 +224,8 @@ contains
                      <= self%method%real_eigenvalue*allowed
          if (confirmed) return
          call self%jacobian_at_end%evaluate(context%problem, context%tolerance, context%work, &
-                                            t_end, y_end, stages%delayed(:, last), .false., finite)
+                                            t_end, y_end, stages%delayed(:, last), &
+                                            0.0_wp, finite)
          if (.not. finite) return
          call self%system_at_end%fill(self%jacobian_at_end, self%method%real_eigenvalue/self%h)
          call self%system_at_end%factorise(singular)
@@ -243,31 +243,31 @@ contains
       class(implicit_step_type), intent(inout) :: self
       type(step_context), intent(inout) :: context
       real(wp), intent(out) :: error
-      real(wp), allocatable :: slope(:)
       real(wp) :: t
 
       call add_up(size(self%raw), self%method%stages, self%method%e, self%stages%increments, &
                   self%h, self%raw)
-      self%error_vector = self%slope + self%raw
-      self%unfiltered = self%error_vector
+      self%error_vector(:) = self%slope + self%raw
+      self%unfiltered(:) = self%error_vector
       call self%stages%systems%filter(self%error_vector)
       error = scaled_norm(size(self%y), self%error_vector, self%scale)
+      self%y_new(:) = self%y + self%stages%increments(:, self%method%stages)
+      if (.not. all_finite(size(self%y_new), self%y_new)) error = ieee_value(1.0_wp, ieee_quiet_nan)
       if (error >= 1.0_wp .and. .not. self%last_h > 0.0_wp) then
          ! at a start it is filtered again. The slope at the start may be that of an
          ! earlier polynomial, so that only the change of the right-hand side by the error is added
-         allocate (slope(size(self%y)))
          t = context%cursor%inside(self%t)
-         call context%evaluate(t, self%y, self%z, slope)
-         call context%evaluate(t, self%y + self%error_vector, self%z, self%error_vector)
-         if (all(ieee_is_finite(self%error_vector)) .and. all(ieee_is_finite(slope))) then
+         associate (slope => self%stages%argument)
+            call context%evaluate(t, self%y, self%z, slope)
+            call context%evaluate(t, self%y + self%error_vector, self%z, self%error_vector)
+            if (.not. (all_finite(size(slope), slope) &
+                       .and. all_finite(size(slope), self%error_vector))) return
             self%error_vector = (self%error_vector - slope) + (self%slope + self%raw)
-            self%unfiltered = self%error_vector
-            call self%stages%systems%filter(self%error_vector)
-            error = scaled_norm(size(self%y), self%error_vector, self%scale)
-         end if
+         end associate
+         self%unfiltered = self%error_vector
+         call self%stages%systems%filter(self%error_vector)
+         error = scaled_norm(size(self%y), self%error_vector, self%scale)
       end if
-      self%y_new = self%y + self%stages%increments(:, self%method%stages)
-      if (.not. all(ieee_is_finite(self%y_new))) error = ieee_value(1.0_wp, ieee_quiet_nan)
    end subroutine estimate
 
    !> Replace the error by that between the ends, in units of the tolerance, if that is larger. A
@@ -278,23 +278,25 @@ contains
    pure subroutine find_error_inside(self, error)
       class(implicit_step_type), intent(inout) :: self
       real(wp), intent(inout) :: error
-      real(wp) :: inside
+      real(wp) :: bound, doubled, inside
+      integer :: k
 
-      associate (s => self%method%stages, hidden => self%unfiltered, h => self%h)
+      associate (s => self%method%stages, hidden => self%unfiltered, h => self%h, &
+                 last_term => self%raw)
          call add_up(size(hidden), s, self%differences(:, s), self%stages%increments, 1.0_wp, &
-                     self%raw)
+                     last_term)
          ! the filter does not change the errors of components that are not stiff
-         hidden = max(0.0_wp, abs(hidden) - 2.0_wp*(self%method%real_eigenvalue/h &
-                                                    *abs(self%error_vector))) &
-                  /max(abs(hidden), tiny(1.0_wp))
-         hidden = hidden*self%method%bulge*self%raw
-         inside = min(scaled_norm(size(self%scale), hidden, self%scale), hopeless) &
-                  *self%asked_over_inside
+         doubled = 2.0_wp*(self%method%real_eigenvalue/h)
+         do k = 1, size(last_term)
+            hidden(k) = max(0.0_wp, abs(hidden(k)) - doubled*abs(self%error_vector(k))) &
+                        /max(abs(hidden(k)), tiny(1.0_wp))*last_term(k)
+         end do
+         bound = self%method%bulge*self%asked_over_inside
+         inside = bound*min(scaled_norm(size(hidden), hidden, self%scale), hopeless)
          ! below 1 its power is smaller still
          if (inside > min(error, 1.0_wp)) error = max(error, inside**((s + 1.0_wp)/s))
          if (error > 1.0_wp) return
-         inside = least_hidden*self%method%bulge*self%asked_over_inside &
-                  *min(scaled_norm(size(self%scale), self%raw, self%scale), hopeless)
+         inside = least_hidden*bound*min(scaled_norm(size(hidden), last_term, self%scale), hopeless)
          if (inside > 1.0_wp) error = inside
       end associate
    end subroutine find_error_inside
@@ -307,7 +309,7 @@ contains
       real(wp), contiguous, intent(out) :: a(0:)
       integer :: j, k
 
-      a = self%method%real_eigenvalue*self%error_vector(i)/self%bump_slope*self%bump
+      a(:) = (self%method%real_eigenvalue*self%error_vector(i)/self%bump_slope)*self%bump
       associate (increments => self%stages%increments)
          do k = 1, self%method%stages
             do j = 1, self%method%stages
@@ -322,16 +324,16 @@ contains
    pure logical function stiff(self) result(value)
       class(implicit_step_type), intent(in) :: self
 
-      value = .not. self%h*self%stiffness < least_stiff
+      value = .not. self%h*maxval(self%jacobian%row_sums) < least_stiff
    end function stiff
 
    !> The end becomes the start. Jacobian and factors are kept if the iteration converged fast.
    pure subroutine advance(self)
       class(implicit_step_type), intent(inout) :: self
 
-      self%slope = self%stages%end_slope
-      self%y = self%y_new
-      self%last_increments = self%stages%increments
+      self%slope(:) = self%stages%end_slope
+      self%y(:) = self%y_new
+      self%last_increments(:, :) = self%stages%increments
       self%last_h = self%h
       self%jacobian_is_good = self%stages%contraction <= good_contraction
    end subroutine advance

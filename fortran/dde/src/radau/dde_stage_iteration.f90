@@ -7,7 +7,7 @@ module dde_stage_iteration
    use dde_step_context, only: step_context
    use dde_radau_tableau, only: radau_tableau
    use dde_stage_systems, only: stage_systems
-   use dde_tolerance, only: scaled_norm
+   use dde_tolerance, only: all_finite, scaled_norm
    use dde_kinds, only: wp
    implicit none (type, external)
    private
@@ -84,30 +84,38 @@ contains
       iteration%sum_of_end_weights = sum(abs(iteration%end_weights))
    end function new_iteration
 
-   !> Delayed values of all stages, and the places of those that lie in the step itself.
+   !> Delayed values of stages that lie in the past, and the places of those in the step itself.
    pure subroutine place_delays(self, context, method)
       class(stage_iteration), intent(inout) :: self
       type(step_context), intent(inout) :: context
       type(radau_tableau), intent(in) :: method
-      integer :: i, k
+      integer :: i, k, past
 
       associate (lag => context%problem%lag, h => context%cursor%h)
-         if (size(lag) == 0) return
+         self%places(:) = method%c*h
          ! the last stage is at the end
          self%coupled = any(lag < h)
-         do i = 1, method%stages
-            self%own_place(:, i) = method%c(i) - lag/h
-            if (.not. self%coupled) cycle
-            do k = 1, size(lag)
+         self%own_place(:, :) = 0.0_wp
+         if (.not. self%coupled) then
+            call context%delayed_values(self%places, self%delayed)
+            return
+         end if
+         do k = 1, size(lag)
+            past = 0
+            do i = 1, method%stages
+               self%own_place(k, i) = method%c(i) - lag(k)/h
                if (self%own_place(k, i) > 0.0_wp) then
                   call lagrange_weights(method%stages, self%x, self%factors, &
                                         self%own_place(k, i), self%own_weights(:, k, i))
+               else
+                  past = i
                end if
             end do
+            if (past == 0) cycle
+            call context%cursor%values_of(context%problem, context%past, k, self%places(:past), k, &
+                                          self%delayed)
          end do
-         self%places = method%c*h
       end associate
-      call context%delayed_values(self%places, self%delayed)
    end subroutine place_delays
 
    !> Start of the iteration: the last step's polynomial extrapolated, or no change.
@@ -134,7 +142,7 @@ contains
             ! measured from the end of the last step
             weights(i, s) = of_stage(s) - 1.0_wp
          end do
-         weights(s + 1:, :) = 0.0_wp
+         weights(s + 1:, :s) = 0.0_wp
          call combine(n, s, weights, last_increments, self%increments)
          call combine(n, s, self%systems%t_inverse, self%increments, self%transforms)
       end associate
@@ -145,16 +153,18 @@ contains
       class(stage_iteration), intent(inout) :: self
       integer, intent(in) :: components(:)
       real(wp), intent(in) :: y(:)
-      integer :: i, k
+      real(wp) :: total
+      integer :: i, j, k
 
       if (.not. self%coupled) return
       do i = 1, size(self%own_place, 2)
          do k = 1, size(self%own_place, 1)
             if (.not. self%own_place(k, i) > 0.0_wp) cycle
-            associate (component => components(k))
-               self%delayed(k, i) = y(component) + sum(self%increments(component, :) &
-                                    *self%own_weights(:, k, i))
-            end associate
+            total = y(components(k))
+            do j = 1, size(self%own_place, 2)
+               total = total + self%increments(components(k), j)*self%own_weights(j, k, i)
+            end do
+            self%delayed(k, i) = total
          end do
       end do
    end subroutine expect_delayed
@@ -165,7 +175,7 @@ contains
       class(stage_iteration), intent(inout) :: self
       type(step_context), intent(inout) :: context
       type(radau_tableau), intent(in) :: method
-      real(wp), intent(in) :: y(:), scale(:)
+      real(wp), contiguous, intent(in) :: y(:), scale(:)
       !> Tolerance of the error estimate
       real(wp), intent(in) :: tolerance
       !> Factor below the step size at which the error would be equal to the tolerance; it is
@@ -194,7 +204,8 @@ contains
          finite = ieee_is_finite(norm)
          if (.not. (finite .and. norm < huge(1.0_wp))) return
          if (iteration == 1) then
-            ! it counts if this is the only iteration
+            ! these count if this is the only iteration
+            self%contraction = 0.0_wp
             if (norm <= 1.0_wp) self%remainder = max(self%remainder, epsilon(1.0_wp))**0.8_wp
          else
             rate = norm/last_norm
@@ -209,7 +220,7 @@ contains
             end if
          end if
          last_norm = max(norm, epsilon(1.0_wp))
-         self%transforms = self%transforms + self%change
+         self%transforms(:, :) = self%transforms + self%change
          call combine(size(y), method%stages, self%systems%t, self%transforms, self%increments)
          ! a single correction must not exceed the tolerance
          if ((self%remainder*norm <= limit .and. (iteration > 1 .or. norm <= 1.0_wp)) &
@@ -235,7 +246,7 @@ contains
       class(stage_iteration), intent(inout) :: self
       type(step_context), intent(inout) :: context
       type(radau_tableau), intent(in) :: method
-      real(wp), intent(in) :: y(:)
+      real(wp), contiguous, intent(in) :: y(:)
       logical, intent(out) :: finite
       real(wp) :: t, t_end
       integer :: i
@@ -245,11 +256,11 @@ contains
          t = cursor%inside(cursor%t)
          t_end = cursor%inside(cursor%t + cursor%h)
          do i = 1, method%stages
-            self%argument = y + self%increments(:, i)
+            self%argument(:) = y + self%increments(:, i)
             call context%evaluate(merge(t_end, t + method%c(i)*cursor%h, i == method%stages), &
                                   self%argument, self%delayed(:, i), self%slopes(:, i))
          end do
       end associate
-      finite = all(ieee_is_finite(self%slopes))
+      finite = all_finite(size(self%slopes), self%slopes)
    end subroutine slopes_at_stages
 end module dde_stage_iteration

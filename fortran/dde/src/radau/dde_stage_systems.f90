@@ -116,7 +116,9 @@ contains
       call work%count_factors(self%of_real%factor_operations)
       if (singular) return
       do pair = 1, size(self%of_pairs)
-         call self%of_pairs(pair)%fill(jacobian, method%complex_eigenvalues(pair)/h)
+         call self%of_pairs(pair)%fill(jacobian, &
+                                       cmplx(real(method%complex_eigenvalues(pair))/h, &
+                                             aimag(method%complex_eigenvalues(pair))/h, wp))
          call self%of_pairs(pair)%factorise(singular)
          call work%count_factors(self%of_pairs(pair)%factor_operations)
          if (singular) return
@@ -160,8 +162,12 @@ contains
          end do
       end associate
       do k = 1, size(component)
-         call self%add_delayed(method, jacobian, component(k), k, own_place, own_weights)
+         if (own_place(k, method%stages) > 0.0_wp) then
+            call self%add_delayed(method, jacobian, component(k), k, own_place(k, :), &
+                                  own_weights(:, k, :))
+         end if
       end do
+      self%of_all%row_scale = [spread(self%of_real%row_scale, 1, method%stages)]
       call self%of_all%factorise(singular)
       call work%count_factors(self%of_all%factor_operations)
       if (singular) return
@@ -169,27 +175,27 @@ contains
       call work%count_factors(self%of_real%factor_operations)
    end subroutine couple
 
-   !> Add delayed value k, where it lies in the step, to the matrices of all stages and of the end.
-   pure subroutine add_delayed(self, method, jacobian, component, k, own_place, own_weights)
+   !> Add delayed value k, which lies in the step, to the matrices of all stages and of the end.
+   pure subroutine add_delayed(self, method, jacobian, component, k, place, weights)
       class(stage_systems), intent(inout) :: self
       type(radau_tableau), intent(in) :: method
       type(jacobian_type), intent(in) :: jacobian
       !> Component that it is, and its number
       integer, intent(in) :: component, k
-      real(wp), intent(in) :: own_place(:, :), own_weights(:, :, :)
+      !> Place in the step at each stage, and weights of the increments there, one row an increment
+      real(wp), intent(in) :: place(:), weights(:, :)
       !> W T, where row i of W has the weights at stage i; then a column of inverse(T) W T
       real(wp) :: by_stages(stage_lanes, stage_lanes), transforms(stage_lanes)
-      integer(int64) :: at
+      integer(int64) :: at, at_end
       integer :: i, j, m
 
       associate (s => method%stages, first => jacobian%rows(1, k), last => jacobian%rows(2, k))
-         if (.not. any(own_place(k, :s) > 0.0_wp)) return
          by_stages = 0.0_wp
          do i = 1, s
-            if (.not. own_place(k, i) > 0.0_wp) cycle
+            if (.not. place(i) > 0.0_wp) cycle
             do j = 1, s
                do m = 1, s
-                  by_stages(i, j) = by_stages(i, j) + own_weights(m, k, i)*self%t(m, j)
+                  by_stages(i, j) = by_stages(i, j) + weights(m, i)*self%t(m, j)
                end do
             end do
          end do
@@ -205,10 +211,14 @@ contains
                end associate
             end do
          end do
-         if (.not. own_place(k, s) > 0.0_wp) return
-         at = self%of_real%column(component)
+         at_end = self%of_real%column(component)
          do i = first, last
-            self%of_real%a(at + i) = self%of_real%a(at + i) - jacobian%by_z(1 + i - first, k)
+            associate (element => self%of_real%a(at_end + i), &
+                       row_scale => self%of_real%row_scale(i), &
+                       derivative => jacobian%by_z(1 + i - first, k))
+               element = element - derivative
+               row_scale = row_scale/(1.0_wp + abs(derivative)*row_scale)
+            end associate
          end do
       end associate
    end subroutine add_delayed
@@ -225,7 +235,7 @@ contains
       work%operations = work%operations + self%of_real%solve_operations
       do pair = 1, size(self%of_pairs)
          i = 2*pair
-         self%pair_side = cmplx(x(:, i), x(:, i + 1), wp)
+         self%pair_side(:) = cmplx(x(:, i), x(:, i + 1), wp)
          call self%of_pairs(pair)%solve(self%pair_side)
          work%operations = work%operations + self%of_pairs(pair)%solve_operations
          x(:, i) = real(self%pair_side)
@@ -240,23 +250,13 @@ contains
       !> Slopes at the stages, shape (n, stages)
       real(wp), contiguous, intent(in) :: slopes(:, :)
       !> Transforms of the increments, shape (n, stages)
-      real(wp), intent(in) :: transforms(:, :)
+      real(wp), contiguous, intent(in) :: transforms(:, :)
       type(work_type), intent(inout) :: work
       !> The correction, shape (n, stages)
       real(wp), contiguous, intent(out) :: change(:, :)
-      complex(wp) :: eigenvalue
-      integer :: i, pair
 
       call combine(size(slopes, 1), method%stages, self%t_inverse, slopes, change)
-      change(:, 1) = change(:, 1) - method%real_eigenvalue/self%h*transforms(:, 1)
-      do pair = 1, size(method%complex_eigenvalues)
-         i = 2*pair
-         eigenvalue = method%complex_eigenvalues(pair)/self%h
-         change(:, i) = change(:, i) - (real(eigenvalue)*transforms(:, i) &
-                                        - aimag(eigenvalue)*transforms(:, i + 1))
-         change(:, i + 1) = change(:, i + 1) - (real(eigenvalue)*transforms(:, i + 1) &
-                                                + aimag(eigenvalue)*transforms(:, i))
-      end do
+      call subtract_blocks(size(slopes, 1), method, self%h, transforms, change)
       if (self%coupled) then
          self%all_sides = transpose(change)
          call self%of_all%solve(self%all_sides)
@@ -266,6 +266,30 @@ contains
          call self%solve_stages(change, work)
       end if
    end subroutine correct
+
+   !> Subtract L/h times the transforms.
+   pure subroutine subtract_blocks(n, method, h, transforms, change)
+      integer, intent(in) :: n
+      type(radau_tableau), intent(in) :: method
+      real(wp), intent(in) :: h, transforms(n, method%stages)
+      real(wp), intent(inout) :: change(n, method%stages)
+      real(wp) :: alpha, beta
+      integer :: i, k
+
+      alpha = method%real_eigenvalue/h
+      do k = 1, n
+         change(k, 1) = change(k, 1) - alpha*transforms(k, 1)
+      end do
+      do i = 2, method%stages, 2
+         alpha = real(method%complex_eigenvalues(i/2))/h
+         beta = aimag(method%complex_eigenvalues(i/2))/h
+         do k = 1, n
+            change(k, i) = change(k, i) - (alpha*transforms(k, i) - beta*transforms(k, i + 1))
+            change(k, i + 1) = change(k, i + 1) - (alpha*transforms(k, i + 1) &
+                                                   + beta*transforms(k, i))
+         end do
+      end do
+   end subroutine subtract_blocks
 
    !> Replace a vector by the solution of the real system. Only its stiff components shrink.
    pure subroutine filter(self, vector)

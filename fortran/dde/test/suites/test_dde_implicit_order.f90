@@ -148,6 +148,7 @@ contains
       real(wp), intent(in) :: a(:, :)
 
       jacobian%by_y = a
+      jacobian%row_sums = sum(abs(a), 2)
       jacobian%lower = size(a, 1) - 1
       jacobian%upper = size(a, 1) - 1
    end function full_matrix
@@ -160,6 +161,7 @@ contains
       integer :: i, j
 
       jacobian%banded = .true.
+      jacobian%row_sums = sum(abs(a), 2)
       jacobian%lower = lower
       jacobian%upper = upper
       jacobian%by_y = spread(spread(0.0_wp, 1, 1 + lower + upper), 2, size(a, 2))
@@ -191,6 +193,7 @@ contains
       jacobian = full_matrix(spread(spread(0.0_wp, 1, 3), 2, 3))
       allocate (jacobian%by_z(3, 1), source=0.0_wp)
       jacobian%rows = reshape([1, 3], [2, 1])
+      jacobian%row_sums(3) = 5.0_wp*stiffness
       jacobian%by_y(3, :) = -stiffness*[2.0_wp, 1.0_wp, 2.0_wp - 2.0e-8_wp]
       do i = 1, size(stages)
          do lag = 0, 1

@@ -53,16 +53,18 @@ contains
       tolerance = tolerance_type(n, 1.0e-6_wp, 1.0e-6_wp)
       y = [(1.0_wp + 0.1_wp*i, i=1, n)]
       z = 0.5_wp
-      call full%evaluate(problem, tolerance, work, 0.0_wp, y, z, .true., finite)
+      call full%evaluate(problem, tolerance, work, 0.0_wp, y, z, huge(1.0_wp), &
+                         finite)
       call expect(error, work%evaluations == 1 + 2*n, "of all: "//text(work%evaluations))
-      call full%evaluate(problem, tolerance, work, 0.0_wp, y, z, .false., finite)
+      call full%evaluate(problem, tolerance, work, 0.0_wp, y, z, 0.0_wp, finite)
       call expect(error, work%evaluations == 2 + 3*n, &
                   "without the delayed ones: "//text(work%evaluations))
       problem = cells(n, diffusion=3.0_wp, delayed=.true.)
       problem%lower = 1
       problem%upper = 1
       work = work_type(n)
-      call banded%evaluate(problem, tolerance, work, 0.0_wp, y, z, .true., finite)
+      call banded%evaluate(problem, tolerance, work, 0.0_wp, y, z, huge(1.0_wp), &
+                         finite)
       call expect(error, work%evaluations == 5, "by diagonals: "//text(work%evaluations))
       do j = 1, n
          do i = max(1, j - 1), min(n, j + 1)
