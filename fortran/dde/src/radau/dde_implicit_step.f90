@@ -11,6 +11,7 @@ module dde_implicit_step
    use dde_problem, only: dde_problem_type
    use dde_radau_tableau, only: radau_iia, radau_tableau
    use dde_stage_iteration, only: stage_iteration
+   use dde_stage_systems, only: fill_end
    use dde_step, only: step_type
    use dde_step_context, only: step_context
    use dde_systems, only: real_system
@@ -225,9 +226,10 @@ contains
          if (confirmed) return
          call self%jacobian_at_end%evaluate(context%problem, context%tolerance, context%work, &
                                             t_end, y_end, stages%delayed(:, last), &
-                                            0.0_wp, finite)
+                                            merge(self%h, 0.0_wp, stages%coupled), finite)
          if (.not. finite) return
-         call self%system_at_end%fill(self%jacobian_at_end, self%method%real_eigenvalue/self%h)
+         call fill_end(self%system_at_end, self%method, self%h, self%jacobian_at_end, &
+                       context%problem%component, stages%own_place)
          call self%system_at_end%factorise(singular)
          context%work%operations = context%work%operations &
                                    + self%system_at_end%factor_operations

@@ -11,7 +11,7 @@ module dde_stage_systems
    use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: stage_systems
+   public :: fill_end, stage_systems
 
    !> Factors for one Jacobian and one step length.
    type :: stage_systems
@@ -107,14 +107,16 @@ contains
 
       self%h = h
       self%coupled = any(own_place > 0.0_wp)
+      call fill_end(self%of_real, method, h, jacobian, component, own_place)
       if (self%coupled) then
-         call self%couple(method, jacobian, component, own_place, own_weights, work, singular)
-         return
+         call self%couple(method, jacobian, component, own_place, own_weights)
+         call self%of_all%factorise(singular)
+         call work%count_factors(self%of_all%factor_operations)
+         if (singular) return
       end if
-      call self%of_real%fill(jacobian, method%real_eigenvalue/h)
       call self%of_real%factorise(singular)
       call work%count_factors(self%of_real%factor_operations)
-      if (singular) return
+      if (singular .or. self%coupled) return
       do pair = 1, size(self%of_pairs)
          call self%of_pairs(pair)%fill(jacobian, &
                                        cmplx(real(method%complex_eigenvalues(pair))/h, &
@@ -125,29 +127,55 @@ contains
       end do
    end subroutine prepare
 
-   !> Factorise the system of all stages, and the real system with the delayed values at the end of
-   !> the step.
-   pure subroutine couple(self, method, jacobian, component, own_place, own_weights, work, singular)
+   !> The real system, in which delayed values in the step count as the state at its end.
+   pure subroutine fill_end(system, method, h, jacobian, component, own_place)
+      type(real_system), intent(inout) :: system
+      type(radau_tableau), intent(in) :: method
+      real(wp), intent(in) :: h
+      type(jacobian_type), intent(in) :: jacobian
+      integer, intent(in) :: component(:)
+      !> As for `prepare`
+      real(wp), intent(in) :: own_place(:, :)
+      real(wp) :: derivative
+      integer(int64) :: at
+      integer :: above, below, i, k
+
+      below = jacobian%lower
+      above = jacobian%upper
+      do k = 1, size(component)
+         if (.not. own_place(k, method%stages) > 0.0_wp) cycle
+         below = max(below, jacobian%rows(2, k) - component(k))
+         above = max(above, component(k) - jacobian%rows(1, k))
+      end do
+      call system%reshape(size(jacobian%by_y, 2), below, above)
+      call system%fill(jacobian, method%real_eigenvalue/h)
+      do k = 1, size(component)
+         if (.not. own_place(k, method%stages) > 0.0_wp) cycle
+         at = system%column(component(k))
+         do i = jacobian%rows(1, k), jacobian%rows(2, k)
+            derivative = jacobian%by_z(1 + i - jacobian%rows(1, k), k)
+            system%a(at + i) = system%a(at + i) - derivative
+            system%row_scale(i) = system%row_scale(i)/(1.0_wp + abs(derivative)*system%row_scale(i))
+         end do
+      end do
+   end subroutine fill_end
+
+   !> The system of all stages.
+   pure subroutine couple(self, method, jacobian, component, own_place, own_weights)
       class(stage_systems), intent(inout) :: self
       type(radau_tableau), intent(in) :: method
       type(jacobian_type), intent(in) :: jacobian
       integer, intent(in) :: component(:)
       real(wp), intent(in) :: own_place(:, :), own_weights(:, :, :)
-      type(work_type), intent(inout) :: work
-      logical, intent(out) :: singular
       real(wp), dimension(method%stages, method%stages) :: blocks
       integer(int64) :: at
-      integer :: above, below, first, i, j, k, last, shift
+      integer :: first, i, j, k, last, shift
 
-      below = max(0, maxval(jacobian%rows(2, :) - component))
-      above = max(0, maxval(component - jacobian%rows(1, :)))
       blocks = blocks_of(method)/self%h
       associate (n => size(jacobian%by_y, 2), s => method%stages)
-         call self%of_real%reshape(n, max(jacobian%lower, below), max(jacobian%upper, above))
-         call self%of_real%fill(jacobian, method%real_eigenvalue/self%h)
          if (.not. allocated(self%of_all)) allocate (self%of_all, self%all_sides(s, n))
-         call self%of_all%reshape(n*s, max(jacobian%lower*s, (below + 1)*s - 1), &
-                                  max(jacobian%upper*s, (above + 1)*s - 1))
+         call self%of_all%reshape(n*s, (self%of_real%layout%lower + 1)*s - 1, &
+                                  (self%of_real%layout%upper + 1)*s - 1)
          self%of_all%a = 0.0_wp
          do j = 1, n
             call jacobian%find_rows(j, first, last, shift)
@@ -160,22 +188,17 @@ contains
                self%of_all%a(at + 1:at + s) = self%of_all%a(at + 1:at + s) + blocks(:, k)
             end do
          end do
+         do k = 1, size(component)
+            if (own_place(k, s) > 0.0_wp) then
+               call self%add_delayed(method, jacobian, component(k), k, own_place(k, :), &
+                                     own_weights(:, k, :))
+            end if
+         end do
+         self%of_all%row_scale = [spread(self%of_real%row_scale, 1, s)]
       end associate
-      do k = 1, size(component)
-         if (own_place(k, method%stages) > 0.0_wp) then
-            call self%add_delayed(method, jacobian, component(k), k, own_place(k, :), &
-                                  own_weights(:, k, :))
-         end if
-      end do
-      self%of_all%row_scale = [spread(self%of_real%row_scale, 1, method%stages)]
-      call self%of_all%factorise(singular)
-      call work%count_factors(self%of_all%factor_operations)
-      if (singular) return
-      call self%of_real%factorise(singular)
-      call work%count_factors(self%of_real%factor_operations)
    end subroutine couple
 
-   !> Add delayed value k, which lies in the step, to the matrices of all stages and of the end.
+   !> Add delayed value k, which lies in the step, to the matrix of all stages.
    pure subroutine add_delayed(self, method, jacobian, component, k, place, weights)
       class(stage_systems), intent(inout) :: self
       type(radau_tableau), intent(in) :: method
@@ -186,7 +209,7 @@ contains
       real(wp), intent(in) :: place(:), weights(:, :)
       !> W T, where row i of W has the weights at stage i; then a column of inverse(T) W T
       real(wp) :: by_stages(stage_lanes, stage_lanes), transforms(stage_lanes)
-      integer(int64) :: at, at_end
+      integer(int64) :: at
       integer :: i, j, m
 
       associate (s => method%stages, first => jacobian%rows(1, k), last => jacobian%rows(2, k))
@@ -210,15 +233,6 @@ contains
                   block = block - jacobian%by_z(1 + i - first, k)*transforms(:s)
                end associate
             end do
-         end do
-         at_end = self%of_real%column(component)
-         do i = first, last
-            associate (element => self%of_real%a(at_end + i), &
-                       row_scale => self%of_real%row_scale(i), &
-                       derivative => jacobian%by_z(1 + i - first, k))
-               element = element - derivative
-               row_scale = row_scale/(1.0_wp + abs(derivative)*row_scale)
-            end associate
          end do
       end associate
    end subroutine add_delayed
