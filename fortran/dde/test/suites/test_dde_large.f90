@@ -12,7 +12,9 @@ module test_dde_large
    use dde_kinds, only: wp
    use lines_of_cells, only: cells
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use piecewise_problems, only: many_delays, piecewise
    use solving, only: at_tolerance, run
+   use test_problems, only: fill
    implicit none (type, external)
    private
    public :: collect_dde_large
@@ -29,6 +31,7 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("differences", test_differences), &
+                   new_unittest("nearly equal delays", test_alike), &
                    new_unittest("the cost of auto", test_auto), &
                    new_unittest("a banded Jacobian", test_banded), &
                    new_unittest("many short delays", test_short_delays), &
@@ -53,8 +56,7 @@ contains
       tolerance = tolerance_type(n, 1.0e-6_wp, 1.0e-6_wp)
       y = [(1.0_wp + 0.1_wp*i, i=1, n)]
       z = 0.5_wp
-      call full%evaluate(problem, tolerance, work, 0.0_wp, y, z, huge(1.0_wp), &
-                         finite)
+      call full%evaluate(problem, tolerance, work, 0.0_wp, y, z, huge(1.0_wp), finite)
       call expect(error, work%evaluations == 1 + 2*n, "of all: "//text(work%evaluations))
       call full%evaluate(problem, tolerance, work, 0.0_wp, y, z, 0.0_wp, finite)
       call expect(error, work%evaluations == 2 + 3*n, &
@@ -63,8 +65,7 @@ contains
       problem%lower = 1
       problem%upper = 1
       work = work_type(n)
-      call banded%evaluate(problem, tolerance, work, 0.0_wp, y, z, huge(1.0_wp), &
-                         finite)
+      call banded%evaluate(problem, tolerance, work, 0.0_wp, y, z, huge(1.0_wp), finite)
       call expect(error, work%evaluations == 5, "by diagonals: "//text(work%evaluations))
       do j = 1, n
          do i = max(1, j - 1), min(n, j + 1)
@@ -77,6 +78,27 @@ contains
          call expect_close(error, banded%by_z(1, j), -1.8_wp*y(j), 1.0e-6_wp, "from its row on")
       end do
    end subroutine test_differences
+
+   !> Delayed values of nearly equal delays are moved together and share a derivative; those of delays
+   !> that are too long are left out.
+   subroutine test_alike(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(jacobian_type) :: jacobian
+      type(piecewise) :: problem
+      type(work_type) :: work
+      real(wp), parameter :: lags(6) = [1.0_wp, 1.05_wp, 0.98_wp, 1.2_wp, 1.25_wp, 3.0_wp]
+      integer :: i
+      logical :: finite
+
+      problem%kind = many_delays
+      call fill(problem, 1, [1.0_wp], [1.0_wp], lags, [(1, i=1, 6)])
+      work = work_type(1)
+      call jacobian%evaluate(problem, tolerance_type(1, 1.0e-6_wp, 1.0e-6_wp), work, 0.0_wp, &
+                             [0.3_wp], [(0.1_wp*i, i=1, 6)], 2.0_wp, finite)
+      call expect(error, work%evaluations == 4, text(work%evaluations)//" evaluations")
+      call expect_close(error, jacobian%by_z(1, :), [(-1.0_wp/24, i=1, 5), 0.0_wp], 1.0e-6_wp, &
+                        "derivatives")
+   end subroutine test_alike
 
    !> With a band the solution is the same, for a tenth of the evaluations.
    subroutine test_banded(error)
