@@ -2,7 +2,7 @@
 !> The Jacobian of a problem at one place. The problem gives it, or it is found by forward
 !> differences. Columns that share no equation are moved together (Curtis, Powell and Reid 1974, "On
 !> the estimation of sparse Jacobian matrices", J. Inst. Maths Applics 13, 117): a banded Jacobian
-!> costs one evaluation for each diagonal. Delayed values of one component and of nearly equal delays
+!> costs one evaluation for each diagonal. Delayed values of one component and nearly equal delays
 !> are moved together, too, and each gets their mean derivative: many delays cost 25 evaluations for
 !> each factor of 10 between them.
 module dde_jacobian

@@ -4,8 +4,7 @@
 !> to its row. Otherwise a row of huge numbers in a stiff system would be the pivot for the others.
 !> Zeros at both ends of a column are left out, and each zero above the diagonal: the Jacobian of a
 !> trajectory with tangent vectors has blocks on its diagonal. Real and complex systems share bodies
-!> in files that are included. Products and inverses of complex numbers are written out: those of
-!> compilers differ in their last bits, and some call a function for each.
+!> in files that are included.
 module dde_systems
    use dde_jacobian, only: jacobian_type
    use dde_kinds, only: int64, wp
@@ -66,18 +65,6 @@ module dde_systems
       module procedure :: size_of_real
       module procedure :: size_of_complex
    end interface size_of
-
-   !> Product of two numbers.
-   interface times
-      module procedure :: real_times
-      module procedure :: complex_times
-   end interface times
-
-   !> One over a number.
-   interface inverse
-      module procedure :: inverse_of_real
-      module procedure :: inverse_of_complex
-   end interface inverse
 
 contains
 
@@ -220,41 +207,4 @@ contains
 
       value = abs(real(z)) + abs(aimag(z))
    end function size_of_complex
-
-   !> Product of two real numbers.
-   elemental real(wp) function real_times(x, y) result(value)
-      real(wp), intent(in) :: x, y
-
-      value = x*y
-   end function real_times
-
-   !> Product of two complex numbers.
-   elemental complex(wp) function complex_times(x, y) result(value)
-      complex(wp), intent(in) :: x, y
-
-      value = cmplx(real(x)*real(y) - aimag(x)*aimag(y), real(x)*aimag(y) + aimag(x)*real(y), wp)
-   end function complex_times
-
-   !> One over a real number.
-   elemental real(wp) function inverse_of_real(x) result(value)
-      real(wp), intent(in) :: x
-
-      value = 1.0_wp/x
-   end function inverse_of_real
-
-   !> One over a complex number, without overflow (Smith 1962, "Algorithm 116", Comm. ACM 5, 435).
-   elemental complex(wp) function inverse_of_complex(x) result(value)
-      complex(wp), intent(in) :: x
-      real(wp) :: ratio, share
-
-      if (abs(real(x)) >= abs(aimag(x))) then
-         ratio = aimag(x)/real(x)
-         share = 1.0_wp/(real(x) + aimag(x)*ratio)
-         value = cmplx(share, -ratio*share, wp)
-      else
-         ratio = real(x)/aimag(x)
-         share = 1.0_wp/(real(x)*ratio + aimag(x))
-         value = cmplx(ratio*share, -share, wp)
-      end if
-   end function inverse_of_complex
 end module dde_systems
