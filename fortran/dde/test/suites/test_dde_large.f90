@@ -79,8 +79,8 @@ contains
       end do
    end subroutine test_differences
 
-   !> Delayed values of nearly equal delays are moved together and share a derivative; those of delays
-   !> that are too long are left out.
+   !> Delayed values of nearly equal delays are moved together and share a derivative. Those of longer
+   !> delays are left out.
    subroutine test_alike(error)
       type(error_type), allocatable, intent(out) :: error
       type(jacobian_type) :: jacobian
