@@ -79,7 +79,7 @@ contains
       end do
    end subroutine test_differences
 
-   !> Delayed values of nearly equal delays are moved together and share a derivative. Those of longer
+   !> Delayed values of nearly equal delays are moved together and share a derivative. Those of long
    !> delays are left out.
    subroutine test_alike(error)
       type(error_type), allocatable, intent(out) :: error
