@@ -19,7 +19,9 @@ module dde_jacobian
    !> Lower bounds on the size of a component: this share of (absolute tolerance / tolerance level),
    !> and this number.
    real(wp), parameter :: small_share = 1.0e-5_wp, least_size = 1.0e-140_wp
-   !> Delays are nearly equal within this factor.
+   !> More than `few` delayed values share derivatives where delays are equal within this factor. In
+   !> a difference quotient of delayed values each needs its own.
+   integer, parameter :: few = 10
    real(wp), parameter :: alike = 1.1_wp
 
    !> Derivatives of the right-hand side.
@@ -69,7 +71,7 @@ contains
       real(wp), intent(in) :: longest
       logical, intent(out) :: finite
 
-      call self%prepare(problem, alike)
+      call self%prepare(problem, merge(alike, 0.0_wp, size(z) > few))
       if (self%given) then
          call problem%jacobian(t, y, z, self%by_y, self%by_z)
          self%given = .not. all(self%by_y <= not_given)

@@ -86,17 +86,18 @@ contains
       type(jacobian_type) :: jacobian
       type(piecewise) :: problem
       type(work_type) :: work
-      real(wp), parameter :: lags(6) = [1.0_wp, 1.05_wp, 0.98_wp, 1.2_wp, 1.25_wp, 3.0_wp]
       integer :: i
+      real(wp), parameter :: lags(12) = [(1.0_wp, i=1, 7), 1.05_wp, 0.98_wp, 1.2_wp, &
+                                         1.25_wp, 3.0_wp]
       logical :: finite
 
       problem%kind = many_delays
-      call fill(problem, 1, [1.0_wp], [1.0_wp], lags, [(1, i=1, 6)])
+      call fill(problem, 1, [1.0_wp], [1.0_wp], lags, [(1, i=1, 12)])
       work = work_type(1)
       call jacobian%evaluate(problem, tolerance_type(1, 1.0e-6_wp, 1.0e-6_wp), work, 0.0_wp, &
-                             [0.3_wp], [(0.1_wp*i, i=1, 6)], 2.0_wp, finite)
+                             [0.3_wp], [(0.1_wp*i, i=1, 12)], 2.0_wp, finite)
       call expect(error, work%evaluations == 4, text(work%evaluations)//" evaluations")
-      call expect_close(error, jacobian%by_z(1, :), [(-1.0_wp/24, i=1, 5), 0.0_wp], 1.0e-6_wp, &
+      call expect_close(error, jacobian%by_z(1, :), [(-1.0_wp/24, i=1, 11), 0.0_wp], 1.0e-6_wp, &
                         "derivatives")
    end subroutine test_alike
 
