@@ -51,22 +51,24 @@ module dde_request
 
 contains
 
-   !> The jumps that the user gave. Before the initial time the history jumps, after it the
-   !> right-hand side.
-   pure function causes(options, origin) result(kinks)
+   !> Kinks, and the jumps that the user gave. Before the initial time the history jumps, after it
+   !> the right-hand side.
+   pure function causes(options, origin, others) result(kinks)
       !> Where they are
       type(integration_options), intent(in) :: options
       !> Initial time of the first run
       type(instant), intent(in) :: origin
+      !> Kinks of other causes
+      type(kink_type), intent(in) :: others(:)
       type(kink_type), allocatable :: kinks(:)
 
-      if (.not. allocated(options%break_at)) then
-         allocate (kinks(0))
-         return
-      end if
-      allocate (kinks(size(options%break_at)))
-      kinks%at%hi = options%break_at
-      kinks%passages = merge(-1, 0, options%break_at < origin%hi)
+      kinks = others
+      if (.not. allocated(options%break_at)) return
+      kinks = [others, spread(kink_type(), 1, size(options%break_at))]
+      associate (given => size(others) + 1)
+         kinks(given:)%at%hi = options%break_at
+         kinks(given:)%passages = merge(-1, 0, options%break_at < origin%hi)
+      end associate
    end function causes
 
    !> Refuse what cannot be integrated.

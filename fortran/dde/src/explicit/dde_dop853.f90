@@ -5,7 +5,7 @@ module dde_dop853
    use dde_dop853_tableau
    use dde_explicit_pair, only: evaluate, explicit_pair, slope_count
    use dde_step_context, only: step_context
-   use dde_tolerance, only: scaled_norm
+   use dde_tolerance, only: all_finite, scaled_norm
    use dde_kinds, only: wp
    implicit none (type, external)
    private
@@ -23,8 +23,7 @@ module dde_dop853
    !> The pair. Slope 13 is that at the end, slopes 14 to 16 serve the dense output.
    type, extends(explicit_pair) :: dop853
    contains
-      procedure :: set_up, take_stages, take_dense_stages, find_error, find_dense_error
-      procedure :: find_coefficients
+      procedure :: set_up, take_stages, take_dense_stages, find_error, find_coefficients
    end type dop853
 
 contains
@@ -42,7 +41,7 @@ contains
       nodes = real([0, 1, 0, 1, 0, 1, 0], wp)
    end subroutine set_up
 
-   !> Stages 2 to 12 and the state at the end of the step.
+   !> Stages 2 to 12, state and slope at the end of the step.
    pure subroutine take_stages(self, context, n, h, y, z, k, slope, stage, y_new, finite)
       class(dop853), intent(in) :: self
       type(step_context), intent(inout) :: context
@@ -83,16 +82,23 @@ contains
       call evaluate(context, t_end, z(:, 11), 12, stage, k, slope, finite)
       y_new = y + h*(b1*k(1, :) + b6*k(6, :) + b7*k(7, :) + b8*k(8, :) &
                      + b9*k(9, :) + b10*k(10, :) + b11*k(11, :) + b12*k(12, :))
+      finite = finite .and. all_finite(n, y_new)
+      call evaluate(context, t_end, z(:, 11), 13, y_new, k, slope, finite)
    end subroutine take_stages
 
-   !> Slopes 14 to 16, for the dense output.
-   pure subroutine take_dense_stages(self, context, n, h, y, z, k, slope, stage, finite)
+   !> Slopes 14 to 16, for the dense output. It is of one order less than the pair, and where a
+   !> component decays within the step its error can be large while that at the end is small. It is
+   !> estimated by the last coefficient.
+   pure subroutine take_dense_stages(self, context, n, h, scale, y, z, k, slope, stage, finite, &
+                                     error)
       class(dop853), intent(in) :: self
       type(step_context), intent(inout) :: context
       integer, intent(in) :: n
-      real(wp), intent(in) :: h, y(n), z(size(context%problem%lag), size(self%dense_places))
+      real(wp), intent(in) :: h, scale(n), y(n)
+      real(wp), intent(in) :: z(size(context%problem%lag), size(self%dense_places))
       real(wp), intent(inout) :: k(slope_count, n), slope(n), stage(n)
       logical, intent(inout) :: finite
+      real(wp), intent(out) :: error
       real(wp) :: t
 
       t = context%cursor%t
@@ -105,6 +111,10 @@ contains
       stage = y + h*(a16_1*k(1, :) + a16_6*k(6, :) + a16_7*k(7, :) + a16_8*k(8, :) &
                      + a16_9*k(9, :) + a16_13*k(13, :) + a16_14*k(14, :)) + h*a16_15*slope
       call evaluate(context, t + c16*h, z(:, 3), 16, stage, k, slope, finite)
+      stage = h*(d71*k(1, :) + d76*k(6, :) + d77*k(7, :) + d78*k(8, :) &
+                 + d79*k(9, :) + d7_10*k(10, :) + d7_11*k(11, :) + d7_12*k(12, :) &
+                 + d7_13*k(13, :) + d7_14*k(14, :) + d7_15*k(15, :) + d7_16*k(16, :))
+      error = share_of_last*sqrt(sqrt(sqrt(context%tolerance%level)))*scaled_norm(n, stage, scale)
    end subroutine take_dense_stages
 
    !> The largest e5^2/sqrt(e5^2 + 0.01 e3^2) of all components, with e3 and e5 over the tolerance
@@ -117,7 +127,8 @@ contains
       integer, intent(in) :: n
       real(wp), intent(in) :: k(slope_count, n), h, scale(n), tolerance
       real(wp), intent(out) :: embedded(n, 2), error
-      real(wp) :: norm3, norm5
+      real(wp) :: norm3, norm5, of_3, of_5, root
+      integer :: i
 
       associate (e3 => embedded(:, 2), e5 => embedded(:, 1))
          e3 = h*((b1 - bhh1)*k(1, :) + b6*k(6, :) + b7*k(7, :) + b8*k(8, :) &
@@ -129,46 +140,17 @@ contains
          norm5 = scaled_norm(n, e5, scale)
          error = huge(1.0_wp)
          if (norm3 < error .and. norm5 < error) then
-            associate (root => sqrt(tolerance))
-               error = max(combine(n, e3, e5, scale), norm3*root/largest_e3, &
-                           norm5*sqrt(root)/largest_e5)
-            end associate
+            root = sqrt(tolerance)
+            error = max(norm3*root/largest_e3, norm5*sqrt(root)/largest_e5)
+            do i = 1, n
+               of_3 = 0.1_wp*abs(e3(i))/scale(i)
+               of_5 = abs(e5(i))/scale(i)
+               ! tiny: both may be 0
+               error = max(error, of_5*(of_5/sqrt(of_5**2 + of_3**2 + tiny(1.0_wp))))
+            end do
          end if
       end associate
    end subroutine find_error
-
-   !> The largest e5^2/sqrt(e5^2 + 0.01 e3^2), with e3 and e5 over `scale`.
-   pure real(wp) function combine(n, e3, e5, scale) result(error)
-      integer, intent(in) :: n
-      !> Errors of the embedded methods, finite
-      real(wp), intent(in) :: e3(n), e5(n)
-      real(wp), intent(in) :: scale(n)
-      real(wp) :: of_3, of_5
-      integer :: i
-
-      error = 0.0_wp
-      do i = 1, n
-         of_3 = 0.1_wp*abs(e3(i))/scale(i)
-         of_5 = abs(e5(i))/scale(i)
-         ! tiny: both may be 0
-         error = max(error, of_5*(of_5/sqrt(of_5**2 + of_3**2 + tiny(1.0_wp))))
-      end do
-   end function combine
-
-   !> The dense output is of one order less than the pair, and where a component decays within the
-   !> step its error can be large while that at the end is small. It is estimated by the last
-   !> coefficient.
-   pure subroutine find_dense_error(self, n, k, h, scale, tolerance, last, error)
-      class(dop853), intent(in) :: self
-      integer, intent(in) :: n
-      real(wp), intent(in) :: k(slope_count, n), h, scale(n), tolerance
-      real(wp), intent(out) :: last(n), error
-
-      last = h*(d71*k(1, :) + d76*k(6, :) + d77*k(7, :) + d78*k(8, :) &
-                + d79*k(9, :) + d7_10*k(10, :) + d7_11*k(11, :) + d7_12*k(12, :) &
-                + d7_13*k(13, :) + d7_14*k(14, :) + d7_15*k(15, :) + d7_16*k(16, :))
-      error = share_of_last*sqrt(sqrt(sqrt(tolerance)))*scaled_norm(n, last, scale)
-   end subroutine find_dense_error
 
    !> Newton coefficients of one component's dense output over the nodes 0, 1, 0, 1, 0, 1, 0.
    pure subroutine find_coefficients(self, k, h, y, y_new, a)

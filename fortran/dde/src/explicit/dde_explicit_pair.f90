@@ -27,8 +27,8 @@ module dde_explicit_pair
       procedure(set_up_pair), deferred :: set_up
       procedure(take_stages), deferred :: take_stages
       procedure(find_error), deferred :: find_error
-      !> Unless a pair has stages for its dense output alone these do nothing.
-      procedure :: take_dense_stages, find_dense_error
+      !> Nothing unless a pair has stages for its dense output alone
+      procedure :: take_dense_stages
       procedure(find_coefficients), deferred :: find_coefficients
    end type explicit_pair
 
@@ -42,7 +42,7 @@ module dde_explicit_pair
          real(wp), allocatable, intent(out) :: nodes(:)
       end subroutine set_up_pair
 
-      !> The stages from number 2 on, and the state at the end of the step.
+      !> The stages from number 2 on, state and slope at the end of the step.
       pure subroutine take_stages(self, context, n, h, y, z, k, slope, stage, y_new, finite)
          import :: explicit_pair, slope_count, step_context, wp
          implicit none (type, external)
@@ -90,27 +90,21 @@ module dde_explicit_pair
 
 contains
 
-   !> The stages of the dense output: as `take_stages`, with delayed values at `dense_places`.
-   pure subroutine take_dense_stages(self, context, n, h, y, z, k, slope, stage, finite)
+   !> The stages of the dense output: as `take_stages`, with delayed values at `dense_places`, and
+   !> its error in units of the tolerances `scale`.
+   pure subroutine take_dense_stages(self, context, n, h, scale, y, z, k, slope, stage, finite, &
+                                     error)
       class(explicit_pair), intent(in) :: self
       type(step_context), intent(inout) :: context
       integer, intent(in) :: n
-      real(wp), intent(in) :: h, y(n), z(size(context%problem%lag), size(self%dense_places))
+      real(wp), intent(in) :: h, scale(n), y(n)
+      real(wp), intent(in) :: z(size(context%problem%lag), size(self%dense_places))
       real(wp), intent(inout) :: k(slope_count, n), slope(n), stage(n)
       logical, intent(inout) :: finite
-   end subroutine take_dense_stages
+      real(wp), intent(out) :: error
 
-   !> Estimated error of the dense output: as `find_error`, with the last Newton coefficient of each
-   !> component.
-   pure subroutine find_dense_error(self, n, k, h, scale, tolerance, last, error)
-      class(explicit_pair), intent(in) :: self
-      integer, intent(in) :: n
-      real(wp), intent(in) :: k(slope_count, n), h, scale(n), tolerance
-      real(wp), intent(out) :: last(n), error
-
-      last = 0.0_wp
       error = 0.0_wp
-   end subroutine find_dense_error
+   end subroutine take_dense_stages
 
    !> Slope number `j` at time `t` in state `y`, unless an earlier slope of the step was not finite.
    pure subroutine evaluate(context, t, z, j, y, k, slope, finite)

@@ -5,7 +5,7 @@ module dde_explicit_step
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde_bogacki_shampine, only: bogacki_shampine
    use dde_dop853, only: dop853
-   use dde_explicit_pair, only: evaluate, explicit_pair, slope_count
+   use dde_explicit_pair, only: explicit_pair, slope_count
    use dde_controller, only: method_constants
    use dde_problem, only: dde_problem_type
    use dde_step, only: step_type
@@ -63,11 +63,12 @@ contains
       allocate (self%delayed(size(problem%lag), size(self%pair%places)))
    end subroutine set_up
 
-   !> See whether the first slope is finite.
+   !> Take up the first slope.
    pure subroutine reset(self)
       class(explicit_step_type), intent(inout) :: self
 
       self%finite = all_finite(size(self%slope), self%slope)
+      self%k(1, :) = self%slope
    end subroutine reset
 
    !> Attempt a step. `error` is the estimate in units of the tolerance, at its end and, where they
@@ -87,14 +88,12 @@ contains
                  tolerance => context%tolerance)
          if (finite) then
             last = size(pair%places)
-            times(:last) = h*pair%places
+            do i = 1, last
+               times(i) = h*pair%places(i)
+            end do
             call context%delayed_values(times(:last), self%delayed)
-            self%k(1, :) = self%slope
             call pair%take_stages(context, n, h, self%y, self%delayed, self%k, &
                                   self%work(:, newest), self%work(:, stage), self%y_new, finite)
-            finite = finite .and. all_finite(n, self%y_new)
-            call evaluate(context, context%cursor%inside(self%t + h), self%delayed(:, last), &
-                          pair%stages + 1, self%y_new, self%k, self%work(:, newest), finite)
          end if
          if (finite) then
             do i = 1, n
@@ -105,10 +104,9 @@ contains
             if (error > 1.0_wp .or. last == 0 .or. .not. context%between) return
             times(:last) = h*pair%dense_places
             call context%delayed_values(times(:last), self%delayed(:, :last))
-            call pair%take_dense_stages(context, n, h, self%y, self%delayed, self%k, &
-                                        self%work(:, newest), self%work(:, dense_stage), finite)
-            call pair%find_dense_error(n, self%k, h, self%scale, tolerance%level, &
-                                       self%work(:, dense_stage), error_between)
+            call pair%take_dense_stages(context, n, h, self%scale, self%y, self%delayed, self%k, &
+                                        self%work(:, newest), self%work(:, dense_stage), finite, &
+                                        error_between)
             error = max(error, error_between)
          end if
       end associate
@@ -142,6 +140,7 @@ contains
       do i = 1, size(self%y)
          self%y(i) = self%y_new(i)
          self%slope(i) = self%k(self%pair%stages + 1, i)
+         self%k(1, i) = self%slope(i)
       end do
    end subroutine advance
 

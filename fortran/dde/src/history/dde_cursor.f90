@@ -103,37 +103,37 @@ contains
       integer :: k
 
       do k = 1, size(problem%lag)
-         call self%values_of(problem, past, k, ahead, k, z)
+         call self%values_of(problem, past, k, size(ahead), ahead, k, size(problem%lag), z)
       end do
    end subroutine values
 
    !> One delayed value at places of the step, each place after the one before.
-   pure subroutine values_of(self, problem, past, k, ahead, row, z)
+   pure subroutine values_of(self, problem, past, k, places, ahead, row, rows, z)
       class(cursor_type), intent(inout) :: self
       class(dde_problem_type), intent(in) :: problem
       type(history_type), intent(in) :: past
-      integer, intent(in) :: k
-      real(wp), contiguous, intent(in) :: ahead(:)
-      !> The row of z that its values fill
-      integer, intent(in) :: row
-      real(wp), contiguous, intent(inout) :: z(:, :)
+      integer, intent(in) :: k, places
+      real(wp), intent(in) :: ahead(places)
+      !> The row of z that its values fill, and all rows
+      integer, intent(in) :: row, rows
+      real(wp), intent(inout) :: z(rows, places)
       real(wp) :: margin
       integer :: first
 
       first = 1
       if (self%before_origin(k)) then
-         do first = 1, size(ahead)
+         do first = 1, places
             if (ahead(first) > self%passes_origin(k) .and. past%newest >= past%oldest) exit
             z(row, first) = problem%history(self%time_before(past, problem%lag(k), ahead(first)), &
                                           problem%component(k))
          end do
-         if (first > size(ahead)) return
+         if (first > places) return
          call self%read_from(past, k, past%oldest)
       end if
       margin = overlap*self%h
       call self%walk_to(past, k, max(ahead(first), margin))
-      call past%values(k, self%delayed_start(k), margin, ahead, first, row, self%step(k), &
-                       self%offset(k), z)
+      call past%values(k, self%delayed_start(k), margin, places, ahead, first, row, rows, &
+                       self%step(k), self%offset(k), z)
    end subroutine values_of
 
    !> A time in the problem's history. Where that may jump it lies between those of the step's ends.

@@ -86,14 +86,20 @@ contains
       integer, intent(in), optional :: also(:)
       type(history_type) :: past
       integer, allocatable :: row_of(:)
-      integer :: i
+      integer :: i, row
 
       past%origin = origin
       allocate (row_of(problem%n), source=0)
       row_of(problem%component) = 1
       if (present(also)) row_of(also) = 1
-      past%kept = pack([(i, i=1, problem%n)], row_of > 0)
-      row_of(past%kept) = [(i, i=1, size(past%kept))]
+      allocate (past%kept(count(row_of > 0)))
+      row = 0
+      do i = 1, problem%n
+         if (row_of(i) == 0) cycle
+         row = row + 1
+         past%kept(row) = i
+         row_of(i) = row
+      end do
       past%row = row_of(problem%component)
       allocate (past%slots(first_capacity), past%stored(first_capacity))
       past%mask = first_capacity - 1
@@ -146,21 +152,22 @@ contains
 
    !> Delayed value number k at ascending times: step by step of the past, each up to its end and a
    !> margin.
-   pure subroutine values(self, k, start, margin, ahead, from, row, step, offset, z)
+   pure subroutine values(self, k, start, margin, places, ahead, from, row, rows, step, offset, z)
       class(history_type), intent(in) :: self
       integer, intent(in) :: k
       !> The origin of `ahead`
       type(instant), intent(in) :: start
       real(wp), intent(in) :: margin
-      real(wp), contiguous, intent(in) :: ahead(:)
+      integer, intent(in) :: places
+      real(wp), intent(in) :: ahead(places)
       !> The first time to read
       integer, intent(in) :: from
-      !> The row of z that the values fill
-      integer, intent(in) :: row
+      !> The row of z that the values fill, and all rows
+      integer, intent(in) :: row, rows
       !> Step that is read, and time from its start to the origin of `ahead`: first, then last
       integer(int64), intent(inout) :: step
       real(wp), intent(inout) :: offset
-      real(wp), contiguous, intent(inout) :: z(:, :)
+      real(wp), intent(inout) :: z(rows, places)
       integer :: first
       real(wp) :: limit
 
@@ -170,10 +177,9 @@ contains
             limit = huge(1.0_wp)
             if (step < self%newest) limit = slot%length + margin
             call newton_values(slot%degree, slot%nodes, self%stored(slot%place)%a(:, self%row(k)), &
-                               offset, slot%length, limit, size(ahead), ahead, first, row, &
-                               size(z, 1), z)
+                               offset, slot%length, limit, places, ahead, first, row, rows, z)
          end associate
-         if (first > size(ahead)) exit
+         if (first > places) exit
          step = step + 1
          offset = elapsed(self%start_of(step), start)
       end do

@@ -44,6 +44,8 @@ module dde_breaking_points
    type :: breaking_points
       !> Those passed that may return after a delay, ascending
       type(kink_type), allocatable :: met(:)
+      !> Whether all those passed are kept, for a continuation
+      logical :: remembers = .true.
       !> Those to come, ascending; the last is the end of the run
       type(kink_type), allocatable, private :: ahead(:)
       !> The next of them, and the next that must be landed on
@@ -87,11 +89,12 @@ contains
       self%credit = self%most_credit
       allocate (returns(size(lag)))
       returns%at%hi = lag
-      returns = sorted(returns, instant(0.0_wp))
+      call sort(returns, instant(0.0_wp))
       self%lag = returns%at%hi
       self%ahead = [kink_type(finish, no_kink, no_kink)]
-      all_kinks = sorted(kinks, origin)
-      self%met = pack(all_kinks, elapsed(all_kinks%at, now) >= 0.0_wp)
+      all_kinks = kinks
+      call sort(all_kinks, origin)
+      self%met = all_kinks(:count(elapsed(all_kinks%at, now) >= 0.0_wp))
       ! backwards: each is then the first
       do i = size(all_kinks), size(self%met) + 1, -1
          call self%add_ahead(all_kinks(i), now)
@@ -266,7 +269,7 @@ contains
       if (number < self%due .and. h < short*proposed) self%credit = max(0, self%credit - 1)
       if (.not. self%is_end(number)) self%next = number + 1
       if (here%passages == no_kink) return
-      self%met = [self%met, here]
+      if (self%remembers) self%met = [self%met, here]
       if (self%is_end(number)) return
       call self%add_returns(here, here%at)
       call self%find_due()
@@ -337,13 +340,13 @@ contains
       points = points(:count)
    end function each_once
 
-   !> Points in any order as an ascending list, each once.
-   pure function sorted(points, origin) result(list)
-      type(kink_type), intent(in) :: points(:)
+   !> From points in any order to an ascending list, each once.
+   pure subroutine sort(points, origin)
+      type(kink_type), allocatable, intent(inout) :: points(:)
       type(instant), intent(in) :: origin
-      type(kink_type), allocatable :: list(:)
 
-      list = points
-      if (size(points) > 1) list = each_once(list(ascending(elapsed(origin, list%at))), origin)
-   end function sorted
+      if (size(points) > 1) then
+         points = each_once(points(ascending(elapsed(origin, points%at))), origin)
+      end if
+   end subroutine sort
 end module dde_breaking_points

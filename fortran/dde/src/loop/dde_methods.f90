@@ -5,7 +5,7 @@ module dde_methods
    use dde_implicit_step, only: implicit_cost, implicit_step_type, stages_of
    use dde_interpolant, only: highest_degree
    use dde_memory, only: find_lacking
-   use dde_orders, only: explicit_method, least_of_loose, radau_method
+   use dde_orders, only: explicit_method, radau_method, series_pays
    use dde_problem, only: dde_problem_type
    use dde_slow_series, only: least_balance
    use dde_step, only: step_type
@@ -91,6 +91,9 @@ contains
       !> Bytes that could not be allocated, or 0
       real(wp), intent(out) :: lacking
       character(len=8) :: name
+      type(explicit_step_type), allocatable :: explicit
+      type(implicit_step_type), allocatable :: implicit
+      type(taylor_step_type), allocatable :: taylor
 
       name = method
       if (name == "auto") name = matching_method(problem, tolerance, origin, implicit=.false.)
@@ -99,19 +102,17 @@ contains
       if (lacking > 0.0_wp) return
       select case (name)
       case ("radau5", "radau9", "radau13")
-         allocate (implicit_step_type :: step)
+         allocate (implicit)
+         call implicit%set_up(problem, name, tolerance%level)
+         call move_alloc(implicit, step)
       case ("taylor")
-         allocate (taylor_step_type :: step)
+         allocate (taylor)
+         call taylor%set_up(problem, tolerance%level)
+         call move_alloc(taylor, step)
       case default
-         allocate (explicit_step_type :: step)
-      end select
-      select type (step)
-      type is (implicit_step_type)
-         call step%set_up(problem, name, tolerance%level)
-      type is (taylor_step_type)
-         call step%set_up(problem, tolerance%level)
-      type is (explicit_step_type)
-         call step%set_up(problem, name)
+         allocate (explicit)
+         call explicit%set_up(problem, name)
+         call move_alloc(explicit, step)
       end select
    end subroutine choose_method
 
@@ -133,7 +134,7 @@ contains
       if (implicit) then
          method = radau_method(tolerance%level)
       else if (problem%analytic) then
-         if (tolerance%level >= least_of_loose) then
+         if (.not. series_pays(tolerance%level, problem%n, size(problem%lag))) then
             allocate (y(problem%n))
             call problem%initial(y)
             if (problem%relaxation_rate(origin, y) < least_balance/minval(problem%lag)) return

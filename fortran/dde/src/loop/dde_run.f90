@@ -98,11 +98,12 @@ contains
       self%lacking = find_lacking(reals)
       if (self%lacking > 0.0_wp) return
       self%context%problem => problem
+      self%points%remembers = present(continuation)
       self%context%tolerance = tolerance_type(problem%n, options%relative, options%absolute, &
                                               options%each_relative, options%each_absolute)
       self%context%cursor = cursor_type(problem)
       self%context%work = work_type(problem%n)
-      self%reach = maxval([problem%lag, options%past_kept])
+      self%reach = max(options%past_kept, maxval(problem%lag))
       if (options%keep_all) self%reach = huge(1.0_wp)
       if (continued) then
          call self%continue_run(instant(t_end), options, continuation)
@@ -127,22 +128,24 @@ contains
       !> Time to the end of the run, or the longest step allowed, the shorter
       real(wp), intent(in) :: longest
       real(wp), intent(out) :: h
-      real(wp), allocatable :: scale(:), slope_ahead(:)
+      real(wp), allocatable :: slope_ahead(:)
       real(wp) :: bend, slope
 
-      allocate (scale(size(step%y)), slope_ahead(size(step%y)))
-      call context%tolerance%scale(step%y, scale)
+      allocate (slope_ahead, mold=step%slope)
+      call context%tolerance%scale(step%y, step%scale)
       h = 1.0e-6_wp*longest
-      slope = length_of(step%slope, scale)
+      slope = length_of(step%slope, step%scale)
       if (slope > hopeless) return
       h = 1.0e-6_wp
-      if (slope > 1.0e-5_wp .and. length_of(step%y, scale) > 1.0e-5_wp) then
-         h = 0.01_wp*length_of(step%y, scale)/slope
+      if (slope > 1.0e-5_wp .and. length_of(step%y, step%scale) > 1.0e-5_wp) then
+         h = 0.01_wp*length_of(step%y, step%scale)/slope
       end if
-      h = minval([h, longest, context%problem%lag])
+      h = min(h, longest, minval(context%problem%lag))
       call context%delayed_values([h], step%z)
-      call context%evaluate(context%cursor%t + h, step%y + h*step%slope, step%z, slope_ahead)
-      bend = length_of(slope_ahead - step%slope, scale)
+      step%y_new = step%y + h*step%slope
+      call context%evaluate(context%cursor%t + h, step%y_new, step%z, slope_ahead)
+      slope_ahead = slope_ahead - step%slope
+      bend = length_of(slope_ahead, step%scale)
       if (bend > hopeless) return
       bend = bend/h
       if (max(slope, bend) > 1.0e-15_wp) then
@@ -179,7 +182,8 @@ contains
          call check_finite("integrate: the initial state has y", self%step%y, error)
          if (allocated(error)) return
          call context%work%set_cost(self%step%constants%evaluation_cost)
-         context%past = history_type(problem, start, pack([(k, k=1, problem%n)], options%keep_all))
+         context%past = history_type(problem, start, &
+                                     [(k, k=1, merge(problem%n, 0, options%keep_all))])
          first = kink_type(start)
          do k = 1, size(problem%lag)
             associate (component => problem%component(k))
@@ -189,7 +193,7 @@ contains
                end if
             end associate
          end do
-         call self%points%begin([first, causes(options, start)], start, start, finish, &
+         call self%points%begin(causes(options, start, [first]), start, start, finish, &
                                 problem%lag, problem%n, self%step%constants%order - 1)
       end associate
       call prepare_start(self, options)
@@ -222,7 +226,7 @@ contains
          self%first_slope = continuation%slope
          context%past = history_type(problem, origin, continuation%kept)
          call continuation%restore(context%past, kinks)
-         call self%points%begin([kinks, causes(options, origin)], origin, self%now, finish, &
+         call self%points%begin(causes(options, origin, kinks), origin, self%now, finish, &
                                 problem%lag, problem%n, self%step%constants%order - 1)
       end associate
       call prepare_start(self, options)
@@ -248,8 +252,8 @@ contains
       end if
       associate (problem => self%context%problem)
          call self%context%go_to(self%now, &
-                                 minval([longest_step(problem, self%step, options%longest_step), &
-                                         problem%lag, self%points%time_to_next(self%now)]))
+                                 min(longest_step(problem, self%step, options%longest_step), &
+                                     minval(problem%lag), self%points%time_to_next(self%now)))
       end associate
       call bound_times(self)
       call self%step%restart(self%context)

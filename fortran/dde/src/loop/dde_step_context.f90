@@ -47,7 +47,7 @@ contains
       !> Times since the start of the step, ascending
       real(wp), contiguous, intent(in) :: ahead(:)
       !> Delayed values, shape (number of delayed values, size(ahead))
-      real(wp), contiguous, intent(out) :: z(:, :)
+      real(wp), intent(out) :: z(size(self%problem%lag), size(ahead))
 
       call self%cursor%values(self%problem, self%past, ahead, z)
    end subroutine delayed_values

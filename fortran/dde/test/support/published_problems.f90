@@ -165,13 +165,23 @@ contains
       integer, intent(in) :: degree
       real(wp), intent(in) :: z(0:degree)
       real(wp), intent(out) :: power(0:degree), gain(0:degree)
+      real(wp) :: by_gain, by_z
       integer :: j, k
 
       power(0) = z(0)**10
       gain(0) = z(0)/(1.0_wp + power(0))
       do k = 1, degree
-         power(k) = sum([((11*j - k)*z(j)*power(k - j), j=1, k)])/(k*z(0))
-         gain(k) = (z(k) - sum(power(1:k)*gain(k - 1:0:-1)))/(1.0_wp + power(0))
+         ! an array of the terms would be allocated
+         by_z = 0.0_wp
+         do j = 1, k
+            by_z = by_z + (11*j - k)*z(j)*power(k - j)
+         end do
+         power(k) = by_z/(k*z(0))
+         by_gain = 0.0_wp
+         do j = 1, k
+            by_gain = by_gain + power(j)*gain(k - j)
+         end do
+         gain(k) = (z(k) - by_gain)/(1.0_wp + power(0))
       end do
    end subroutine power_and_gain
 end module published_problems
