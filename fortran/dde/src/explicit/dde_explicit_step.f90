@@ -56,10 +56,8 @@ contains
       self%constants = method_constants(name=name, order=self%pair%order, &
                                         error_order=self%pair%order)
       call self%allocate_state(problem)
-      associate (n => problem%n)
-         allocate (self%k(slope_count, n), self%work(n, dense_stage), source=0.0_wp)
-         allocate (self%embedded(n, 2))
-      end associate
+      allocate (self%k(slope_count, problem%n), self%work(problem%n, dense_stage), source=0.0_wp)
+      allocate (self%embedded(problem%n, 2))
       allocate (self%delayed(size(problem%lag), size(self%pair%places)))
    end subroutine set_up
 

@@ -93,7 +93,8 @@ contains
       if (automatic) then
          associate (tolerance => run%context%tolerance, origin => run%context%past%origin%hi)
             switch = switch_type(price_of_trial(problem, tolerance), &
-                                 matching_method(problem, tolerance, origin, .false.) == "taylor")
+                                 matching_method(problem, tolerance, origin, .false.) == "taylor", &
+                                 minval(problem%lag))
          end associate
       end if
       error_estimate = 0.0_wp
@@ -146,7 +147,7 @@ contains
          if (automatic) then
             ! a run that may be continued has no end yet
             left = huge(1.0_wp)
-            if (.not. present(continuation)) left = run%points%time_to_end(step_end)
+            if (.not. present(continuation)) left = t_end - step_end%hi
             call switch%judge(problem, run%step, run%context%work, h, left, other)
          end if
          call run%step%advance()

@@ -60,6 +60,8 @@ module dde_switch
       logical :: returned = .false.
       !> Whether the explicit method is that of Taylor series
       logical, private :: series = .false.
+      !> The shortest delay
+      real(wp), private :: shortest = 0.0_wp
    contains
       procedure :: judge
    end type switch_type
@@ -71,12 +73,15 @@ module dde_switch
 contains
 
    !> The choice at the start of a run.
-   pure type(switch_type) function new_switch(least_price, series) result(switch)
+   pure type(switch_type) function new_switch(least_price, series, shortest) result(switch)
       !> Work of a short trial of the implicit method without its linear systems
       real(wp), intent(in) :: least_price
       !> Whether the explicit method is that of Taylor series
       logical, intent(in) :: series
+      !> The shortest delay
+      real(wp), intent(in) :: shortest
 
+      switch%shortest = shortest
       switch%least_price = least_price
       switch%price = least_price
       switch%series = series
@@ -138,7 +143,7 @@ contains
             end if
          end if
       case default
-         limited = is_limited(problem, step, h_next, self%series)
+         limited = is_limited(self, problem, step, h_next)
          pace_is_known = .not. limited
          if (step%constants%implicit) then
             pace_is_known = self%recent%steps == longest_trial
@@ -171,17 +176,17 @@ contains
 
    !> Whether something else than the change of the solution limits a step: of the explicit method
    !> stability or a delay; of the implicit one nothing, where an explicit step could be as long.
-   pure logical function is_limited(problem, step, h_next, series) result(limited)
+   pure logical function is_limited(self, problem, step, h_next) result(limited)
+      class(switch_type), intent(in) :: self
       class(dde_problem_type), intent(in) :: problem
       class(step_type), intent(in) :: step
       real(wp), intent(in) :: h_next
-      logical, intent(in) :: series
       logical :: delay_limits
 
-      delay_limits = h_next/beyond_the_delay > minval(problem%lag)
+      delay_limits = h_next/beyond_the_delay > self%shortest
       if (step%constants%implicit) then
          limited = .not. step%stiff()
-         if (series) limited = limited .or. in_balance(problem, step)
+         if (self%series) limited = limited .or. in_balance(problem, step)
          limited = limited .and. .not. delay_limits
       else
          limited = step%stiff() .or. delay_limits
