@@ -67,11 +67,14 @@ contains
       type(instant), intent(in) :: start
       real(wp), intent(in) :: length
       real(wp) :: ahead
-      integer :: k
+      integer :: k, last
 
       self%t = start%hi
       self%h = length
-      do k = 1, size(self%offset)
+      last = 0
+      do while (last < size(self%offset))
+         k = last + 1
+         last = past%last_alike(k)
          self%delayed_start(k) = later(start, -problem%lag(k))
          ahead = elapsed(self%delayed_start(k), past%origin)
          self%before_origin(k) = ahead > beside*length
@@ -79,6 +82,12 @@ contains
          if (.not. self%before_origin(k)) then
             call self%read_from(past, k, max(self%step(k), past%oldest))
          end if
+         if (last == k) cycle
+         self%delayed_start(k + 1:last) = self%delayed_start(k)
+         self%before_origin(k + 1:last) = self%before_origin(k)
+         self%passes_origin(k + 1:last) = self%passes_origin(k)
+         self%step(k + 1:last) = self%step(k)
+         self%offset(k + 1:last) = self%offset(k)
       end do
    end subroutine set
 
@@ -100,39 +109,47 @@ contains
       real(wp), contiguous, intent(in) :: ahead(:)
       !> Delayed values
       real(wp), intent(out) :: z(size(problem%lag), size(ahead))
-      integer :: k
+      integer :: k, last
 
-      do k = 1, size(problem%lag)
-         call self%values_of(problem, past, k, size(ahead), ahead, k, size(problem%lag), z)
+      last = 0
+      do while (last < size(problem%lag))
+         k = last + 1
+         last = past%last_alike(k)
+         call self%values_of(problem, past, k, last, size(ahead), ahead, k, size(z, 1), z)
       end do
    end subroutine values
 
-   !> One delayed value at places of the step, each place after the one before.
-   pure subroutine values_of(self, problem, past, k, places, ahead, row, rows, z)
+   !> Delayed values that are alike, at places of the step, each place after the one before.
+   pure subroutine values_of(self, problem, past, k, last, places, ahead, row, rows, z)
       class(cursor_type), intent(inout) :: self
       class(dde_problem_type), intent(in) :: problem
       type(history_type), intent(in) :: past
-      integer, intent(in) :: k, places
+      !> The first and the last of them
+      integer, intent(in) :: k, last
+      integer, intent(in) :: places
       real(wp), intent(in) :: ahead(places)
-      !> The row of z that its values fill, and all rows
+      !> The row of z that the first fills, and all rows
       integer, intent(in) :: row, rows
       real(wp), intent(inout) :: z(rows, places)
       real(wp) :: margin
-      integer :: first
+      integer :: first, i
 
       first = 1
       if (self%before_origin(k)) then
-         do first = 1, places
-            if (ahead(first) > self%passes_origin(k) .and. past%newest >= past%oldest) exit
-            z(row, first) = problem%history(self%time_before(past, problem%lag(k), ahead(first)), &
-                                          problem%component(k))
+         do i = k, last
+            do first = 1, places
+               if (ahead(first) > self%passes_origin(k) .and. past%newest >= past%oldest) exit
+               z(row + i - k, first) = problem%history(self%time_before(past, problem%lag(k), &
+                                                                        ahead(first)), &
+                                                       problem%component(i))
+            end do
          end do
          if (first > places) return
          call self%read_from(past, k, past%oldest)
       end if
       margin = overlap*self%h
       call self%walk_to(past, k, max(ahead(first), margin))
-      call past%values(k, self%delayed_start(k), margin, places, ahead, first, row, rows, &
+      call past%values(k, last, self%delayed_start(k), margin, places, ahead, first, row, rows, &
                        self%step(k), self%offset(k), z)
    end subroutine values_of
 

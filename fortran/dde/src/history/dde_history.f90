@@ -5,7 +5,7 @@
 !> modules ask it for values: steps have numbers, times in a step are counted from its start. Before
 !> the initial time the problem's own history holds.
 module dde_history
-   use dde_interpolant, only: highest_degree, newton_value, newton_values, stored_degree, &
+   use dde_interpolant, only: highest_degree, newton_row, newton_values, stored_degree, &
                               taylor_coefficients, usual_degree
    use dde_memory, only: find_lacking, small
    use dde_problem, only: dde_problem_type
@@ -54,6 +54,8 @@ module dde_history
       integer, allocatable :: kept(:)
       !> Place in `kept` of each delayed value
       integer, allocatable :: row(:)
+      !> The last delayed value after each that is alike: of the same delay, in the next places
+      integer, allocatable :: last_alike(:)
       !> Numbers of the oldest and the newest step kept
       integer(int64) :: oldest = 0, newest = -1
       !> Steps from this number to the oldest are dropped, but still have their polynomials
@@ -101,6 +103,12 @@ contains
          row_of(i) = row
       end do
       past%row = row_of(problem%component)
+      past%last_alike = [(i, i=1, size(problem%lag))]
+      do i = size(problem%lag) - 1, 1, -1
+         if (past%row(i + 1) /= past%row(i) + 1) cycle
+         if (abs(problem%lag(i + 1) - problem%lag(i)) > 0.0_wp) cycle
+         past%last_alike(i) = past%last_alike(i + 1)
+      end do
       allocate (past%slots(first_capacity), past%stored(first_capacity))
       past%mask = first_capacity - 1
    end function new_history
@@ -143,31 +151,29 @@ contains
       integer(int64), intent(in) :: step
       integer, intent(in) :: k
       real(wp), intent(in) :: time
+      real(wp) :: values(1)
 
-      associate (slot => self%slots(slot_of(self, step)))
-         z = newton_value(slot%degree, slot%nodes, self%stored(slot%place)%a(:, self%row(k)), &
-                          time/slot%length)
+      associate (slot => self%slots(slot_of(self, step)), row => self%row(k))
+         call newton_row(slot%degree, slot%nodes, self%stored(slot%place)%a(:, row:row), &
+                         time/slot%length, values)
       end associate
+      z = values(1)
    end function value
 
-   !> Delayed value number k at ascending times: step by step of the past, each up to its end and a
-   !> margin.
-   pure subroutine values(self, k, start, margin, places, ahead, from, row, rows, step, offset, z)
+   !> Delayed values number k to `last`, which are alike, at ascending times from number `from` on:
+   !> step by step of the past, each up to its end and a margin.
+   pure subroutine values(self, k, last, start, margin, places, ahead, from, row, rows, step, &
+                          offset, z)
       class(history_type), intent(in) :: self
-      integer, intent(in) :: k
+      integer, intent(in) :: k, last, places, from
       !> The origin of `ahead`
       type(instant), intent(in) :: start
-      real(wp), intent(in) :: margin
-      integer, intent(in) :: places
-      real(wp), intent(in) :: ahead(places)
-      !> The first time to read
-      integer, intent(in) :: from
-      !> The row of z that the values fill, and all rows
+      real(wp), intent(in) :: margin, ahead(places)
+      !> The row of z that the values of number k fill, and all rows
       integer, intent(in) :: row, rows
       !> Step that is read, and time from its start to the origin of `ahead`: first, then last
       integer(int64), intent(inout) :: step
-      real(wp), intent(inout) :: offset
-      real(wp), intent(inout) :: z(rows, places)
+      real(wp), intent(inout) :: offset, z(rows, places)
       integer :: first
       real(wp) :: limit
 
@@ -176,8 +182,18 @@ contains
          associate (slot => self%slots(slot_of(self, step)))
             limit = huge(1.0_wp)
             if (step < self%newest) limit = slot%length + margin
-            call newton_values(slot%degree, slot%nodes, self%stored(slot%place)%a(:, self%row(k)), &
-                               offset, slot%length, limit, places, ahead, first, row, rows, z)
+            if (k == last) then
+               call newton_values(slot%degree, slot%nodes, &
+                                  self%stored(slot%place)%a(:, self%row(k)), offset, slot%length, &
+                                  limit, places, ahead, first, row, rows, z)
+            else
+               do first = first, places
+                  if (offset + ahead(first) > limit) exit
+                  call newton_row(slot%degree, slot%nodes, &
+                                  self%stored(slot%place)%a(:, self%row(k):self%row(last)), &
+                                  (offset + ahead(first))/slot%length, z(row, first))
+               end do
+            end if
          end associate
          if (first > places) exit
          step = step + 1

@@ -8,7 +8,7 @@ module dde_interpolant
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: highest_degree, newton_state, newton_value, newton_values, series_value
+   public :: highest_degree, newton_row, newton_state, newton_values, series_value
    public :: stored_degree, taylor_coefficients, usual_degree
 
    !> Highest degree of a polynomial.
@@ -37,49 +37,26 @@ contains
       if (degree > short_degree) stored = max(degree, usual_degree)
    end function stored_degree
 
-   !> Value of p at s.
-   pure function newton_value(degree, nodes, coefficients, s) result(value)
-      !> Degree of p
-      integer, intent(in) :: degree
-      !> Nodes x(1..degree) of the method
-      real(wp), intent(in) :: nodes(degree)
-      !> Coefficients a(0..degree)
-      real(wp), intent(in) :: coefficients(0:degree)
-      !> Place in the step, 0..1
-      real(wp), intent(in) :: s
-      real(wp) :: value
-      integer :: j
-
-      value = coefficients(degree)
-      do j = degree, 1, -1
-         value = coefficients(j - 1) + (s - nodes(j))*value
-      end do
-   end function newton_value
-
    !> Values of p at ascending places, from number `first` up to a limit. Written out for the usual
    !> degrees, since most time of a step is spent on delayed values.
    pure subroutine newton_values(degree, x, a, offset, length, limit, places, ahead, first, &
                                  row, rows, values)
       !> Degree of p
-      integer, intent(in) :: degree
+      integer, value :: degree
       !> Nodes
       real(wp), intent(in) :: x(highest_degree)
       !> Coefficients, 0 above the degree of p
       real(wp), intent(in) :: a(0:stored_degree(degree))
-      !> Time from the start of p's step to the origin of `ahead`
-      real(wp), intent(in) :: offset
-      !> Length of p's step
-      real(wp), intent(in) :: length
-      !> Time since the start of p's step up to which p is read
-      real(wp), intent(in) :: limit
-      !> Number of places
-      integer, intent(in) :: places
+      !> Time from the start of p's step to the origin of `ahead`, the length of p's step, and the
+      !> time since its start up to which p is read
+      real(wp), value :: offset, length, limit
       !> Places as times, ascending
+      integer, value :: places
       real(wp), intent(in) :: ahead(places)
       !> First place to read; on return the first that lies beyond the limit
       integer, intent(inout) :: first
       !> The row that the values fill, and all rows
-      integer, intent(in) :: row, rows
+      integer, value :: row, rows
       real(wp), intent(inout) :: values(rows, places)
       real(wp) :: s, rest
       integer :: i, j
@@ -100,6 +77,29 @@ contains
       end do
       first = i
    end subroutine newton_values
+
+   !> Values at s of several polynomials, the columns of a, as `newton_values`.
+   pure subroutine newton_row(degree, x, a, s, values)
+      integer, intent(in) :: degree
+      real(wp), contiguous, intent(in) :: a(0:, :)
+      real(wp), intent(in) :: x(highest_degree), s
+      real(wp), intent(out) :: values(size(a, 2))
+      real(wp) :: d(usual_degree), rest
+      integer :: j, k
+
+      d = s - x(:usual_degree)
+      do k = 1, size(values)
+         rest = 0.0_wp
+         do j = degree, usual_degree + 1, -1
+            rest = (s - x(j))*(a(j, k) + rest)
+         end do
+         if (degree > short_degree) then
+            rest = d(5)*(a(5, k) + d(6)*(a(6, k) + d(7)*(a(7, k) + d(8)*(a(8, k) + rest))))
+         end if
+         values(k) = a(0, k) + d(1)*(a(1, k) + d(2)*(a(2, k) + d(3)*(a(3, k) &
+                   + d(4)*(a(4, k) + rest))))
+      end do
+   end subroutine newton_row
 
    !> Value of a series of powers at s. Even and odd terms are summed in parallel.
    pure function series_value(degree, coefficients, s) result(value)

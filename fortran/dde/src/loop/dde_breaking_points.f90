@@ -124,7 +124,8 @@ contains
 
       if (kink%passages >= self%most_passages) return
       if (kink%generation > 0 .and. size(self%ahead) - self%next >= most_ahead) return
-      do i = 1, size(self%lag)
+      ! the last first: no point is then moved more than once
+      do i = size(self%lag), 1, -1
          call self%add_ahead(kink_type(later(kink%at, self%lag(i)), kink%passages + 1, &
                                        kink%generation + 1), now)
       end do

@@ -4,7 +4,7 @@
 module dde_output
    use dde_events, only: event_watcher_type
    use dde_history, only: history_type
-   use dde_interpolant, only: highest_degree, newton_value
+   use dde_interpolant, only: highest_degree, newton_state
    use dde_run, only: run_type
    use dde_sampler, only: sampler_type
    use dde_step, only: step_type
@@ -105,7 +105,7 @@ contains
       type(instant), intent(in) :: start
       !> Where the run stands after it
       type(instant), intent(in) :: step_end
-      real(wp) :: s, time
+      real(wp) :: s, slope, time
       integer :: degree, i
 
       degree = size(step%nodes)
@@ -120,7 +120,8 @@ contains
          time = sampler%next
          s = elapsed(start, instant(time))/step%h
          do i = 1, size(sampler%wanted)
-            sampler%values_here(i) = newton_value(degree, step%nodes, sampler%dense(:, i), s)
+            call newton_state(step%nodes, sampler%dense(:degree, i), s, sampler%values_here(i), &
+                              slope)
          end do
          call sampler%take(sampler%values_here)
          call limit_next(sampler, time, step%h)

@@ -3,7 +3,7 @@
 module single_step
    use dde_cursor, only: cursor_type
    use dde_history, only: history_type
-   use dde_interpolant, only: newton_value
+   use dde_interpolant, only: newton_state
    use dde_problem, only: dde_problem_type
    use dde_step, only: step_type
    use dde_step_context, only: step_context
@@ -81,12 +81,12 @@ contains
       class(step_type), intent(in) :: step
       real(wp), intent(in) :: s
       real(wp) :: y(size(step%y))
-      real(wp) :: a(0:size(step%nodes))
+      real(wp) :: a(0:size(step%nodes)), slope
       integer :: i
 
       do i = 1, size(y)
          call step%interpolant(i, a)
-         y(i) = newton_value(size(step%nodes), step%nodes, a, s)
+         call newton_state(step%nodes, a, s, y(i), slope)
       end do
    end function interpolated
 end module single_step
