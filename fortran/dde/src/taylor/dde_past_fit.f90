@@ -87,8 +87,8 @@ contains
       associate (nodes => self%nodes, past => context%past, cursor => context%cursor)
          step = past%oldest
          if (.not. cursor%before_origin(k)) step = cursor%step(k) + 1
-         call cursor%values_of(context%problem, past, k, nodes + 2, h*self%places(:nodes + 1), 1, 1, &
-                               values)
+         call cursor%values_of(context%problem, past, k, nodes + 2, h*self%places(:nodes + 1), 1, &
+                               1, values)
          allowed = agreement*context%tolerance%of_component(context%problem%component(k), &
                                                               values(1, 0))
          do n = 0, nodes - 1
