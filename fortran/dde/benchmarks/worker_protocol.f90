@@ -67,6 +67,8 @@ contains
             call write_samples(trim(request(index(request, " 0 ") + 3:)))
             deallocate (samples)
          end if
+         ! the first run after another tolerance prepares the storage of RETARD, which takes longer
+         if (runs > 0) call integrate_once(tolerance, failure)
          call cpu_time(start)
          do i = 1, runs
             call integrate_once(tolerance, failure)

@@ -18,8 +18,7 @@ module dde_bogacki_shampine
 
    !> Times of stages 2 to 6; that of stage 7 is 1
    real(wp), parameter :: &
-      c2 = 1.0_wp/6.0_wp, c3 = 2.0_wp/9.0_wp, c4 = 3.0_wp/7.0_wp, c5 = 2.0_wp/3.0_wp, &
-      c6 = 0.75_wp
+      c2 = 1.0_wp/6.0_wp, c3 = 2.0_wp/9.0_wp, c4 = 3.0_wp/7.0_wp, c5 = 2.0_wp/3.0_wp, c6 = 0.75_wp
 
    !> Weights of the stages 2 to 7, row by row
    real(wp), parameter :: &

@@ -12,7 +12,7 @@ module dde_orders
    real(wp), parameter :: least_of_bs5 = 3.0e-6_wp
    !> Least tolerance at which the pair takes fewer instructions than a Taylor series, and where
    !> there is a delayed value for every two equations or more: its series cost most of a step.
-   real(wp), parameter :: least_of_loose = 1.0e-3_wp, least_of_many_delays = 1.0e-5_wp
+   real(wp), parameter :: least_of_loose = 1.0e-3_wp, least_of_many = 1.0e-5_wp
    !> Least tolerances of Radau IIA of order 5 and 9; below them the order is 13.
    real(wp), parameter :: least_of_radau5 = 3.0e-5_wp, least_of_radau9 = 1.0e-11_wp
    !> Degree of a Taylor series = this - log10(tolerance), near the degree of least cost for an
@@ -35,14 +35,13 @@ contains
    end function explicit_method
 
    !> Whether a Taylor series takes fewer instructions than the explicit pair.
-   pure logical function series_pays(tolerance, equations, delays) result(value)
+   pure logical function series_pays(tolerance, n, delays) result(value)
       !> Level of the tolerance
       real(wp), intent(in) :: tolerance
       !> Numbers of equations and of delayed values
-      integer, intent(in) :: equations, delays
+      integer, intent(in) :: n, delays
 
-      value = delays == 0 .or. tolerance < merge(least_of_many_delays, least_of_loose, &
-                                                 2*delays >= equations)
+      value = delays == 0 .or. tolerance < merge(least_of_many, least_of_loose, 2*delays >= n)
    end function series_pays
 
    !> The Radau method of `auto`.
