@@ -118,6 +118,7 @@ contains
          if (landing) step_end = run%points%at(goal)
          run%context%between = is_read(run, h, step_end, sampler, watcher)
          call run%step%attempt(run%context, error_estimate)
+         call run%points%judge(step_end, error_estimate)
          if (.not. accepted(error_estimate)) then
             outcome%rejected = outcome%rejected + 1
             run%h = h

@@ -194,7 +194,8 @@ contains
             end associate
          end do
          call self%points%begin(causes(options, start, [first]), start, start, finish, &
-                                problem%lag, problem%n, self%step%constants%order - 1)
+                                problem%lag, problem%n, self%step%constants%order - 1, &
+                                context%tolerance%level)
       end associate
       call prepare_start(self, options)
       self%first_slope = self%step%slope
@@ -227,7 +228,8 @@ contains
          context%past = history_type(problem, origin, continuation%kept)
          call continuation%restore(context%past, kinks)
          call self%points%begin(causes(options, origin, kinks), origin, self%now, finish, &
-                                problem%lag, problem%n, self%step%constants%order - 1)
+                                problem%lag, problem%n, self%step%constants%order - 1, &
+                                context%tolerance%level)
       end associate
       call prepare_start(self, options)
       if (size(self%first_slope) == 0) self%first_slope = self%step%slope

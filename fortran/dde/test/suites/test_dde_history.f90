@@ -56,14 +56,16 @@ contains
    end subroutine collect_dde_history
 
    !> Three delays of two components over 2000 steps of different lengths, of which 50 at a time
-   !> matter; the same where 600 matter, so that the ring doubles four times; and where steps become
-   !> shorter on the way, so that the ring doubles when its oldest step lies anywhere.
+   !> matter; the same where 600 matter, so that the ring doubles four times; where steps become
+   !> shorter on the way, so that the ring doubles when its oldest step lies anywhere; and where both
+   !> components have one delay, and are looked up together.
    subroutine test_ring(error)
       type(error_type), allocatable, intent(out) :: error
 
       call expect_lookups(error, [0.05_wp, 1.45_wp, 0.9_wp], 2000)
       call expect_lookups(error, [0.05_wp, 18.0_wp, 7.3_wp], 2000)
       call expect_lookups(error, [0.05_wp, 1.45_wp, 0.9_wp], 2000, 500)
+      call expect_lookups(error, [0.05_wp, 1.45_wp, 1.45_wp], 2000, 500)
    end subroutine test_ring
 
    !> Steps that ended before the horizon are gone, those after it are there, the newest always is:

@@ -100,7 +100,7 @@ contains
       case (delayed_pulse)
          dydt = [merge(100.0_wp, 0.0_wp, t >= 50.0_wp .and. t < 50.1_wp), z(1)]
       case (many_delays)
-         dydt = -y - sum(z)/24
+         dydt = -y - sum(z)/max(24, size(z)/5)
       case (relaxing)
          dydt = [-1000.0_wp*self%k*((y(1)/self%k)**2 - y(2)**2), -y(2)]
       case default ! a steep delayed feedback
