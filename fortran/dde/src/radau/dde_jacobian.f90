@@ -75,10 +75,7 @@ contains
       if (self%given) then
          call problem%jacobian(t, y, z, self%by_y, self%by_z)
          self%given = .not. all(self%by_y <= not_given)
-         if (.not. self%given) then
-            self%by_y = 0.0_wp
-            self%by_z = 0.0_wp
-         end if
+         if (.not. self%given) self%by_z = 0.0_wp
       end if
       self%known_to = merge(huge(1.0_wp), longest, self%given)
       if (.not. self%given) then
