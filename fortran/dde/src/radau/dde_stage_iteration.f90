@@ -112,8 +112,8 @@ contains
                end if
             end do
             if (past == 0) cycle
-            call context%cursor%values_of(context%problem, context%past, k, k, past, self%places, k, &
-                                          size(lag), self%delayed)
+            call context%cursor%values_of(context%problem, context%past, k, k, past, self%places, &
+                                          k, size(lag), self%delayed)
          end do
       end associate
    end subroutine place_delays
