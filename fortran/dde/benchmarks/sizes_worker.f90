@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> One run of many cells or delays (sizes.py). Arguments: numbers of equations and delays, the
 !> longest delay less the shortest, what the problem gives besides f, the method, the end of the
-!> run, and most steps. If the method is `f`, f is evaluated as often. Prints accepted steps, all steps,
-!> evaluations, seconds of CPU time, and the most memory of the process in MB.
+!> run, and most steps. If the method is `f`, f is evaluated as often. Prints accepted steps, all
+!> steps, evaluations, seconds of CPU time, and the most memory of the process in MB.
 program sizes_worker
    use dde, only: integrate, integration_options, integration_result
    use dde_errors, only: error_type

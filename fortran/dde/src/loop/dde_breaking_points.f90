@@ -23,11 +23,12 @@ module dde_breaking_points
    real(wp), parameter :: stretch = 1.01_wp
    !> No points of later generations are added beyond this number: they lie too close to land on.
    integer, parameter :: most_ahead = 1000
-   !> The error estimate of steps over kinks of one equation, which it hardly sees, times this. Then
-   !> 2000 random delays take 0.07 to 0.14 times the steps at tolerance 1e-6, for the same errors.
-   real(wp), parameter :: strictness = 200.0_wp
-   !> Steps at this stricter tolerance, times tolerance**(1/4).
-   real(wp), parameter :: stricter_steps = 10.0_wp
+   !> The error estimate of steps over kinks of one equation, which it hardly sees, times this: 2000
+   !> random delays then take 0.13 to 0.33 times the steps at 1e-6, with errors as large. With 200
+   !> those of Radau steps were up to 23 times larger.
+   real(wp), parameter :: strictness = 2000.0_wp
+   !> A few times the steps at this stricter tolerance, times tolerance**(1/4).
+   real(wp), parameter :: stricter_steps = 40.0_wp
    !> Passages and generation of the end of a run, which is no kink.
    integer, parameter :: no_kink = huge(1)
 

@@ -117,8 +117,8 @@ contains
    end subroutine test_changed_state
 
    !> Random delays from 1/2 to 3/2, t = 10: no more than three times the steps that landing on the
-   !> first generation alone takes, which is all delays and 20 steps for 1e-6, far fewer steps than
-   !> delays if these are more than 1000, and errors as small as the tolerance allows: the solution
+   !> first generation alone takes, which is all delays and 20 steps for 1e-6, half as many steps as
+   !> delays if these are very many, and errors as small as the tolerance allows: the solution
    !> is compared at 1e-6 and 1e-11.
    subroutine test_many_delays(error)
       type(error_type), allocatable, intent(out) :: error
@@ -136,7 +136,7 @@ contains
             call run(error, problem, 0.0_wp, 10.0_wp, at_tolerance(1.0e-6_wp, methods(k)), outcome)
             if (allocated(error)) return
             associate (case_name => methods(k)//", "//text(counts(i))//" delays")
-               call expect(error, outcome%accepted <= min(3*(20 + counts(i)), 400), &
+               call expect(error, outcome%accepted <= min(3*(20 + counts(i)), 800), &
                            text(outcome%accepted)//" steps by "//case_name)
                call expect_close(error, outcome%y, fine%y, &
                                  1.0e-5_wp*max(1.0_wp, maxval(abs(fine%y))), case_name)

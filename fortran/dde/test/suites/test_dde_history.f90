@@ -57,8 +57,8 @@ contains
 
    !> Three delays of two components over 2000 steps of different lengths, of which 50 at a time
    !> matter; the same where 600 matter, so that the ring doubles four times; where steps become
-   !> shorter on the way, so that the ring doubles when its oldest step lies anywhere; and where both
-   !> components have one delay, and are looked up together.
+   !> shorter on the way, so that the ring doubles when its oldest step lies anywhere; and where
+   !> both components have one delay, and are looked up together.
    subroutine test_ring(error)
       type(error_type), allocatable, intent(out) :: error
 
