@@ -15,14 +15,17 @@ static void ask_to_stop(int number, siginfo_t *about, void *context) {
         before.sa_handler(number);
 }
 
-/* Watch for Ctrl-C from now on (1), or no longer (0). Runs are asked to stop no longer. */
+/* Watch for Ctrl-C, unless this process ignores it, from now on (1), or no longer (0). Runs are asked
+   to stop no longer. */
 void dk_watch(int on) {
     dde_stop_requested = 0;
     if (on && !watching) {
         struct sigaction mine = {0};
+        sigaction(SIGINT, NULL, &before);
+        if (before.sa_handler == SIG_IGN) return;
         mine.sa_sigaction = ask_to_stop;
         mine.sa_flags = SA_SIGINFO | SA_ONSTACK;
-        sigaction(SIGINT, &mine, &before);
+        sigaction(SIGINT, &mine, NULL);
     } else if (!on && watching) {
         sigaction(SIGINT, &before, NULL);
     }

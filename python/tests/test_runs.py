@@ -205,8 +205,24 @@ def test_no_compiler(monkeypatch):
         dk.Model({"y": "-y(t - 2)"}).run(1, 1)
 
 
+@pytest.fixture
+def interruptible():
+    """Ctrl-C as Python takes it by default, which background jobs of a shell ignore."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def test_an_interruption_may_be_ignored(mackey_glass, interruptible):
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    assert mackey_glass.handle  # compiled before the clock runs
+    threading.Timer(0.1, os.kill, [os.getpid(), signal.SIGINT]).start()
+    assert mackey_glass.integrate(1.2, 5e5, t_eval=[5e5]).status == 0
+
+
 @pytest.mark.parametrize("scanning", [False, True])
-def test_an_interruption_ends_within_a_second(mackey_glass, scanning):
+def test_an_interruption_ends_within_a_second(mackey_glass, interruptible, scanning):
+    assert mackey_glass.handle  # compiled before the clock runs
     timer = threading.Timer(0.5, os.kill, [os.getpid(), signal.SIGINT])
     begun = time.monotonic()
     timer.start()
