@@ -116,8 +116,8 @@ contains
       end select
    end subroutine choose_method
 
-   !> The explicit or the implicit method of `auto`. A loose tolerance asks for less than a series
-   !> gives, unless that of a slow solution may hold in steps up to the shortest delay.
+   !> The explicit or the implicit method of `auto`. Where the series of many delays do not pay,
+   !> that of a slow solution may, if it may hold in steps up to the shortest delay.
    pure function matching_method(problem, tolerance, origin, implicit) result(method)
       !> The problem
       class(dde_problem_type), intent(in) :: problem

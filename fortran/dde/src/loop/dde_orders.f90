@@ -10,9 +10,9 @@ module dde_orders
 
    !> Least tolerance of the pair 5(4); below it the pair is 8(5,3).
    real(wp), parameter :: least_of_bs5 = 3.0e-6_wp
-   !> Least tolerance at which the pair takes fewer instructions than a Taylor series, and where
-   !> there is a delayed value for every two equations or more: its series cost most of a step.
-   real(wp), parameter :: least_of_loose = 1.0e-3_wp, least_of_many = 1.0e-5_wp
+   !> Least tolerance at which the pair takes fewer instructions than a Taylor series where there is
+   !> a delayed value for every two equations or more: their series cost most of a step.
+   real(wp), parameter :: least_of_many = 1.0e-5_wp
    !> Least tolerances of Radau IIA of order 5 and 9; below them the order is 13.
    real(wp), parameter :: least_of_radau5 = 3.0e-5_wp, least_of_radau9 = 1.0e-11_wp
    !> Degree of a Taylor series = this - log10(tolerance), near the degree of least cost for an
@@ -41,7 +41,7 @@ contains
       !> Numbers of equations and of delayed values
       integer, intent(in) :: n, delays
 
-      value = delays == 0 .or. tolerance < merge(least_of_many, least_of_loose, 2*delays >= n)
+      value = 2*delays < n .or. tolerance < least_of_many
    end function series_pays
 
    !> The Radau method of `auto`.
