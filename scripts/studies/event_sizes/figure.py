@@ -51,7 +51,7 @@ def draw(
                 kept = chain.onset >= chain.attrs["t_end"] - row["time"]
                 found = chain.slip.values[(chain.threshold == row["threshold"]) & kept]
             draw_sizes(others, found, label=name.replace("slips ", ""), **styles[name])
-    others.legend(fontsize=6.5, title="slips", title_fontsize=6.5)
+    others.legend(fontsize=7, title="slips", title_fontsize=7, handlelength=1.5)
     draw_cut_offs(cutoffs, shown, styles)
     for axes, letter in zip((sizes, others, cutoffs, rates), "abcd", strict=True):
         of = "  " + names[longest].replace("_", " ") if axes is others else ""

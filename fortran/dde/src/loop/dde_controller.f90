@@ -8,8 +8,8 @@ module dde_controller
    private
    public :: controller_type, method_constants
 
-   !> Weight of the last accepted error (integral part).
-   real(wp), parameter :: beta = 0.04_wp
+   !> Weight of the error of the step before in proportional-integral control, of 1 (METHODS.md).
+   real(wp), parameter :: weight_before = 0.25_wp
    !> Bounds on the ratio of one step to the one before.
    real(wp), parameter :: least_ratio = 1.0_wp/3.0_wp, most_ratio = 6.0_wp
    !> If a step is rejected again, the order observed between the two attempts replaces that of the
@@ -78,7 +78,7 @@ contains
             ratio = ratio*min(1.0_wp, h/self%last_h*exp(power*(self%last_log_error - log_error)))
          end if
       else
-         ratio = exp(beta*self%last_log_error + (0.2_wp*beta - power)*log_error)
+         ratio = exp(power*(weight_before*self%last_log_error - (1.0_wp - weight_before)*log_error))
       end if
       ratio = min(most_ratio, max(least_ratio, safety*ratio))
       if (self%rejected) ratio = min(ratio, 1.0_wp)
