@@ -120,7 +120,7 @@ def test_workflow_resumes_where_snakemake_itself_was_killed(smoke, scratch):
     """Its locks go with the next run, which has all results as before. A program with other values
     lives on and does no harm."""
     (scratch.folder / "mine.yaml").write_text(
-        "stability: { families: { grid_fault: { t_end: 11.0 } } }"
+        "stability: { families: { grid_fault: { t_end: 30.0 } } }"
     )
     with begun(scratch, LONG, "mine.yaml") as (run, program):
         run.kill()
