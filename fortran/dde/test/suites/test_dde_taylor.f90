@@ -6,6 +6,7 @@ module test_dde_taylor
    use chain_of_blocks, only: chain
    use dde, only: continuation_type, integration_result
    use dde_errors, only: text
+   use dde_problem, only: dde_problem_type
    use dde_slow_series, only: series_reach
    use dde_step_context, only: step_context
    use dde_taylor_series, only: taylor_series
@@ -14,6 +15,7 @@ module test_dde_taylor
    use expectations, only: expect, expect_between, expect_close
    use fast_problems, only: follower
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use published_problems, only: mackey_glass
    use single_step, only: interpolated, new_context
    use solving, only: at_tolerance, run, solve
    use test_problems, only: sine
@@ -36,8 +38,37 @@ contains
                    new_unittest("how far series reach", test_reach), &
                    new_unittest("a follower", test_follower), &
                    new_unittest("a transient", test_transient), &
+                   new_unittest("the choice of auto", test_choice), &
                    new_unittest("chains", test_chains)]
    end subroutine collect_dde_taylor
+
+   !> `auto` takes series where delays are few, and where they are many below 1e-5.
+   subroutine test_choice(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call expect_method(chain(1), 1.0e-2_wp, "taylor")
+      call expect_method(mackey_glass(), 1.0e-5_wp, "bs5")
+      call expect_method(mackey_glass(), 1.0e-6_wp, "taylor")
+
+   contains
+
+      !> As many steps and evaluations as by the method.
+      subroutine expect_method(problem, tolerance, method)
+         class(dde_problem_type), intent(in) :: problem
+         real(wp), intent(in) :: tolerance
+         character(len=*), intent(in) :: method
+         class(dde_problem_type), allocatable :: analytic
+         type(integration_result) :: known, outcome
+
+         allocate (analytic, source=problem)
+         analytic%analytic = .true.
+         call run(error, analytic, 0.0_wp, 50.0_wp, at_tolerance(tolerance, method), known)
+         call run(error, analytic, 0.0_wp, 50.0_wp, at_tolerance(tolerance, "auto"), outcome)
+         if (allocated(error)) return
+         call expect(error, outcome%accepted == known%accepted &
+                     .and. outcome%evaluations == known%evaluations, method)
+      end subroutine expect_method
+   end subroutine test_choice
 
    !> 50 delays that differ by 1 %: the explicit method confirms the solution, and takes more steps.
    !> Without delayed values over several steps of the past series take five times as many. Blocks
