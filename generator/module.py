@@ -9,6 +9,7 @@ import jinja2
 from . import pointwise, rest
 from .address import couplings
 from .definition import TIME, Model
+from .exponents import exponents_of, exponents_procedure
 from .flow import Flow, Procedure, flow_of, rate_of_auxiliary, with_parameters
 from .fortran import in_words, text_of, wrapped
 from .series import series_procedure
@@ -58,6 +59,8 @@ def procedures(model: Model, balance: Balance | None) -> dict[str, Procedure]:
         "series": series_procedure(model),
         "tangent_series": tangent_series_procedure(model),
     }
+    if exponents := exponents_of(model):
+        parts["exponents"] = exponents_procedure(model, exponents)
     if balance:
         parts["relaxation_rate"] = pointwise.relaxation_procedure(model, balance)
         parts["slow_series"] = series_procedure(model, balance)
@@ -89,7 +92,7 @@ def description_lines(model: Model) -> list[str]:
     equations += [f"{name} = exp({state})" for name, state in model.auxiliary.items()]
     terms = rest.characteristic_terms(model) if model.steady_state else []
     states = list(model.states)
-    counted = (model.parameters, equations, model.states, model.delayed, terms)
+    counted = (model.parameters, equations, model.states, model.delayed, terms, exponents_of(model))
     lines = [
         ("sizes", *(str(len(each)) for each in counted)),
         *(("coupling", str(row), str(column)) for row, column in couplings(model)),

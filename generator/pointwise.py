@@ -11,9 +11,15 @@ from .recurrences import fetch_parameters, names_of_parameters
 from .slow import Balance
 
 
-def of_all_blocks(model: Model, result: str, lines: list[str], names: list[str]) -> Procedure:
-    """A procedure with these statements for every block."""
+def of_all_blocks(
+    model: Model, result: str, lines: list[str], names: list[str], guarded=None
+) -> Procedure:
+    """A procedure with these statements for every block.
+
+    It ends with no number where an expression of `guarded`, all equations by default, has no value.
+    """
     at = Address(model)
+    guarded = [*model.equations.values()] if guarded is None else guarded
     states = [*at.start(), *(f"{name} = {at.state('y', state=name)}" for name in model.states)]
     for number, one in enumerate(model.delayed, 1):
         name, value = one.symbol.name, at.delayed("z", number=number)
@@ -21,7 +27,7 @@ def of_all_blocks(model: Model, result: str, lines: list[str], names: list[str])
     inside = [
         *states,
         *at.differences(lambda column: f"y({column})"),
-        *refusals(model, list(model.equations.values()), guard_names(model), result),
+        *refusals(model, guarded, guard_names(model), result),
         *(f"{name} = exp({state})" for name, state in model.auxiliary.items()),
         *lines,
     ]

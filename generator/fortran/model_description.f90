@@ -56,9 +56,10 @@ module model_description
 
    !> Sizes of a definition.
    type :: sizes_type
-      !> Numbers of parameters, of equations with their parts, of states and of delayed states, and
-      !> of terms of the characteristic function
+      !> Numbers of parameters, of equations with their parts, of states and of delayed states, of
+      !> terms of the characteristic function, and of exponential terms
       integer :: parameters = 0, equations = 0, states = 0, delayed = 0, terms = 0
+      integer :: exponentials = 0
       !> Equations of a chain with a second difference, and the states of which they take it, shape
       !> (2, couplings)
       integer, allocatable :: couplings(:, :)
@@ -105,8 +106,8 @@ contains
          select case (words(1))
          case ("sizes")
             associate (sizes => description%sizes)
-               read (words(2:6), *) sizes%parameters, sizes%equations, sizes%states, &
-                  sizes%delayed, sizes%terms
+               read (words(2:7), *) sizes%parameters, sizes%equations, sizes%states, &
+                  sizes%delayed, sizes%terms, sizes%exponentials
                allocate (description%parameters(sizes%parameters), &
                          description%equations(sizes%equations))
             end associate

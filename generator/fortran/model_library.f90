@@ -7,8 +7,8 @@ module model_library
                                           c_null_char, c_ptr, c_size_t
    use dde_errors, only: error_type, raise
    use dde_kinds, only: wp
-   use model_border, only: describe_line, expand, expand_tangents, find_delayed, find_forms, &
-                           find_jacobian, find_rate, find_rhs, find_state, list_terms, &
+   use model_border, only: describe_line, expand, expand_tangents, find_delayed, find_exponents, &
+                           find_forms, find_jacobian, find_rate, find_rhs, find_state, list_terms, &
                            letters => line_length
    use model_description, only: description_type, word_length
    use model_interface, only: interface_digest
@@ -203,6 +203,9 @@ contains
       call c_f_procpointer(procedure_of(library, "series"), code%series)
       call c_f_procpointer(procedure_of(library, "tangent_series"), code%tangent_series)
       call c_f_procpointer(procedure_of(library, "delayed"), code%delayed)
+      if (has(library, "exponents")) then
+         call c_f_procpointer(procedure_of(library, "exponents"), code%exponents)
+      end if
       if (has(library, "relaxation_rate")) then
          call c_f_procpointer(procedure_of(library, "relaxation_rate"), code%relaxation_rate)
          call c_f_procpointer(procedure_of(library, "slow_series"), code%slow_series)

@@ -7,8 +7,8 @@ module model_problem
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde, only: problem_with_tangents
    use dde_kinds, only: wp
-   use model_border, only: describe_line, expand, expand_tangents, find_delayed, find_forms, &
-                           find_jacobian, find_rate, find_rhs, find_state, list_terms, shape_type
+   use model_border, only: describe_line, expand, expand_tangents, find_delayed, find_exponents, &
+                           find_forms, find_jacobian, find_rate, find_rhs, find_state, list_terms, shape_type
    use model_description, only: description_of, description_type, sizes_type, word_length
    implicit none (type, external)
    private
@@ -19,6 +19,7 @@ module model_problem
       procedure(describe_line), pointer, nopass :: description => null()
       procedure(find_rhs), pointer, nopass :: rhs => null()
       procedure(find_jacobian), pointer, nopass :: jacobian => null()
+      procedure(find_exponents), pointer, nopass :: exponents => null()
       procedure(expand), pointer, nopass :: series => null(), slow_series => null()
       procedure(expand_tangents), pointer, nopass :: tangent_series => null(), &
                                                      slow_tangent_series => null()
@@ -70,6 +71,7 @@ module model_problem
       procedure :: past_series
       procedure :: rhs
       procedure :: jacobian
+      procedure :: exponents
       procedure :: series
       procedure :: tangent_series
       procedure :: relaxation_rate
@@ -146,6 +148,7 @@ contains
          states = self%n/blocks
          self%component = [(pack(component, kept) + states*(block - 1), block=1, blocks)]
          self%lag = [(pack(lag, kept), block=1, blocks)]
+         self%exponentials = self%sizes%exponentials*blocks
       end associate
       self%shape%n = self%n
       self%shape%values = size(self%lag)
@@ -249,6 +252,16 @@ contains
       call self%code%jacobian(self%shape, self%numbers, self%place, self%left, self%right, &
                               t, y, z, size(by_y, 1), size(by_z, 1), by_y, by_z)
    end subroutine jacobian
+
+   !> Exponents of their exponential terms.
+   pure subroutine exponents(self, t, y, z, values)
+      class(model_type), intent(in) :: self
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
+      real(wp), intent(out) :: values(self%exponentials)
+
+      call self%code%exponents(self%shape, self%numbers, self%place, self%left, self%right, &
+                               t, y, z, values)
+   end subroutine exponents
 
    !> Taylor coefficients of the solution.
    pure subroutine series(self, t, unit, degree, z, y)

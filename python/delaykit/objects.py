@@ -10,7 +10,6 @@ import subprocess
 from pathlib import Path
 
 from delaykit.errors import CompilerError, ModelError
-from delaykit.version import __version__
 
 COMPILER = os.environ.get("DELAYKIT_COMPILER", "gfortran")
 ADVICE = (
@@ -37,13 +36,21 @@ def compiler_version(compiler: str) -> str:
     return said.stdout.partition("\n")[0]
 
 
+@functools.cache
+def generator_digest() -> bytes:
+    """A digest of all that makes a module from a definition, and of what it is compiled with."""
+    folder = Path(__file__).parent / "generator"
+    files = sorted(path for path in folder.rglob("*") if path.suffix in {".py", ".f90", ".jinja"})
+    return hashlib.sha256(b"".join(path.read_bytes() for path in files)).digest()
+
+
 def compiled(definition: dict) -> Path:
     """The object of a definition, made now unless it is in the cache.
 
     Two processes may make the same one: each writes its own file and gives it the name then.
     """
-    digest = hashlib.sha256()
-    for part in (__version__, compiler_version(COMPILER), json.dumps(definition)):
+    digest = hashlib.sha256(generator_digest())
+    for part in (compiler_version(COMPILER), json.dumps(definition)):
         digest.update(part.encode() + b"\0")
     path = cache() / f"m{digest.hexdigest()[:24]}.so"
     if path.exists():

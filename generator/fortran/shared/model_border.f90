@@ -11,8 +11,8 @@ module model_border
    implicit none (type, external)
    private
    public :: copy_line, lanes, line_length, reciprocal, shape_type
-   public :: describe_line, expand, expand_tangents, find_delayed, find_forms, find_jacobian, &
-             find_rate, find_rhs, find_state, list_terms
+   public :: describe_line, expand, expand_tangents, find_delayed, find_exponents, find_forms, &
+             find_jacobian, find_rate, find_rhs, find_state, list_terms
 
    !> Disturbances computed at a time.
    integer, parameter :: lanes = 4
@@ -111,6 +111,18 @@ module model_border
          integer(c_int), intent(in) :: rows_y, rows_z
          real(wp), intent(out) :: by_y(rows_y, self%n), by_z(rows_z, self%values)
       end subroutine find_jacobian
+
+      !> Exponents of their exponential terms.
+      pure subroutine find_exponents(self, parameters, place, left, right, t, y, z, exponents) &
+         bind(c)
+         import :: c_int, shape_type, wp
+         implicit none (type, external)
+         type(shape_type), intent(in) :: self
+         real(wp), intent(in) :: parameters(*)
+         integer(c_int), intent(in) :: place(*), left(*), right(*)
+         real(wp), intent(in) :: t, y(self%n), z(self%values)
+         real(wp), intent(out) :: exponents(*)
+      end subroutine find_exponents
 
       !> Taylor coefficients of the solution, or better ones of the slow solution.
       pure subroutine expand(self, parameters, place, left, right, t, unit, degree, z, y) bind(c)

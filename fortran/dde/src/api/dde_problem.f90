@@ -9,7 +9,8 @@
 !>
 !> Optional are - for implicit methods: `jacobian`, `lower` and `upper` of a banded one, and `rows`
 !> of delayed values, - for the method `taylor`: `series` and `past_series`, with `analytic` true, -
-!> for long Taylor steps where fast components are in balance: `relaxation_rate` and `slow_series`.
+!> for long Taylor steps where fast components are in balance: `relaxation_rate` and `slow_series`, -
+!> where f saturates: `exponents`, with their number in `exponentials`.
 module dde_problem
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde_kinds, only: wp
@@ -33,6 +34,8 @@ module dde_problem
       !> First and last equation that contains each delayed value, shape (2, size(lag)); all
       !> equations unless they are given. A banded Jacobian needs them.
       integer, allocatable :: rows(:, :)
+      !> Number of exponential terms of f whose `exponents` the extension gives
+      integer :: exponentials = 0
       !> Whether the extension gives `series` and `past_series`
       logical :: analytic = .false.
    contains
@@ -44,6 +47,8 @@ module dde_problem
       procedure(right_hand_side), deferred :: rhs
       !> Derivatives of f by y and z; by differences unless the extension gives them
       procedure :: jacobian => no_jacobian
+      !> Exponents of the exponential terms of f
+      procedure :: exponents => no_exponents
       !> Taylor series of the solution
       procedure :: series => no_series
       !> Taylor series of one component before the initial time
@@ -123,6 +128,21 @@ contains
       by_y = not_given
       by_z = not_given
    end subroutine no_jacobian
+
+   !> Exponents a of the terms of f that change as exp(a) or exp(-a): 2 u of tanh(u), n log|x| of
+   !> x**n. Where |a| is large a term vanishes, or saturates what holds it, in the rounding of
+   !> others, and no estimate of an error shows when a comes back. A step over which an exponent
+   !> near 0 changes by much is therefore rejected. None unless the extension gives them.
+   pure subroutine no_exponents(self, t, y, z, values)
+      class(dde_problem_type), intent(in) :: self
+      real(wp), intent(in) :: t, y(self%n)
+      !> Delayed values, shape (size(lag))
+      real(wp), intent(in) :: z(size(self%lag))
+      !> The exponents, shape (exponentials); one that is not finite is ignored
+      real(wp), intent(out) :: values(self%exponentials)
+
+      values = ieee_value(1.0_wp, ieee_quiet_nan)
+   end subroutine no_exponents
 
    !> Taylor series of the solution in powers of s = (t' - t)/unit: since dy/ds = unit f,
    !> coefficient k + 1 of y is unit/(k + 1) times coefficient k of f. Not a number unless the

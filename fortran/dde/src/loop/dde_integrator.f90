@@ -7,6 +7,7 @@ module dde_integrator
    use dde_diagnosis, only: explain
    use dde_event_search, only: endless, most_places
    use dde_events, only: event_watcher_type
+   use dde_exponents, only: judge_exponents
    use dde_methods, only: longest_step, matching_method, price_of_trial
    use dde_outcome, only: event_met, integration_result, interrupted, out_of_memory, reached_end, &
                           refused, step_underflow, stop_requested, too_many_steps, value_not_finite
@@ -119,6 +120,9 @@ contains
          run%context%between = is_read(run, h, step_end, sampler, watcher)
          call run%step%attempt(run%context, error_estimate)
          call run%points%judge(step_end, error_estimate)
+         if (problem%exponentials > 0 .and. accepted(error_estimate)) then
+            call judge_exponents(run%context, run%step, error_estimate)
+         end if
          if (.not. accepted(error_estimate)) then
             outcome%rejected = outcome%rejected + 1
             run%h = h

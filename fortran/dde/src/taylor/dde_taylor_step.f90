@@ -36,6 +36,8 @@ module dde_taylor_step
    type, extends(step_type) :: taylor_step_type
       !> The series
       type(taylor_series), private :: series
+      !> Whether the series is that from the start of the step, which an earlier attempt found
+      logical, private :: found = .false.
       !> Time along the series of the present state; negative if its slope was evaluated instead
       real(wp), private :: place = -1.0_wp
    contains
@@ -85,6 +87,7 @@ contains
       class(taylor_step_type), intent(inout) :: self
 
       self%place = -1.0_wp
+      self%found = .false.
       call self%series%slow%forget()
    end subroutine reset
 
@@ -96,6 +99,12 @@ contains
       real(wp) :: possible, unit
       logical :: held, skipping
 
+      if (self%found .and. self%series%reach > 0.0_wp) then
+         ! rejected: it is not valid as far as its coefficients say
+         self%series%reach = min(self%series%reach, h)
+         self%valid_for = h
+         return
+      end if
       held = self%series%slow%holds
       associate (series => self%series, cursor => context%cursor)
          unit = merge(min(series%reach, growth*self%h), h, series%reach > 0.0_wp)
@@ -116,6 +125,7 @@ contains
             if (.not. series%reach > 0.0_wp) series%slow%holds = held
          end do
          self%place = 0.0_wp
+         self%found = .true.
          self%valid_for = beyond*series%reach
          if (series%reach > 0.0_wp) h = possible
       end associate
@@ -201,6 +211,7 @@ contains
 
       self%y = self%y_new
       self%place = self%h
+      self%found = .false.
    end subroutine advance
 
    !> The derivative of the series.

@@ -25,6 +25,7 @@ module tangent_problem
       procedure :: history => undisturbed_history
       procedure :: rhs => variational_equations
       procedure :: jacobian => blocks_on_the_diagonal
+      procedure :: exponents => undisturbed_exponents
       procedure :: series => solution_and_vectors
       procedure :: past_series => undisturbed_past
       procedure :: relaxation_rate => undisturbed_rate
@@ -47,6 +48,7 @@ contains
       allocate (problem%base, source=base)
       problem%vectors = vectors
       problem%n = base%n*(vectors + 1)
+      problem%exponentials = base%exponentials
       select type (base)
       class is (problem_with_tangents)
          problem%analytic = base%analytic .and. base%analytic_tangents
@@ -196,6 +198,15 @@ contains
       y = 0.0_wp
       if (component <= self%base%n) call self%base%past_series(t, component, unit, y)
    end subroutine undisturbed_past
+
+   !> Terms of the variational equations have exponents of the terms of the right-hand side.
+   pure subroutine undisturbed_exponents(self, t, y, z, values)
+      class(tangent_problem_type), intent(in) :: self
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
+      real(wp), intent(out) :: values(self%exponentials)
+
+      call self%base%exponents(t, y(:self%base%n), z(:size(self%base%lag)), values)
+   end subroutine undisturbed_exponents
 
    !> Fast components of the vectors approach their balance as those of the state do.
    pure function undisturbed_rate(self, t, y) result(rate)

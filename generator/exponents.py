@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Exponents of the exponential terms of the equations.
+
+A term exp(a) with large |a| vanishes, or saturates what holds it, in the rounding of other terms.
+Then no estimate of an error shows when a comes back: the solver follows the exponents themselves.
+"""
+
+import sympy
+
+from .address import Address
+from .definition import Model
+from .flow import Procedure
+from .fortran import text_of
+from .pointwise import of_all_blocks
+
+LARGEST_ALGEBRAIC = 4
+"""Powers up to this are seen in the rounding of others wherever their base is not tiny."""
+
+
+def exponents_of(model: Model) -> list[str]:
+    """The text of each exponent a of which exp(a) or exp(-a) is a term, once."""
+    exponentials = {
+        model.symbol(name): sympy.exp(model.symbol(w)) for name, w in model.auxiliary.items()
+    }
+    found: dict[sympy.Expr, str] = {}
+    for equation in model.equations.values():
+        for one in sympy.preorder_traversal(sympy.expand_func(equation).xreplace(exponentials)):
+            exponent = sympy.S.Zero
+            if one.func in (sympy.exp, sympy.sinh, sympy.cosh):
+                exponent = one.args[0]
+            elif one.func is sympy.tanh:
+                exponent = 2 * one.args[0]
+            elif one.is_Pow and not (one.exp.is_number and abs(one.exp) <= LARGEST_ALGEBRAIC):
+                exponent = one.exp * sympy.log(one.base)
+            if exponent.free_symbols & model.variables and not {exponent, -exponent} & {*found}:
+                found[exponent] = text_of(exponent)
+                if one.is_Pow and one.base is not sympy.E:
+                    base = f"log(max(abs({text_of(one.base)}), tiny(1.0_wp)))"
+                    found[exponent] = text_of(exponent, {sympy.log(one.base): base})
+    return list(found.values())
+
+
+def exponents_procedure(model: Model, exponents: list[str]) -> Procedure:
+    """The exponents in a state."""
+    first = f"{len(exponents)}*(block - 1) + " if Address(model).in_chain else ""
+    lines = [f"exponents({first}{number}) = {text}" for number, text in enumerate(exponents, 1)]
+    return of_all_blocks(model, "exponents", lines, [], guarded=())
