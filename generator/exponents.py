@@ -16,6 +16,10 @@ from .pointwise import of_all_blocks
 LARGEST_ALGEBRAIC = 4
 """Powers up to this are seen in the rounding of others wherever their base is not tiny."""
 
+FARTHEST = 100
+"""A power below exp(-FARTHEST) is as good as 0: its base may pass through 0, where the logarithm
+does not."""
+
 
 def exponents_of(model: Model) -> list[str]:
     """The text of each exponent a of which exp(a) or exp(-a) is a term, once."""
@@ -35,9 +39,15 @@ def exponents_of(model: Model) -> list[str]:
             if exponent.free_symbols & model.variables and not {exponent, -exponent} & {*found}:
                 found[exponent] = text_of(exponent)
                 if one.is_Pow and one.base is not sympy.E:
-                    base = f"log(max(abs({text_of(one.base)}), tiny(1.0_wp)))"
-                    found[exponent] = text_of(exponent, {sympy.log(one.base): base})
+                    found[exponent] = text_of(exponent, {sympy.log(one.base): logarithm_of(one)})
     return list(found.values())
+
+
+def logarithm_of(power: sympy.Pow) -> str:
+    """The text of the logarithm of a base; where the power is below exp(-FARTHEST), of a larger one."""
+    base, exponent = text_of(power.base), text_of(power.exp)
+    least = f"-{FARTHEST}.0_wp/max(abs({exponent}), 1.0_wp)"
+    return f"max(log(max(abs({base}), tiny(1.0_wp))), {least})"
 
 
 def exponents_procedure(model: Model, exponents: list[str]) -> Procedure:

@@ -24,10 +24,6 @@ module dde_integrator
    private
    public :: integrate
 
-   !> The series of the first step, of those after breaking points and of one step in so many are
-   !> checked.
-   integer(int64), parameter :: check_every = 64
-
 contains
 
    !> Integrate `problem` from t_start to t_end >= t_start, or to an event that ends the run. Only
@@ -58,7 +54,7 @@ contains
       type(instant) :: step_end
       real(wp) :: error_estimate, h, left, longest, longest_of_all
       integer :: goal
-      logical :: automatic, ended, landing, last, other, unseen
+      logical :: automatic, ended, landing, last, other
 
       if (.not. (allocated(problem%lag) .or. allocated(problem%component))) then
          ! gfortran 12 leaves out empty lists that a constructor is given
@@ -101,7 +97,6 @@ contains
       error_estimate = 0.0_wp
 
       outcome%reason = reached_end
-      unseen = .true.
       last = .not. run%points%time_to_end(run%now) > 0.0_wp
       do while (.not. last)
          call run%context%past%make_room(size(run%step%nodes), run%lacking)
@@ -127,18 +122,15 @@ contains
             outcome%rejected = outcome%rejected + 1
             run%h = h
             call run%control%reject(run%step%constants, run%step%safety, run%h, error_estimate)
+            if (outcome%accepted == 0) call run%step%refuse_series(run%context, error)
+            if (allocated(error)) outcome%reason = refused
+            if (automatic) call switch%judge_rejection(run%step, other)
+            if (automatic .and. other) call change_method()
+            if (outcome%reason /= reached_end) exit
             cycle
          end if
 
          outcome%accepted = outcome%accepted + 1
-         if (unseen .or. modulo(outcome%accepted, check_every) == 0) then
-            call run%step%check_series(run%context, error)
-            if (allocated(error)) then
-               outcome%reason = refused
-               exit
-            end if
-         end if
-         unseen = landing
          if (run%step%constants%implicit) outcome%implicit_steps = outcome%implicit_steps + 1
          call deliver(run, step_end, ended, sampler, watcher)
          if (ended) then
@@ -162,13 +154,8 @@ contains
          run%h = merge(max(run%h, h), h, landing)
          if (landing .and. .not. last) outcome%breaking_points = outcome%breaking_points + 1
          if (other) then
-            call run%change_to_other(switch%returned)
-            if (run%lacking > 0.0_wp) then
-               outcome%reason = out_of_memory
-               exit
-            end if
-            outcome%switches = outcome%switches + 1
-            longest = longest_step(problem, run%step, longest_of_all)
+            call change_method()
+            if (outcome%reason /= reached_end) exit
          end if
       end do
 
@@ -183,6 +170,19 @@ contains
       if (all(outcome%reason /= [reached_end, event_met, refused])) then
          call explain(run, outcome, t_end, h, options, error)
       end if
+
+   contains
+
+      !> Continue by the other method of `auto`.
+      subroutine change_method()
+         call run%change_to_other(switch%returned)
+         if (run%lacking > 0.0_wp) then
+            outcome%reason = out_of_memory
+            return
+         end if
+         outcome%switches = outcome%switches + 1
+         longest = longest_step(problem, run%step, longest_of_all)
+      end subroutine change_method
    end subroutine integrate
 
    !> The limit that forbids an attempt of length h, or `reached_end` if none does.

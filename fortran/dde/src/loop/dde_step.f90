@@ -39,7 +39,7 @@ module dde_step
       real(wp) :: valid_for = 0.0_wp
    contains
       procedure :: allocate_state, restart, renew, reset, propose, next_length
-      procedure :: check_series, slope_here, stiff
+      procedure :: refuse_series, slope_here, stiff
       procedure(attempt_step), deferred :: attempt
       procedure(give_polynomial), deferred :: interpolant
       procedure(go_to_end), deferred :: advance
@@ -91,13 +91,13 @@ contains
       call problem%initial(self%y)
    end subroutine allocate_state
 
-   !> Refuse series of the problem that do not solve its equations over an accepted step. A method
-   !> without series has nothing to refuse.
-   pure subroutine check_series(self, context, error)
+   !> After a rejected first step: refuse series of the problem that do not solve its equations. A
+   !> method without series has nothing to refuse.
+   pure subroutine refuse_series(self, context, error)
       class(step_type), intent(inout) :: self
       type(step_context), intent(inout) :: context
       type(error_type), allocatable, intent(out) :: error
-   end subroutine check_series
+   end subroutine refuse_series
 
    !> Evaluate the slope at the start of the step on which the cursor stands.
    pure subroutine restart(self, context)

@@ -26,6 +26,9 @@ module dde_switch
    !> step.
    real(wp), parameter :: beyond_the_delay = 4.0_wp
 
+   !> Rejections in a row after which Taylor series are left.
+   integer, parameter :: most_rejections = 20
+
    !> States of the choice.
    integer, parameter :: settled = 1, on_trial = 2
 
@@ -60,10 +63,12 @@ module dde_switch
       logical :: returned = .false.
       !> Whether the explicit method is that of Taylor series
       logical, private :: series = .false.
+      !> Rejections since the last accepted step
+      integer, private :: rejections = 0
       !> The shortest delay
       real(wp), private :: shortest = 0.0_wp
    contains
-      procedure :: judge
+      procedure :: judge, judge_rejection
    end type switch_type
 
    interface switch_type
@@ -119,6 +124,7 @@ contains
       logical :: limited, pace_is_known
       real(wp) :: pace, total, work
 
+      self%rejections = 0
       total = work_done%total()
       work = total - self%work_done
       self%work_done = total
@@ -161,6 +167,22 @@ contains
       end if
       if (other .or. pace_is_known) self%recent = stretch_type()
    end subroutine judge
+
+   !> Take in a rejected step. Series that fail again and again are left.
+   pure subroutine judge_rejection(self, step, other)
+      class(switch_type), intent(inout) :: self
+      class(step_type), intent(in) :: step
+      logical, intent(out) :: other
+
+      self%rejections = self%rejections + 1
+      other = self%rejections == most_rejections .and. self%series &
+              .and. .not. step%constants%implicit
+      if (.not. other) return
+      self%state = settled
+      self%returned = .false.
+      self%recent = stretch_type()
+      call end_visit(self, 0.0_wp)
+   end subroutine judge_rejection
 
    !> The other method takes over.
    pure subroutine end_visit(self, pace)

@@ -39,7 +39,7 @@ module dde_slow_series
       !> Change of the coefficients by an iteration, shape (0:degree, n), and the state, shape (n)
       real(wp), allocatable, private :: change(:, :), state(:)
    contains
-      procedure :: decide_search, find, forget
+      procedure :: decide_search, find, forget, give_up
    end type slow_series
 
 contains
@@ -65,6 +65,15 @@ contains
 
       self%waited = self%patience
    end subroutine forget
+
+   !> Leave a slow series that the right-hand side does not confirm.
+   pure subroutine give_up(self)
+      class(slow_series), intent(inout) :: self
+
+      self%holds = .false.
+      self%waited = 0
+      self%patience = most_patience
+   end subroutine give_up
 
    !> Iterate from the state. The series holds if it converges to the tolerance over its reach and
    !> if the state is that near to it.

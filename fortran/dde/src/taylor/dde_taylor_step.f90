@@ -8,7 +8,7 @@ module dde_taylor_step
    use dde_errors, only: error_type
    use dde_orders, only: taylor_degree
    use dde_problem, only: dde_problem_type
-   use dde_series_check, only: check_residual
+   use dde_series_check, only: find_wrong, measure_residual
    use dde_step, only: step_type
    use dde_step_context, only: step_context
    use dde_taylor_series, only: taylor_series
@@ -24,6 +24,8 @@ module dde_taylor_step
    real(wp), parameter :: growth = 1000.0_wp
    !> A step of this share of the length to a breaking point ends there.
    real(wp), parameter :: nearly = 1.0_wp - 1.0e-8_wp
+   !> Rejected first steps in a row after which a series is refused.
+   integer, parameter :: times_refused = 3
    !> Cost of a series over that of a right-hand side, divided by its degree (measured in
    !> instructions and time on a spring-block model).
    real(wp), parameter :: cost_of_degree = 0.75_wp
@@ -36,12 +38,14 @@ module dde_taylor_step
    type, extends(step_type) :: taylor_step_type
       !> The series
       type(taylor_series), private :: series
+      !> The coefficient that the last rejected steps found wrong, 0 if none, and how many steps did
+      integer, private :: wrong = 0, times_wrong = 0
       !> Whether the series is that from the start of the step, which an earlier attempt found
       logical, private :: found = .false.
       !> Time along the series of the present state; negative if its slope was evaluated instead
       real(wp), private :: place = -1.0_wp
    contains
-      procedure :: set_up, check_series, renew, reset, propose, attempt, interpolant, stiff
+      procedure :: set_up, refuse_series, renew, reset, propose, attempt, interpolant, stiff
       procedure :: next_length, advance, slope_here
    end type taylor_step_type
 
@@ -65,14 +69,19 @@ contains
       self%series = taylor_series(problem, degree)
    end subroutine set_up
 
-   !> Refuse a series that does not solve the equations of the problem.
-   pure subroutine check_series(self, context, error)
+   !> Refuse a series of which the same coefficient is found wrong in one short step after another.
+   pure subroutine refuse_series(self, context, error)
       class(taylor_step_type), intent(inout) :: self
       type(step_context), intent(inout) :: context
       type(error_type), allocatable, intent(out) :: error
+      type(error_type), allocatable :: found
+      integer :: wrong
 
-      call check_residual(context, self%series, self%h, self%scale, error)
-   end subroutine check_series
+      call find_wrong(context, self%series, self%h, self%scale, wrong, found)
+      self%times_wrong = merge(self%times_wrong + 1, 0, wrong > 0 .and. wrong == self%wrong)
+      self%wrong = wrong
+      if (self%times_wrong >= times_refused) call move_alloc(found, error)
+   end subroutine refuse_series
 
    !> The series of the step gives its slope.
    pure subroutine renew(self, context)
@@ -100,10 +109,11 @@ contains
       logical :: held, skipping
 
       if (self%found .and. self%series%reach > 0.0_wp) then
-         ! rejected: it is not valid as far as its coefficients say
+         ! rejected: the series is not valid as far as its coefficients say
          self%series%reach = min(self%series%reach, h)
          self%valid_for = h
-         return
+         if (.not. self%series%slow%holds) return
+         call self%series%slow%give_up()
       end if
       held = self%series%slow%holds
       associate (series => self%series, cursor => context%cursor)
@@ -138,11 +148,13 @@ contains
       real(wp), intent(inout) :: h
       real(wp), intent(in) :: error
 
+      control = controller_type()
       h = self%series%reach
    end subroutine next_length
 
-   !> Attempt a step. Its length was chosen so that the error is within the tolerance: `error` is 0,
-   !> or not a number if the series is not finite.
+   !> Attempt a step. Its length was chosen from the last coefficients, which say nothing of what
+   !> they do not hold: `error` is the residual at the end, or not a number if the series is not
+   !> finite.
    pure subroutine attempt(self, context, error)
       class(taylor_step_type), intent(inout) :: self
       type(step_context), intent(inout) :: context
@@ -155,7 +167,8 @@ contains
       ! beyond this, terms that vanish in a very short step would become large
       self%valid_for = min(self%valid_for, growth*self%h)
       call self%series%state(self%h, self%y_new)
-      if (all(ieee_is_finite(self%y_new))) error = 0.0_wp
+      if (.not. all(ieee_is_finite(self%y_new))) return
+      call measure_residual(context, self%series, self%h, self%scale, error)
    end subroutine attempt
 
    !> The series of component `i`.
