@@ -50,8 +50,9 @@ def logarithm_of(power: sympy.Pow) -> str:
     return f"max(log(max(abs({base}), tiny(1.0_wp))), {least})"
 
 
-def exponents_procedure(model: Model, exponents: list[str]) -> Procedure:
+def exponents_procedure(model: Model) -> Procedure:
     """The exponents in a state."""
+    exponents = exponents_of(model)
     first = f"{len(exponents)}*(block - 1) + " if Address(model).in_chain else ""
     lines = [f"exponents({first}{number}) = {text}" for number, text in enumerate(exponents, 1)]
     return of_all_blocks(model, "exponents", lines, [], guarded=())

@@ -38,6 +38,7 @@ def write_module(model: Model) -> str:
         "made": procedures(model, balance),
         "description": description_lines(model),
         "delayed": delayed_procedure(model),
+        "exponents": exponents_of(model),
         "flow_texts": flow_texts(model, flow),
     }
     if model.steady_state:
@@ -58,9 +59,8 @@ def procedures(model: Model, balance: Balance | None) -> dict[str, Procedure]:
         "jacobian": pointwise.jacobian_procedure(model),
         "series": series_procedure(model),
         "tangent_series": tangent_series_procedure(model),
+        "exponents": exponents_procedure(model),
     }
-    if exponents := exponents_of(model):
-        parts["exponents"] = exponents_procedure(model, exponents)
     if balance:
         parts["relaxation_rate"] = pointwise.relaxation_procedure(model, balance)
         parts["slow_series"] = series_procedure(model, balance)
@@ -92,9 +92,11 @@ def description_lines(model: Model) -> list[str]:
     equations += [f"{name} = exp({state})" for name, state in model.auxiliary.items()]
     terms = rest.characteristic_terms(model) if model.steady_state else []
     states = list(model.states)
-    counted = (model.parameters, equations, model.states, model.delayed, terms, exponents_of(model))
+    counted = (model.parameters, equations, model.states, model.delayed, terms)
+    exponents = exponents_of(model)
+    delayed = sum(any(one.symbol.name in text for one in model.delayed) for text in exponents)
     lines = [
-        ("sizes", *(str(len(each)) for each in counted)),
+        ("sizes", *(str(len(each)) for each in counted), str(len(exponents)), str(delayed)),
         *(("coupling", str(row), str(column)) for row, column in couplings(model)),
         observed_line(model),
         *([("driven",)] if any(one.has(TIME) for one in model.equations.values()) else ()),

@@ -60,6 +60,8 @@ module model_description
       !> terms of the characteristic function, and of exponential terms
       integer :: parameters = 0, equations = 0, states = 0, delayed = 0, terms = 0
       integer :: exponentials = 0
+      !> Number of these whose exponents depend on delayed states
+      integer :: delayed_exponents = 0
       !> Equations of a chain with a second difference, and the states of which they take it, shape
       !> (2, couplings)
       integer, allocatable :: couplings(:, :)
@@ -106,8 +108,9 @@ contains
          select case (words(1))
          case ("sizes")
             associate (sizes => description%sizes)
-               read (words(2:7), *) sizes%parameters, sizes%equations, sizes%states, &
-                  sizes%delayed, sizes%terms, sizes%exponentials
+               read (words(2:8), *) sizes%parameters, sizes%equations, sizes%states, &
+                  sizes%delayed, sizes%terms, sizes%exponentials, &
+                  sizes%delayed_exponents
                allocate (description%parameters(sizes%parameters), &
                          description%equations(sizes%equations))
             end associate

@@ -143,6 +143,7 @@ contains
       kept = lag > 0.0_wp .or. self%keeps_delays
       self%place = merge([(count(kept(:k)), k=1, size(lag))], 0, kept)
       if (.not. allocated(self%left)) allocate (self%left(0), self%right(0))
+      self%delayed_exponents = self%sizes%delayed_exponents > 0
       associate (blocks => self%shape%blocks)
          blocks = max(1, size(self%left))
          states = self%n/blocks

@@ -36,6 +36,8 @@ module dde_problem
       integer, allocatable :: rows(:, :)
       !> Number of exponential terms of f whose `exponents` the extension gives
       integer :: exponentials = 0
+      !> Whether exponents depend on delayed values
+      logical :: delayed_exponents = .true.
       !> Whether the extension gives `series` and `past_series`
       logical :: analytic = .false.
    contains

@@ -5,15 +5,14 @@
 !> smooth as the solution: three places of a step show how far each of them comes.
 module dde_exponents
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use dde_interpolant, only: highest_degree, newton_state
    use dde_step, only: step_type
    use dde_step_context, only: step_context
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: judge_exponents
+   public :: exponent_watch
 
-   !> Places of the step: a parabola through the values there bounds an exponent.
+   !> Places of the step at which they are taken: a parabola through the values bounds an exponent.
    real(wp), parameter :: places(3) = [0.0_wp, 0.5_wp, 1.0_wp]
    !> A term below exp(-hidden) of the tolerance is not seen.
    real(wp), parameter :: hidden = 5.0_wp
@@ -22,45 +21,86 @@ module dde_exponents
    !> Uncertainty of a bound, over the second difference.
    real(wp), parameter :: uncertain = 0.125_wp
 
+   !> The exponents over a step.
+   type :: exponent_watch
+      !> Whether those at its start are known
+      logical :: begun = .false.
+      !> Exponents at the places of the step, shape (exponentials, places)
+      real(wp), allocatable, private :: a(:, :)
+      !> State and delayed values there
+      real(wp), allocatable, private :: y(:, :), z(:, :)
+   contains
+      procedure :: judge, advance
+   end type exponent_watch
+
 contains
 
    !> Reject a step in which an exponent moves by so much that its term may have been missed.
-   pure subroutine judge_exponents(context, step, error)
+   pure subroutine judge(self, context, step, error)
+      class(exponent_watch), intent(inout) :: self
       !> The context of a step that is within the tolerance otherwise
       type(step_context), intent(inout) :: context
       !> The step
       class(step_type), intent(in) :: step
       !> Error of the step in units of the tolerance
       real(wp), intent(inout) :: error
-      real(wp), allocatable :: a(:, :), y(:, :), z(:, :)
-      real(wp) :: coefficients(0:highest_degree), far, ignored, s
-      integer :: i, j, k
+      real(wp) :: far
+      integer :: j, k
 
-      associate (problem => context%problem, degree => size(step%nodes), h => step%h)
-         allocate (a(problem%exponentials, 3), y(problem%n, 3), z(size(problem%lag), 3))
-         call context%delayed_values(h*places, z)
-         do i = 1, problem%n
-            call step%interpolant(i, coefficients(:degree))
-            do j = 1, 3
-               call newton_state(step%nodes, coefficients(:degree), places(j), y(i, j), ignored)
-               do k = 1, merge(size(problem%lag), 0, step%constants%implicit)
-                  s = places(j) - problem%lag(k)/h
-                  if (s <= 0.0_wp .or. problem%component(k) /= i) cycle
-                  ! a delayed value within the step
-                  call newton_state(step%nodes, coefficients(:degree), s, z(k, j), ignored)
-               end do
-            end do
+      associate (problem => context%problem)
+         if (.not. allocated(self%a)) then
+            allocate (self%a(problem%exponentials, 3), self%y(problem%n, 3))
+            allocate (self%z(size(problem%lag), 3))
+         end if
+         call find_values(self, context, step)
+         do j = merge(2, 1, self%begun), 3
+            call problem%exponents(context%cursor%inside(step%t + step%h*places(j)), &
+                                   self%y(:, j), self%z(:, j), self%a(:, j))
          end do
-         do j = 1, 3
-            call problem%exponents(context%cursor%inside(step%t + h*places(j)), y(:, j), z(:, j), &
-                                   a(:, j))
+         self%begun = .true.
+         far = hidden - log(context%tolerance%level)
+         do k = 1, problem%exponentials
+            if (change(self%a(k, :), far) > most_change) error = huge(1.0_wp)
          end do
       end associate
-      far = hidden - log(context%tolerance%level)
-      do k = 1, size(a, 1)
-         if (change(a(k, :), far) > most_change) error = huge(1.0_wp)
-      end do
-   end subroutine judge_exponents
+   end subroutine judge
+
+   !> States at the places, and delayed values where exponents have them.
+   pure subroutine find_values(self, context, step)
+      class(exponent_watch), intent(inout) :: self
+      type(step_context), intent(inout) :: context
+      class(step_type), intent(in) :: step
+      integer :: first, j, k
+
+      self%y(:, 1) = step%y
+      self%y(:, 3) = step%y_new
+      call step%state_at(places(2), self%y(:, 2))
+      if (.not. context%problem%delayed_exponents) return
+      first = merge(2, 1, self%begun)
+      call context%delayed_values(step%h*places(first:), self%z(:, first:))
+      if (.not. step%constants%implicit) return
+      ! delayed values within the step
+      associate (component => context%problem%component, lag => context%problem%lag)
+         do j = 2, 3
+            do k = 1, size(lag)
+               if (lag(k) >= step%h*places(j)) cycle
+               call step%state_at(places(j) - lag(k)/step%h, self%y(:, 1))
+               self%z(k, j) = self%y(component(k), 1)
+            end do
+         end do
+         self%y(:, 1) = step%y
+      end associate
+   end subroutine find_values
+
+   !> Go to the end of an accepted step.
+   pure subroutine advance(self, smooth)
+      class(exponent_watch), intent(inout) :: self
+      !> Whether delayed values do not jump there
+      logical, intent(in) :: smooth
+
+      self%begun = self%begun .and. smooth
+      if (self%begun) self%a(:, 1) = self%a(:, 3)
+   end subroutine advance
 
    !> Change of an exponent within -far and far, from its values at the places.
    pure real(wp) function change(a, far)

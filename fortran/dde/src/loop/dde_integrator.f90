@@ -7,7 +7,7 @@ module dde_integrator
    use dde_diagnosis, only: explain
    use dde_event_search, only: endless, most_places
    use dde_events, only: event_watcher_type
-   use dde_exponents, only: judge_exponents
+   use dde_exponents, only: exponent_watch
    use dde_methods, only: longest_step, matching_method, price_of_trial
    use dde_outcome, only: event_met, integration_result, interrupted, out_of_memory, reached_end, &
                           refused, step_underflow, stop_requested, too_many_steps, value_not_finite
@@ -49,6 +49,7 @@ contains
       !> Where an earlier run ended; on return where this one ended
       type(continuation_type), intent(inout), optional :: continuation
       class(dde_problem_type), allocatable :: whole
+      type(exponent_watch) :: exponents
       type(run_type) :: run
       type(switch_type) :: switch
       type(instant) :: step_end
@@ -116,7 +117,7 @@ contains
          call run%step%attempt(run%context, error_estimate)
          call run%points%judge(step_end, error_estimate)
          if (problem%exponentials > 0 .and. accepted(error_estimate)) then
-            call judge_exponents(run%context, run%step, error_estimate)
+            call exponents%judge(run%context, run%step, error_estimate)
          end if
          if (.not. accepted(error_estimate)) then
             outcome%rejected = outcome%rejected + 1
@@ -147,6 +148,7 @@ contains
             if (.not. present(continuation)) left = t_end - step_end%hi
             call switch%judge(problem, run%step, run%context%work, h, left, other)
          end if
+         call exponents%advance(.not. landing)
          call run%step%advance()
          last = landing .and. run%points%is_end(goal)
          call run%arrive(goal, landing, step_end)

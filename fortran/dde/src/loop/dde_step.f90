@@ -5,6 +5,7 @@
 module dde_step
    use dde_controller, only: controller_type, method_constants
    use dde_errors, only: error_type
+   use dde_interpolant, only: highest_degree, newton_state
    use dde_problem, only: dde_problem_type
    use dde_step_context, only: step_context
    use dde_kinds, only: wp
@@ -39,7 +40,7 @@ module dde_step
       real(wp) :: valid_for = 0.0_wp
    contains
       procedure :: allocate_state, restart, renew, reset, propose, next_length
-      procedure :: refuse_series, slope_here, stiff
+      procedure :: refuse_series, slope_here, state_at, stiff
       procedure(attempt_step), deferred :: attempt
       procedure(give_polynomial), deferred :: interpolant
       procedure(go_to_end), deferred :: advance
@@ -149,6 +150,23 @@ contains
 
       value = .false.
    end function stiff
+
+   !> State at a place of an accepted step, before `advance`.
+   pure subroutine state_at(self, place, y)
+      class(step_type), intent(in) :: self
+      !> Place, 0..1
+      real(wp), intent(in) :: place
+      real(wp), intent(out) :: y(:)
+      real(wp) :: coefficients(0:highest_degree), slope
+      integer :: i
+
+      associate (dense => coefficients(:size(self%nodes)))
+         do i = 1, size(y)
+            call self%interpolant(i, dense)
+            call newton_state(self%nodes, dense, place, y(i), slope)
+         end do
+      end associate
+   end subroutine state_at
 
    !> Slope at the present state, from the left: `advance` sets the slope at the next start.
    pure function slope_here(self) result(slope)

@@ -34,7 +34,7 @@ module dde_taylor_series
       !> Whether the series is that of a slow solution, and when to search for one
       type(slow_series) :: slow
    contains
-      procedure :: expand, expand_state, state, slope
+      procedure :: expand, expand_state, slope_of, state
    end type taylor_series
 
    interface taylor_series
@@ -129,20 +129,23 @@ contains
       end do
    end subroutine state
 
-   !> The slope at a time.
-   pure function slope(self, time) result(value)
+   !> The slope of a component at a time.
+   pure real(wp) function slope_of(self, i, time) result(value)
       class(taylor_series), intent(in) :: self
+      !> Number of the component
+      integer, intent(in) :: i
       real(wp), intent(in) :: time
-      real(wp) :: value(size(self%coefficients, 2))
+      real(wp) :: s
       integer :: k
 
-      value = self%coefficients(1, :)/self%unit
+      value = self%coefficients(1, i)/self%unit
       ! at the start it is known even if later terms are not finite
       if (.not. time > 0.0_wp) return
+      s = time/self%unit
       value = 0.0_wp
       do k = self%degree, 1, -1
-         value = k*self%coefficients(k, :) + (time/self%unit)*value
+         value = k*self%coefficients(k, i) + s*value
       end do
       value = value/self%unit
-   end function slope
+   end function slope_of
 end module dde_taylor_series

@@ -46,7 +46,7 @@ module dde_taylor_step
       real(wp), private :: place = -1.0_wp
    contains
       procedure :: set_up, refuse_series, renew, reset, propose, attempt, interpolant, stiff
-      procedure :: next_length, advance, slope_here
+      procedure :: next_length, advance, slope_here, state_at
    end type taylor_step_type
 
 contains
@@ -159,6 +159,7 @@ contains
       class(taylor_step_type), intent(inout) :: self
       type(step_context), intent(inout) :: context
       real(wp), intent(out) :: error
+      integer :: worst
 
       self%t = context%cursor%t
       self%h = context%cursor%h
@@ -168,7 +169,8 @@ contains
       self%valid_for = min(self%valid_for, growth*self%h)
       call self%series%state(self%h, self%y_new)
       if (.not. all(ieee_is_finite(self%y_new))) return
-      call measure_residual(context, self%series, self%h, self%scale, error)
+      call measure_residual(context, self%series, self%h, 1.0_wp, self%scale, self%y_new, self%z, &
+                            self%slope, worst, error)
    end subroutine attempt
 
    !> The series of component `i`.
@@ -227,12 +229,23 @@ contains
       self%found = .false.
    end subroutine advance
 
+   !> The series at a place.
+   pure subroutine state_at(self, place, y)
+      class(taylor_step_type), intent(in) :: self
+      real(wp), intent(in) :: place
+      real(wp), intent(out) :: y(:)
+
+      call self%series%state(place*self%h, y)
+   end subroutine state_at
+
    !> The derivative of the series.
    pure function slope_here(self) result(slope)
       class(taylor_step_type), intent(in) :: self
       real(wp) :: slope(size(self%y))
+      integer :: i
 
       slope = self%slope
-      if (self%place >= 0.0_wp) slope = self%series%slope(self%place)
+      if (self%place < 0.0_wp) return
+      slope = [(self%series%slope_of(i, self%place), i=1, size(slope))]
    end function slope_here
 end module dde_taylor_step

@@ -49,6 +49,7 @@ contains
       problem%vectors = vectors
       problem%n = base%n*(vectors + 1)
       problem%exponentials = base%exponentials
+      problem%delayed_exponents = base%delayed_exponents
       select type (base)
       class is (problem_with_tangents)
          problem%analytic = base%analytic .and. base%analytic_tangents
