@@ -4,7 +4,6 @@
 !> pulse between its stages, looks as accurate as one without. The exponents themselves are as
 !> smooth as the solution: three places of a step show how far each of them comes.
 module dde_exponents
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_step, only: step_type
    use dde_step_context, only: step_context
    use dde_kinds, only: wp
@@ -18,6 +17,8 @@ module dde_exponents
    real(wp), parameter :: hidden = 5.0_wp
    !> Largest change of an exponent in a step, as far as its term is seen.
    real(wp), parameter :: most_change = 10.0_wp
+   !> Exponents beyond this are ignored: their sums may overflow.
+   real(wp), parameter :: farthest = 0.1_wp*huge(1.0_wp)
    !> Uncertainty of a bound, over the second difference.
    real(wp), parameter :: uncertain = 0.125_wp
 
@@ -108,12 +109,14 @@ contains
       real(wp) :: bend, extreme, least, most, rise, s
 
       change = 0.0_wp
-      if (.not. ieee_is_finite(sum(a))) return
+      if (.not. all(abs(a) < farthest)) return
       bend = a(1) - 2.0_wp*a(2) + a(3)
       rise = 4.0_wp*a(2) - 3.0_wp*a(1) - a(3)
       extreme = a(2)
-      s = -0.25_wp*rise/sign(max(abs(bend), tiny(1.0_wp)), bend)
-      if (s > 0.0_wp .and. s < 1.0_wp) extreme = a(1) + 0.5_wp*s*rise
+      if (abs(rise) < 4.0_wp*abs(bend)) then
+         s = -0.25_wp*rise/bend
+         if (s > 0.0_wp) extreme = a(1) + 0.5_wp*s*rise
+      end if
       least = min(extreme, minval(a)) - uncertain*abs(bend)
       most = max(extreme, maxval(a)) + uncertain*abs(bend)
       change = max(-far, min(far, most)) - max(-far, min(far, least))

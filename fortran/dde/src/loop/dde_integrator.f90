@@ -119,15 +119,22 @@ contains
          if (problem%exponentials > 0 .and. accepted(error_estimate)) then
             call exponents%judge(run%context, run%step, error_estimate)
          end if
+         if (outcome%accepted == 0) then
+            call run%step%refuse_series(run%context, error)
+            if (allocated(error)) then
+               outcome%reason = refused
+               exit
+            end if
+         end if
          if (.not. accepted(error_estimate)) then
             outcome%rejected = outcome%rejected + 1
             run%h = h
             call run%control%reject(run%step%constants, run%step%safety, run%h, error_estimate)
-            if (outcome%accepted == 0) call run%step%refuse_series(run%context, error)
-            if (allocated(error)) outcome%reason = refused
-            if (automatic) call switch%judge_rejection(run%step, other)
-            if (automatic .and. other) call change_method()
-            if (outcome%reason /= reached_end) exit
+            if (automatic) then
+               call switch%judge_rejection(run%step, error_estimate, other)
+               if (other) call change_method()
+               if (outcome%reason /= reached_end) exit
+            end if
             cycle
          end if
 

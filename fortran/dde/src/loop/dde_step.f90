@@ -92,7 +92,7 @@ contains
       call problem%initial(self%y)
    end subroutine allocate_state
 
-   !> After a rejected first step: refuse series of the problem that do not solve its equations. A
+   !> After an attempt of the first step: refuse series of the problem that do not solve its equations. A
    !> method without series has nothing to refuse.
    pure subroutine refuse_series(self, context, error)
       class(step_type), intent(inout) :: self

@@ -5,6 +5,7 @@
 !> limited steps earns a trial of the other method. A trial takes a few steps; then the method that
 !> made less time for its work is left, and the other one is settled.
 module dde_switch
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_problem, only: dde_problem_type
    use dde_slow_series, only: least_balance
    use dde_step, only: step_type
@@ -169,12 +170,14 @@ contains
    end subroutine judge
 
    !> Take in a rejected step. Series that fail again and again are left.
-   pure subroutine judge_rejection(self, step, other)
+   pure subroutine judge_rejection(self, step, error, other)
       class(switch_type), intent(inout) :: self
       class(step_type), intent(in) :: step
+      !> Error of the step; no method helps where it is not finite
+      real(wp), intent(in) :: error
       logical, intent(out) :: other
 
-      self%rejections = self%rejections + 1
+      if (ieee_is_finite(error)) self%rejections = self%rejections + 1
       other = self%rejections == most_rejections .and. self%series &
               .and. .not. step%constants%implicit
       if (.not. other) return

@@ -24,8 +24,6 @@ module dde_taylor_step
    real(wp), parameter :: growth = 1000.0_wp
    !> A step of this share of the length to a breaking point ends there.
    real(wp), parameter :: nearly = 1.0_wp - 1.0e-8_wp
-   !> Rejected first steps in a row after which a series is refused.
-   integer, parameter :: times_refused = 3
    !> Cost of a series over that of a right-hand side, divided by its degree (measured in
    !> instructions and time on a spring-block model).
    real(wp), parameter :: cost_of_degree = 0.75_wp
@@ -38,8 +36,8 @@ module dde_taylor_step
    type, extends(step_type) :: taylor_step_type
       !> The series
       type(taylor_series), private :: series
-      !> The coefficient that the last rejected steps found wrong, 0 if none, and how many steps did
-      integer, private :: wrong = 0, times_wrong = 0
+      !> What the last rejected step found wrong, see `find_wrong`
+      integer, private :: wrong = 0
       !> Whether the series is that from the start of the step, which an earlier attempt found
       logical, private :: found = .false.
       !> Time along the series of the present state; negative if its slope was evaluated instead
@@ -69,7 +67,7 @@ contains
       self%series = taylor_series(problem, degree)
    end subroutine set_up
 
-   !> Refuse a series of which the same coefficient is found wrong in one short step after another.
+   !> Refuse a series of which the first coefficient is wrong, or another one in two steps.
    pure subroutine refuse_series(self, context, error)
       class(taylor_step_type), intent(inout) :: self
       type(step_context), intent(inout) :: context
@@ -78,9 +76,8 @@ contains
       integer :: wrong
 
       call find_wrong(context, self%series, self%h, self%scale, wrong, found)
-      self%times_wrong = merge(self%times_wrong + 1, 0, wrong > 0 .and. wrong == self%wrong)
+      if (wrong == 1 .or. wrong /= 0 .and. wrong == self%wrong) call move_alloc(found, error)
       self%wrong = wrong
-      if (self%times_wrong >= times_refused) call move_alloc(found, error)
    end subroutine refuse_series
 
    !> The series of the step gives its slope.
@@ -169,7 +166,7 @@ contains
       self%valid_for = min(self%valid_for, growth*self%h)
       call self%series%state(self%h, self%y_new)
       if (.not. all(ieee_is_finite(self%y_new))) return
-      call measure_residual(context, self%series, self%h, 1.0_wp, self%scale, self%y_new, self%z, &
+      call measure_residual(context, self%series, self%h, self%h, self%scale, self%y_new, self%z, &
                             self%slope, worst, error)
    end subroutine attempt
 

@@ -93,25 +93,25 @@ contains
       end associate
    end function before
 
-   !> Newton coefficients of cos(phase + turn s) for 0 <= s <= 1, as its Taylor polynomial of a
-   !> degree that every method's nodes allow.
+   !> Newton coefficients of cos(phase + turn s) for 0 <= s <= 1, as its Taylor polynomial from the
+   !> middle on: those of neighbouring steps must meet within the tolerance.
    pure function cosine(phase, turn, nodes) result(a)
       !> Angle at the start of the step, angle over the step
       real(wp), intent(in) :: phase, turn
       real(wp), intent(in) :: nodes(:)
       real(wp) :: a(0:size(nodes))
-      integer, parameter :: degree = 4
+      real(wp) :: factor
       integer :: i, j
 
-      a = 0.0_wp
-      a(0) = cos(phase)
-      do j = 1, degree
-         a(j) = turn**j/gamma(real(j + 1, wp))*cos(phase + 0.5_wp*pi*j)
+      factor = 1.0_wp
+      do j = 0, size(nodes)
+         a(j) = factor*cos(phase + 0.5_wp*(turn + pi*j))
+         factor = factor*turn/(j + 1)
       end do
-      ! powers of s to Newton form: divide by s - node again and again
-      do i = 1, degree
-         do j = degree - 1, i - 1, -1
-            a(j) = a(j) + nodes(i)*a(j + 1)
+      ! powers of s - 1/2 to Newton form: divide by s - node again and again
+      do i = 1, size(nodes)
+         do j = size(nodes) - 1, i - 1, -1
+            a(j) = a(j) + (nodes(i) - 0.5_wp)*a(j + 1)
          end do
       end do
    end function cosine
