@@ -18,10 +18,11 @@ def of_all_blocks(model: Model, result: str, lines: list[str], names: list[str])
     for number, one in enumerate(model.delayed, 1):
         name, value = one.symbol.name, at.delayed("z", number=number)
         states += [f"{name} = {one.state}", f"if (place_{number} > 0) {name} = {value}"]
+    of = (lambda state: at.state(result, state=state)) if result == "dydt" else None
     inside = [
         *states,
         *at.differences(lambda column: f"y({column})"),
-        *refusals(model, list(model.equations.values()), guard_names(model), result),
+        *refusals(model, model.equations, guard_names(model), result, of=of),
         *(f"{name} = exp({state})" for name, state in model.auxiliary.items()),
         *lines,
     ]
