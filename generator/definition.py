@@ -18,6 +18,7 @@ from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
 
 from .fortran import FUNCTIONS, in_words
+from .saturation import limited
 
 TIME = sympy.Symbol("t", real=True)
 MODE = sympy.Symbol("self%mode", real=True)
@@ -36,9 +37,9 @@ INTEGRAL = re.compile(r"(\w+)( ?\+ ?t)?")
 NUMBER = re.compile(r"-?\d+\.?\d*(e[+-]?\d+)?")
 TEXTS = ("fast", "event", "section", "integral")
 """Keys of a text with names."""
-LARGEST_EXPONENT = 300
-"""The argument of exp is refused beyond this, unless `domain` says otherwise: its products might
-overflow."""
+LARGEST_EXPONENT = 700
+"""The argument of exp is refused beyond this, unless `domain` says otherwise or the exponential
+stands in a bounded quotient (saturation.py): exp(709.8) is the largest number."""
 LARGEST_POWER = 64
 """Largest exponent that is a number: 9**9**9 has more digits than there is memory for."""
 LARGEST_LOGARITHM = 700
@@ -262,6 +263,10 @@ class _Reader:
             model.texts[state] = self.line(f"equation of {state}", values["equations"][state])
             model.equations[state] = self.expression(f"equation of {state}", model.texts[state])
         self.read_rest(values)
+        # a domain has windows of its own
+        if not model.domain:
+            for state, equation in model.equations.items():
+                model.equations[state] = limited(equation, model.variables)
 
     def refuse(self, what: str, value, expected: str):
         text = f"{self.place}: {what}: {value!r}; expected {expected}"

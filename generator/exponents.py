@@ -10,7 +10,7 @@ import sympy
 from .address import Address
 from .definition import Model
 from .flow import Procedure
-from .fortran import text_of
+from .fortran import text_of, within
 from .pointwise import of_all_blocks
 
 LARGEST_ALGEBRAIC = 4
@@ -28,7 +28,9 @@ def exponents_of(model: Model) -> list[str]:
     }
     found: dict[sympy.Expr, str] = {}
     for equation in model.equations.values():
-        for one in sympy.preorder_traversal(sympy.expand_func(equation).xreplace(exponentials)):
+        # beyond the bounds of `within`, too
+        whole = sympy.expand_func(equation.replace(within, lambda one, _: one))
+        for one in sympy.preorder_traversal(whole.xreplace(exponentials)):
             exponent = sympy.S.Zero
             if one.func in (sympy.exp, sympy.sinh, sympy.cosh):
                 exponent = one.args[0]
@@ -55,4 +57,4 @@ def exponents_procedure(model: Model) -> Procedure:
     exponents = exponents_of(model)
     first = f"{len(exponents)}*(block - 1) + " if Address(model).in_chain else ""
     lines = [f"exponents({first}{number}) = {text}" for number, text in enumerate(exponents, 1)]
-    return of_all_blocks(model, "exponents", lines, [], guarded=())
+    return of_all_blocks(model, "exponents", lines, [], guarded={})

@@ -12,12 +12,13 @@ from dataclasses import dataclass
 import sympy
 
 from .definition import LARGEST_EXPONENT, TIME, Model
-from .fortran import indented, text_of
+from .fortran import indented, text_of, within
 from .graph import Graph, Node, convolutions
 from .recurrences import Constants, fetch_parameters, names_of_parameters
 
 REFUSED = {
     sympy.log: ".not. {} > 0.0_wp",
+    sympy.exp: f"{{}} > {LARGEST_EXPONENT}.0_wp",
     **dict.fromkeys((sympy.sinh, sympy.cosh), f"abs({{}}) > {LARGEST_EXPONENT}.0_wp"),
     **dict.fromkeys((sympy.asin, sympy.acos, sympy.atanh), ".not. abs({}) < 1.0_wp"),
     sympy.acosh: ".not. {} > 1.0_wp",
@@ -99,42 +100,41 @@ def flow_with(model: Model, integrated: dict[str, str]) -> Flow:
     return Flow(graph, {state: rates[state] for state in [*model.states, *integrated]}, integrated)
 
 
-def conditions_of(model: Model, expressions: list[sympy.Expr], names: dict) -> list[list[str]]:
-    """Conditions under which the expressions have no value: a list for each depth of nesting."""
-    found: dict[sympy.Expr, tuple[int, str]] = {}
+def conditions_of(model: Model, equations: dict, names: dict) -> list[dict[str, set[str]]]:
+    """Conditions under which equations have no value, with their states; one dict for each depth of
+    nesting."""
+    found: dict[sympy.Expr, tuple[int, str, set[str]]] = {}
 
-    def visit(one: sympy.Expr) -> int:
-        depth = max([visit(argument) for argument in one.args], default=0)
+    def visit(one: sympy.Expr, state: str) -> int:
+        depth = max([visit(argument, state) for argument in one.args], default=0)
         text = None
-        if one.func is sympy.exp:
-            text = REFUSED[sympy.sinh].format(text_of(one.args[0], names))
-            for delayed in model.delayed:
-                if delayed.symbol == one.args[0] and delayed.state in model.domain:
-                    text = window_condition(names[delayed.symbol], model.domain[delayed.state])
-        elif one.func in REFUSED:
+        if one.func in REFUSED and not one.has(within):
             text = REFUSED[one.func].format(text_of(one.args[0], names))
+            for delayed in model.delayed:
+                known = one.func is sympy.exp and delayed.symbol == one.args[0]
+                if known and delayed.state in model.domain:
+                    text = window_condition(names[delayed.symbol], model.domain[delayed.state])
         elif one.is_Pow and not one.exp.is_Integer and one.base is not sympy.E:
             text = REFUSED[sympy.log].format(text_of(one.base, names))
         elif one.is_Pow and one.exp.is_Integer and one.exp < 0 and not one.base.is_Symbol:
             text = f".not. abs({text_of(one.base, names)}) > 0.0_wp"
         if text is None or not one.free_symbols & model.variables:
             return depth
-        found.setdefault(one, (depth, text))
+        found.setdefault(one, (depth, text, set()))[2].add(state)
         return depth + 1
 
-    for expression in map(model.plain, expressions):
-        visit(expression)
-    levels: list[list[str]] = []
-    for depth, text in found.values():
-        while len(levels) <= depth:
-            levels.append([])
-        if text not in levels[depth]:
-            levels[depth].append(text)
-    outer = [
-        window_condition(names[model.symbol(state)], window)
+    for state, equation in equations.items():
+        visit(model.plain(equation), state)
+    outer = {
+        window_condition(names[model.symbol(state)], window): {state}
         for state, window in model.domain.items()
-    ]
-    return [level for level in [outer, *levels] if level]
+    }
+    levels: list[dict[str, set[str]]] = [outer]
+    for depth, text, states in found.values():
+        while len(levels) <= depth + 1:
+            levels.append({})
+        levels[depth + 1].setdefault(text, set()).update(states)
+    return [level for level in levels if level]
 
 
 def window_condition(name: str, window: tuple[float, float]) -> str:
@@ -144,18 +144,29 @@ def window_condition(name: str, window: tuple[float, float]) -> str:
 
 
 def refusals(
-    model: Model, expressions: list[sympy.Expr], names: dict, result: str, *, in_lanes: bool = False
+    model: Model,
+    equations: dict[str, sympy.Expr],
+    names: dict,
+    result: str,
+    *,
+    of: Callable[[str], str] | None = None,
+    in_lanes: bool = False,
 ) -> list[str]:
-    """Statements that end a procedure with no number where an expression has no value."""
+    """Statements that end a procedure with no number where an equation has no value.
+
+    With `of` only the elements of these equations are no numbers, else the whole result.
+    """
     lines = []
-    for level in conditions_of(model, expressions, names):
+    for level in conditions_of(model, equations, names):
         conditions = [f"any({one})" for one in level] if in_lanes else level
-        lines += [
-            f"if ({' .or. '.join(conditions)}) then",
-            f"   {result} = ieee_value(1.0_wp, ieee_quiet_nan)",
-            "   return",
-            "end if",
-        ]
+        marked = [f"   {result} = ieee_value(1.0_wp, ieee_quiet_nan)"]
+        if of:
+            marked = [f"   {result} = 0.0_wp"] + [
+                f"   if ({condition}) {of(state)} = ieee_value(1.0_wp, ieee_quiet_nan)"
+                for condition, states in level.items()
+                for state in sorted(states)
+            ]
+        lines += [f"if ({' .or. '.join(conditions)}) then", *marked, "   return", "end if"]
     return lines
 
 

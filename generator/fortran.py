@@ -32,6 +32,17 @@ SUM, PRODUCT, POWER, ATOM = range(4)
 WIDTH = 100
 
 
+class within(sympy.Function):  # noqa: N801
+    """A number, at most a bound in size, but differentiated as if it were not limited."""
+
+    @classmethod
+    def eval(cls, x, bound):
+        return x if x.is_number and abs(x) <= bound else None
+
+    def fdiff(self, argindex=1):
+        return sympy.S.One
+
+
 def literal(number: sympy.Rational) -> str:
     """A positive rational number, exact in any kind: digits where these end, else a quotient."""
     rest = number.q
@@ -93,8 +104,9 @@ class _Printer:
             return "exp(1.0_wp)", ATOM
         if one is sympy.pi:
             return "acos(-1.0_wp)", ATOM
-        if one.func in FUNCTIONS.values():
-            return f"{one.func.__name__}({self.text(one.args[0], SUM)})", ATOM
+        if one.func in FUNCTIONS.values() or one.func is within:
+            arguments = ", ".join(self.text(argument, SUM) for argument in one.args)
+            return f"{one.func.__name__}({arguments})", ATOM
         raise TypeError(f"no Fortran for {one}")
 
     def product(self, one: sympy.Mul) -> tuple[str, int]:

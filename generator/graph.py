@@ -7,6 +7,7 @@ import sympy
 from sympy.codegen.cfunctions import expm1, log1p
 
 from .definition import Model
+from .fortran import within
 
 
 @dataclass(eq=False)
@@ -23,6 +24,7 @@ class Node:
     """Of a sum: what each argument is multiplied by, without variables."""
     constant: sympy.Expr = sympy.S.Zero
     exponent: sympy.Expr = sympy.S.Zero
+    """Of a power, or the bound of `within`."""
     exact: str = ""
     """The function of `of` that coefficient 0 is, where its kind would lose digits."""
     of: tuple["Node", ...] = ()
@@ -89,6 +91,10 @@ class Graph:
             node = self.made(self.plain(one))
             node.exact, node.of = one.func.__name__, (self.node(one.args[0]),)
             return node
+        if one.func is within:
+            of = (self.node(one.args[0]),)
+            weights, bound = (sympy.S.One,), one.args[1]
+            return self.add("sum", *of, weights=weights, exponent=bound, exact="within", of=of)
         node = self.add(one.func.__name__, self.node(one.args[0]))
         if one.func not in (sympy.exp, sympy.log):
             # the slope may take the function itself

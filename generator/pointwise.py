@@ -19,15 +19,16 @@ def of_all_blocks(
     It ends with no number where an expression of `guarded`, all equations by default, has no value.
     """
     at = Address(model)
-    guarded = [*model.equations.values()] if guarded is None else guarded
+    guarded = model.equations if guarded is None else guarded
     states = [*at.start(), *(f"{name} = {at.state('y', state=name)}" for name in model.states)]
     for number, one in enumerate(model.delayed, 1):
         name, value = one.symbol.name, at.delayed("z", number=number)
         states += [f"{name} = {one.state}", f"if (place_{number} > 0) {name} = {value}"]
+    of = (lambda state: at.state(result, state=state)) if result == "dydt" else None
     inside = [
         *states,
         *at.differences(lambda column: f"y({column})"),
-        *refusals(model, guarded, guard_names(model), result),
+        *refusals(model, guarded, guard_names(model), result, of=of),
         *(f"{name} = exp({state})" for name, state in model.auxiliary.items()),
         *lines,
     ]

@@ -130,7 +130,8 @@ class Recurrences:
     def sum_text(self, node: Node, *, first: bool) -> str:
         """The sum of a node, or the function that coefficient 0 is."""
         if first and node.exact:
-            return f"{node.exact}({self.rate_text(node.of[0], first=True)})"
+            bound = f", {text_of(node.exponent)}" if node.exponent else ""
+            return f"{node.exact}({self.rate_text(node.of[0], first=True)}{bound})"
         parts = [
             (weight, self.text(one, first=first))
             for weight, one in zip(node.weights, node.args, strict=True)

@@ -30,12 +30,13 @@ def steady_state_procedure(model: Model) -> Procedure:
 
 def rest_procedure(model: Model) -> Procedure:
     """The equations with all states alike, now and before, and their derivatives."""
-    equations = [model.at_steady_state(one) for one in model.equations.values()]
+    at_rest = {state: model.at_steady_state(one) for state, one in model.equations.items()}
+    equations = list(at_rest.values())
     names = at(model)
     guarded = names | {
         model.symbol(v): f"exp({names[model.symbol(w)]})" for v, w in model.auxiliary.items()
     }
-    lines = refusals(model, equations, guarded, "rates")
+    lines = refusals(model, at_rest, guarded, "rates")
     lines += [f"rates({row}) = {text_of(one, names)}" for row, one in enumerate(equations, 1)]
     for array, symbols in (
         ("by_state", list(names)),

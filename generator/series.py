@@ -82,7 +82,7 @@ class Series:
 
     def guards(self) -> list[str]:
         """Statements that end the procedure where equations have no value."""
-        equations = [self.model.equations[state] for state in self.advanced]
+        equations = {state: self.model.equations[state] for state in self.advanced}
         result, names = "y" if self.fast else "y(1:, :)", guard_names(self.model, "_0")
         return refusals(self.model, equations, names, result, in_lanes=self.at.in_chain)
 

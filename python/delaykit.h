@@ -17,7 +17,7 @@ typedef struct dk_results dk_results;
 /* A past in polynomials, as `dense_...` of the results of a run with keep_all give it. Times are
  * pairs of numbers whose sum they are. */
 typedef struct {
-    const double *origin;        /* (2): before it the constant past holds */
+    const double *origin;        /* (2): before it `past` of the request holds */
     const double *kink;          /* (kinks, 2): where a derivative jumps */
     const double *step_start;    /* (steps, 2) */
     const double *step_length;   /* (steps) */
@@ -33,7 +33,7 @@ typedef struct {
 /* What is wanted of a run. n is the number of states, times that of blocks. */
 typedef struct {
     const double *parameters;       /* in the order of the definition */
-    const double *past;             /* (n): constant states before the start */
+    const double *past;             /* (n): constant states before the start, or before `origin` */
     const double *state;            /* (n) at the start, with `history`; NULL: as the past */
     double t_start, t_start_rest;   /* the start, and what rounding took from it */
     double t_end;
@@ -41,6 +41,7 @@ typedef struct {
     const double *rtol, *atol;      /* (n) tolerances of a step */
     double first_step, max_step;    /* 0: chosen */
     int64_t max_steps;
+    double max_bytes;               /* most memory of the past */
     const double *times;            /* (time_count) of samples, ascending */
     const double *breaks;           /* (break_count): where the equations or the past jump */
     const double *doses;            /* (dose_count, 1 + n): a time, and what is added to the state */

@@ -3,6 +3,7 @@
 
 import ctypes
 import math
+import re
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -36,14 +37,10 @@ def number_of(what: str, value) -> float:
 class Start:
     """Where a run begins."""
 
-    t: float
-    rest: float
-    """What rounding took from t"""
-    past: np.ndarray
-    """Constant states before, shape (n)"""
+    pieces: Pieces
+    """What was before"""
     state: np.ndarray | None = None
-    """The state at t, where it does not follow from the past"""
-    pieces: Pieces | None = None
+    """The state there, where it is not that of a constant past"""
 
 
 class Arguments:
@@ -137,6 +134,16 @@ class Arguments:
         blocks = rows.reshape(len(rows), self.model.blocks, len(self.states))
         return blocks[:, np.argsort(self.order)].reshape(rows.shape)
 
+    def in_names(self, message: str) -> str:
+        """A message of the solver with names of states in place of numbers of components."""
+
+        def name(found: re.Match) -> str:
+            block, state = divmod(int(found[2]) - 1, len(self.states))
+            words = self.states[state] + "'" * (found[1] == "f(")
+            return words + f" of block {1 + self.order[block]}" * (self.model.blocks > 1)
+
+        return re.sub(r"\b(f\(|y\(|component )(\d+)\b\)?", name, message)
+
     def by_place(self, values: np.ndarray) -> np.ndarray:
         """The state vector of values of shape (blocks, states)."""
         return values[self.order].ravel()
@@ -202,8 +209,9 @@ class Arguments:
     def request(self, start: Start, t_end: float) -> tuple[Request, list]:
         """A request with all that is not an option, and what must live as long as it."""
         request = Request()
-        request.parameters, request.past = address(self.numbers), address(start.past)
-        request.t_start, request.t_start_rest, request.t_end = start.t, start.rest, t_end
+        request.parameters, request.past = address(self.numbers), address(start.pieces.past)
+        request.t_start, request.t_start_rest = start.pieces.end
+        request.t_end = t_end
         request.blocks = self.model.blocks
         request.ends = 1 + ENDS.index(self.model.ends)
         kept: list = [start]
@@ -216,27 +224,25 @@ class Arguments:
 
 def begin(own: Arguments, history, t_start: float, initial, breaks, rtol, atol) -> Start:
     """Where a run begins: after constant states, after functions of time, or after a run."""
-    pieces = getattr(history, "pieces", None)
-    if pieces is not None:
-        start = Start(pieces.end[0], pieces.end[1], pieces.state, pieces.state, pieces)
-    else:
+    delays = own.model.delays_of(own.numbers)
+    start = Start(getattr(history, "pieces", None))
+    if start.pieces is None:
         given = own.over_time(own.by_name("history", history))
         reads = any(callable(value) for value in given.values())
-        longest = max(own.model.delays_of(own.numbers), default=0.0) if reads else 0.0
-        if longest > 0:
-            pieces = fit(
+        if reads and len(delays) and max(delays) > 0:
+            start.pieces = fit(
                 lambda t: own.values("history", given, t),
-                t_start - longest, t_start, breaks, rtol, atol,
-            )  # fmt: skip
-            pieces = pieces.with_kink(0)
-            start = Start(t_start, 0.0, pieces.state, pieces.state, pieces)
+                t_start - max(delays), t_start, breaks, rtol, atol,
+            ).with_kink(0)  # fmt: skip
+            start.state = start.pieces.state
         else:
             # without delays a function is read once
             past = own.values("history", given, t_start if reads else None)
-            start = Start(t_start, 0.0, past)
-    if initial is None:
-        return start
-    state = own.values("initial", own.by_name("initial", initial))
-    start.pieces = (start.pieces or Pieces.none(t_start, start.past)).with_kink(-1)
-    start.state = state
+            start.pieces = Pieces.none(t_start, past, None if reads else past)
+    else:
+        start.pieces.check_reach(delays)
+        start.state = start.pieces.state
+    if initial is not None:
+        start.state = own.values("initial", own.by_name("initial", initial))
+        start.pieces = start.pieces.with_kink(-1)
     return start

@@ -16,6 +16,8 @@ DEGREE = 12
 SHARE = 0.1
 """Their error as a share of the tolerance of the run."""
 MOST_PIECES = 4096
+ROUNDING = 4
+"""How far a time may be off, in units of the spacing of times."""
 NODES = np.array(
     [(1 - math.cos(math.pi * (k + 0.5) / (DEGREE + 1))) / 2 for k in range(DEGREE + 1)]
 )
@@ -54,15 +56,17 @@ class Pieces:
     """Delays passed since; -1 where the solution jumps"""
     generation: np.ndarray
     origin: np.ndarray
-    """Before it the constant past holds, a pair"""
+    """Where they begin, a pair"""
     end: np.ndarray
     """Where they end, a pair"""
     state: np.ndarray
     """The state there, shape (states)"""
+    before: np.ndarray | None = None
+    """Constant states before the origin; None where nothing is known of them"""
 
     @classmethod
-    def none(cls, t: float, state: np.ndarray) -> "Pieces":
-        """No piece: the constant past holds up to t."""
+    def none(cls, t: float, state: np.ndarray, before: np.ndarray | None) -> "Pieces":
+        """No piece: all that is known was before t."""
         pair, n = np.array([t, 0.0]), len(state)
         return cls(
             start=np.empty((0, 2)),
@@ -76,7 +80,29 @@ class Pieces:
             origin=pair,
             end=pair,
             state=state,
+            before=before,
         )
+
+    @property
+    def past(self) -> np.ndarray:
+        """States before the origin as the library takes them, also where it reads none of them."""
+        return self.state if self.before is None else self.before
+
+    def check_reach(self, delays: np.ndarray) -> None:
+        """Raise ModelError if a delay reaches beyond what is known."""
+        begin, end = self.origin.sum(), self.end.sum()
+        for number, delay in enumerate(delays, 1):
+            if self.before is None and end - delay < begin - self.slack:
+                raise ModelError(
+                    f"delay {number} of the model is {delay} at t = {end}, and the history is "
+                    f"known from t = {begin} on; expected a delay <= {end - begin}, or a first "
+                    "run that begins with constants, or has the longer delay"
+                )
+
+    @property
+    def slack(self) -> float:
+        """By how much rounding may move a time."""
+        return ROUNDING * np.spacing(np.abs([self.origin[0], self.end[0]]).max())
 
     def with_kink(self, passages: int) -> "Pieces":
         """The same with a kink at the end, a jump if `passages` is -1."""
@@ -100,12 +126,20 @@ class Pieces:
     def __call__(self, t: np.ndarray) -> np.ndarray:
         """All states at times, shape (times, states)."""
         t = np.asarray(t, float)
+        least = self.origin[0] if self.before is None else -np.inf
+        known = (t >= least - self.slack) & (t <= self.end[0] + self.slack)
+        if not known.all():
+            raise ModelError(f"t = {t[~known][0]}; expected {least} <= t <= {self.end[0]}")
+        if not len(self.length):
+            return np.where((t < self.end[0])[:, None], self.past, self.state)
         piece = np.clip(np.searchsorted(self.start[:, 0], t, side="right") - 1, 0, None)
         share = (t - self.start[piece, 0] - self.start[piece, 1]) / self.length[piece]
         value = self.coefficients[piece, :, -1]
         for k in range(self.nodes.shape[1] - 1, -1, -1):
             factor = (share - self.nodes[piece, k])[:, None]
             value = self.coefficients[piece, :, k] + factor * value
+        if self.before is not None:
+            value[t < self.origin[0]] = self.before
         return value
 
 

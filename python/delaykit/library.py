@@ -50,7 +50,7 @@ class Request(ctypes.Structure):
             "t_end:r",
             "method:s",
         ),
-        *("rtol:p", "atol:p", "first_step:r", "max_step:r", "max_steps:l"),
+        *("rtol:p", "atol:p", "first_step:r", "max_step:r", "max_steps:l", "max_bytes:r"),
         *("times:p", "breaks:p", "doses:p", "event_level:p", "event_component:p"),
         *("event_direction:p", "event_terminal:p", "event_of_slope:p", "share:r"),
         *("blocks:i", "ends:i", "time_count:i", "break_count:i", "dose_count:i"),

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from delaykit.arguments import HUGE, Arguments, begin, number_of
+from delaykit.arguments import HUGE, Arguments, Start, begin, number_of
 from delaykit.errors import ModelError, RunError, check_name
 from delaykit.events import Event
 from delaykit.history import Pieces
@@ -47,10 +47,15 @@ class Solution:
     """Dense output, if it was asked for"""
 
     def sol(self, t) -> np.ndarray:
-        """Dense output at times, shape (states, times); of a run with dense_output=True."""
+        """Dense output at times, shape (states, times); of a run with dense_output=True.
+
+        Before the run it is the history. Raise ModelError where nothing is known.
+        """
         if self.pieces is None:
             raise RunError("this run has no dense output; expected one with dense_output=True")
-        return self.pieces(np.atleast_1d(t)).T
+        names = self.model.definition["parameters"]
+        own = Arguments(self.model, dict(zip(names, self.numbers, strict=True)))
+        return own.by_block(self.pieces(np.atleast_1d(t))).T
 
     def to_dataset(self):
         """The run as an xarray.Dataset."""
@@ -78,6 +83,7 @@ def integrate(
     first_step=0.0,
     max_step=math.inf,
     max_steps=10**8,
+    max_bytes=2e9,
     samples_per_step=4,
 ) -> Solution:
     """Integrate a model from t_start to t_end.
@@ -91,6 +97,7 @@ def integrate(
     events: texts such as "y = 1 rising" or "y' = 0 falling stop", or Event.
     breaks: times at which the equations or the history jump.
     doses: pairs (time, {state: change}).
+    max_bytes: most memory of the past; stiff runs with explicit steps fill it, and dense output.
 
     All times in the model's unit. Raise ModelError before the run for arguments that cannot be,
     RunError with the solver's words where it stops.
@@ -107,6 +114,7 @@ def integrate(
     request.first_step = own.number("first_step", first_step)
     request.max_step = own.number("max_step", min(max_step, HUGE))
     request.max_steps = int(own.number("max_steps", max_steps))
+    request.max_bytes = own.number("max_bytes", max_bytes)
     samples_per_step = own.number("samples_per_step", samples_per_step)
     if not 0 < samples_per_step <= MOST_SAMPLES:
         raise ModelError(
@@ -117,7 +125,7 @@ def integrate(
     request.breaks, request.break_count = address(breaks), len(breaks)
     request.time_count = -1
     if t_eval is not None:
-        times = own.times(t_eval, start.t)
+        times = own.times(t_eval, start.pieces.end[0])
         request.times, request.time_count = address(times), len(times)
     events = [Event.read(one) for one in ([events] if isinstance(events, str | Event) else events)]
     watched = own.events(events)
@@ -125,15 +133,16 @@ def integrate(
         for name, array in watched.items():
             setattr(request, f"event_{name}", address(array))
         request.event_count = len(events)
-    if dosed := own.doses(doses, start.t, t_end):
+    if dosed := own.doses(doses, start.pieces.end[0], t_end):
         changes = np.array(dosed)
         request.doses, request.dose_count = address(changes), len(changes)
     try:
         found = call(LIBRARY.dk_integrate, model.handle, ctypes.byref(request))
     except RunError as problem:
-        problem.partial = solution_of(own, problem.partial, events)
+        problem.args = (own.in_names(str(problem)),)
+        problem.partial = solution_of(own, problem.partial, events, start)
         raise
-    solution = solution_of(own, found, events)
+    solution = solution_of(own, found, events, start)
     solution.options = {"method": method, "rtol": rtol.tolist(), "atol": atol.tolist()}
     del kept
     return solution
@@ -151,7 +160,7 @@ def section(model, history, t_end, event, *, t_transient=0.0, **options):
     return dataset_of_passages(run, number_of("t_transient", t_transient))
 
 
-def solution_of(own: Arguments, found: Results, events: list[Event]) -> Solution:
+def solution_of(own: Arguments, found: Results, events: list[Event], start: Start) -> Solution:
     """The arrays of results of the library."""
     model, t = own.model, found.values("t")
     y = own.by_block(found.values("y").reshape(len(t), own.n)).T
@@ -172,26 +181,27 @@ def solution_of(own: Arguments, found: Results, events: list[Event]) -> Solution
         y_events=y_events,
         status=counts.pop("status", -1),
         counts=counts,
-        pieces=pieces_of(own, found),
+        pieces=pieces_of(own, found, start.pieces.before),
     )
 
 
-def pieces_of(own: Arguments, found: Results) -> Pieces | None:
-    """The dense output of results, if they have one."""
-    length = found.values("dense_length")
-    if not len(length):
+def pieces_of(own: Arguments, found: Results, before: np.ndarray | None) -> Pieces | None:
+    """The dense output of results, if they have one, after constant states."""
+    if not len(found.values("dense_end")):
         return None
-    steps = len(length)
+    length = found.values("dense_length")
+    steps, degree = len(length), len(found.values("dense_nodes")) // max(1, len(length))
     return Pieces(
         start=found.values("dense_start").reshape(steps, 2),
         length=length,
         valid_for=found.values("dense_valid_for"),
-        nodes=found.values("dense_nodes").reshape(steps, -1),
-        coefficients=found.values("dense_coefficients").reshape(steps, own.n, -1),
+        nodes=found.values("dense_nodes").reshape(steps, degree),
+        coefficients=found.values("dense_coefficients").reshape(steps, own.n, 1 + degree),
         kinks=found.values("dense_kink_time").reshape(-1, 2),
         passages=found.values("dense_passages", np.int32),
         generation=found.values("dense_generation", np.int32),
         origin=found.values("dense_origin"),
         end=found.values("dense_end"),
         state=found.values("dense_state"),
+        before=before,
     )

@@ -21,6 +21,7 @@ module delaykit_runs
       type(c_ptr) :: method, rtol, atol
       real(c_double) :: first_step, max_step
       integer(c_int64_t) :: max_steps
+      real(c_double) :: max_bytes
       type(c_ptr) :: times, breaks, doses
       type(c_ptr) :: event_level
       type(c_ptr) :: event_component, event_direction, event_terminal, event_of_slope
@@ -233,6 +234,7 @@ contains
       options%first_step = request%first_step
       options%longest_step = request%max_step
       options%most_steps = request%max_steps
+      options%most_bytes = request%max_bytes
       options%keep_all = request%keep_all /= 0
       if (request%break_count > 0) then
          options%break_at = reals_at(request%breaks, request%break_count)

@@ -17,6 +17,7 @@ int main(int count, char **arguments)
         .atol = &tolerance,
         .max_step = 60.0,
         .max_steps = 100000,
+        .max_bytes = 1e9,
         .times = times,
         .time_count = 2,
         .blocks = 1,

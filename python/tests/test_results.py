@@ -93,6 +93,20 @@ def test_pictures(mackey_glass, sine):
     matplotlib.pyplot.close("all")
 
 
+def test_where_equations_saturate():
+    """A logistic that is 1 to rounding, though its exponential overflows, leaves linear ones."""
+    pair = {"x": "-x + y + 1/(1 + exp(k*(x(t - 1) - 2)))", "y": "b - y - b*x(t - 1)"}
+    steep = dk.Model(pair, {"b": 2, "k": 800})
+    linear = dk.Model({**pair, "x": "-x + y + 1"}, {"b": 2})
+    for method in ("taylor", "radau9"):
+        options = {"count": 2, "t_transient": 20, "t_end": 420, "method": method}
+        found, known = (m.exponents({"x": 1.2, "y": 0}, **options).value for m in (steep, linear))
+        np.testing.assert_allclose(found, known, atol=1e-9)
+    curves = steep.hopf(("b", "k"), window=((0.5, 4), (700, 900)), near={"x": 1, "y": 0})
+    np.testing.assert_allclose(curves.b, 1 + curves.omega**2, rtol=1e-9)
+    np.testing.assert_allclose(curves.l1, 0, atol=1e-9)
+
+
 def test_exponents_of_equations_with_time():
     """No disturbance along the flow stays: the exponents are Re W(-1) (DLMF 4.13), twice."""
     driven = dk.Model({"y": "-y(t - 1) + sin(t)"})

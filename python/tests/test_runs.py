@@ -43,6 +43,31 @@ def test_dense_output_and_continuation(sine):
     assert (sine.integrate(loaded, 20, t_eval=[15, 20]).y == onward.y).all()
 
 
+def dense(model, history, end, **options):
+    """A run that can go on."""
+    return model.integrate(history, end, dense_output=True, **options)
+
+
+FIRST = {
+    "constants": lambda m: dense(m, 1, 0.3),
+    "a function": lambda m: dense(m, lambda t: 1, 0.3, parameters={"tau": 3}),
+    "no step": lambda m: dense(m, 1, 0),
+    "an event": lambda m: dense(m, 1, 9, events="y = 0.8 falling stop"),
+    "two runs": lambda m: dense(m, pickle.loads(pickle.dumps(dense(m, 1, 0.3))), 0.7),
+}
+
+
+@pytest.mark.parametrize("first", FIRST.values(), ids=FIRST)
+def test_a_run_goes_on_with_its_history(first):
+    """y' = -y(t - 1) after 1: polynomials on each unit of time. From 2 on the delay is 1, or 3."""
+    model = dk.Model({"y": "-y(t - tau)"}, {"tau": 1})
+    run = dense(model, first(model), 2)
+    np.testing.assert_allclose(run.sol([-0.5, 1, 2])[0], [1, 0, -1 / 2], atol=1e-12)
+    for tau, expected in ((1, -1 / 6), (3, -3 / 2)):
+        onward = model.integrate(run, 3, t_eval=[3], parameters={"tau": tau})
+        np.testing.assert_allclose(onward.y[0], expected, atol=1e-12)
+
+
 def test_a_history_in_an_array(sine):
     times = np.linspace(-2, 0, 400)
     run = sine.integrate((times, np.sin(times)), 10, t_eval=[5, 10], rtol=1e-7, atol=1e-7)
@@ -63,6 +88,9 @@ def test_a_jump_at_the_start_and_doses():
     # a dose at 1/2 adds the same solution, later
     dosed = model.integrate(0, 3, initial=1, doses=[(0.5, {"y": 2})], t_eval=[3])
     np.testing.assert_allclose(dosed.y[0], [-1 / 2 + 2 * (1 - 1.5 + 0.5**2 / 2)], atol=1e-12)
+    first = dense(model, 0, 0.5, initial=1)
+    onward = model.integrate(first, 3, initial=first.y[0, -1] + 2, t_eval=[3])
+    np.testing.assert_allclose(onward.y, dosed.y, atol=1e-12)
 
 
 def test_events(sine):
@@ -83,6 +111,51 @@ def test_an_exponential_of_a_state():
     np.testing.assert_allclose(run.v[-1], 0.5, atol=1e-9)
 
 
+METHODS = ("auto", "bs5", "dop853", "taylor", "radau5", "radau13")
+SATURATED = {
+    "1/(1 + exp(c(t - 1)))": lambda c: float(c < 0),
+    "exp(2*c(t - 1))/(1 + exp(c(t - 1)))**2": lambda c: float(c > 0),
+    "exp(c(t - 1))/(1 + exp(c(t - 1)))**4": lambda c: 0,
+    "sinh(c(t - 1))/cosh(c(t - 1)) + 1/cosh(c(t - 1))**2": lambda c: math.copysign(1, c),
+    "c(t - 1)/expm1(c(t - 1)/2)": lambda c: max(0, -c),
+    "exp(-c(t - 1)**2)/(3 + exp(c(t - 1)))": lambda c: 0,
+}
+"""Bounded slopes whose exponentials overflow, and their values far from 0."""
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_exponentials_overflow_in_bounded_quotients(method):
+    slopes = dict(zip("uvwxyz", SATURATED, strict=True))
+    model = dk.Model({"c": "1e-9*c", **slopes})
+    for c in (360, -360, 800, -800, 1e6, -1e6):
+        run = model.integrate({"c": c, **dict.fromkeys(slopes, 0)}, 1, t_eval=[1], method=method)
+        np.testing.assert_allclose(run.y[1:, 0], [at(c) for at in SATURATED.values()], 1e-9, 1e-50)
+
+
+def test_steep_neurons():
+    """Exponents of up to 900 times the states; another formula has none above 0."""
+    logistic = "1/(1 + exp(-k*({0}(t - 1) - {1})))"
+    tanh = "(1 + tanh(k*({0}(t - 1) - {1})/2))/2"
+    ends = []
+    for form, method in ((logistic, "dop853"), (logistic, "radau13"), (tanh, "radau9")):
+        net = {
+            "x": f"-x + 2*{form.format('y', 0.6)} - {form.format('z', 0.5)}",
+            "y": f"-y + 1.5 - 2*{form.format('x', 0.4)}",
+            "z": f"-z + {form.format('y', 0.3)}",
+        }
+        history, options = {"x": 1.5, "y": -1.2, "z": 1}, {"rtol": 1e-11, "atol": 1e-11}
+        run = dk.Model(net, {"k": 900}).integrate(history, 20, method=method, **options)
+        ends.append(run.y[:, -1])
+    np.testing.assert_allclose(ends[1:], [ends[0]] * 2, atol=1e-8)
+
+
+@pytest.mark.parametrize("slope", ["exp(a)", "log(900 - a)"])
+def test_what_is_not_finite_is_named(slope):
+    model = dk.Model({"a": "second_difference(a)/9**9", "b": slope}, blocks=4, ends="ring")
+    with pytest.raises(dk.RunError, match=r"b' of block 3 is NaN at t = 0.0, where b of block 3"):
+        model.integrate({"a": [1, 2, 901, 1], "b": 1}, 1)
+
+
 def test_a_ring_of_blocks():
     """A ring has no ends: a pattern moved by one block stays moved by one."""
     ring = dk.Model({"x": "k*second_difference(x) - x(t - 1)"}, {"k": 2}, blocks=5, ends="ring")
@@ -90,6 +163,7 @@ def test_a_ring_of_blocks():
     run = ring.integrate({"x": start}, 4, t_eval=[0, 4])
     moved = ring.integrate({"x": np.roll(start, 1)}, 4, t_eval=[0, 4])
     np.testing.assert_allclose(run.y[:, 0], start)
+    np.testing.assert_allclose(dense(ring, {"x": start}, 1).sol([-1, 0]).T, [start, start])
     np.testing.assert_allclose(np.roll(run.y, 1, axis=0), moved.y, atol=1e-8)
 
 
@@ -118,6 +192,11 @@ REFUSED = {
     "event": (lambda m: m.run(1, 1, events="y > 1"), "STATE = NUMBER"),
     "times": (lambda m: m.run(1, 1, t_eval=[1, 0]), "ascending"),
     "early": (lambda m: m.run(1, 1, t_eval=[-1]), "ascending times from t_start"),
+    "beyond the past": (
+        lambda m: m.run(dense(m, lambda t: 1.2, 1), 2, parameters={"tau": 19}),
+        r"delay 1 of the model is 19.0 .* known from t = -17.0 on; expected a delay <= 18",
+    ),
+    "after the end": (lambda m: dense(m, 1.2, 1).sol([0, 2]), "t = 2.0; expected -inf <= t <= 1"),
     "dose": (lambda m: m.run(1, 1, doses=[(2, {"y": 1})]), "time of a dose"),
     "tolerance": (lambda m: m.run(1, 1, rtol={"y": 1, "z": 1}), "rtol of the state 'z'"),
     "equation": (lambda m: dk.Model({"y": "y(t -"}).run(1, 1), "equation of y"),

@@ -6,6 +6,7 @@ module nilpotent_functions
    implicit none (type, external)
    private
    public :: acos, acosh, asin, asinh, atan, atanh, cos, cosh, exp, log, sin, sinh, sqrt, tan, tanh
+   public :: within
 
    !> m! of each order m; i is only that of the list.
    integer :: i
@@ -56,8 +57,20 @@ module nilpotent_functions
    interface atanh
       module procedure :: area_tangent
    end interface atanh
+   interface within
+      module procedure :: within_bound
+   end interface within
 
 contains
+
+   !> A number whose real part is no larger in size than a bound, with its disturbances.
+   pure type(nilpotent_type) function within_bound(a, bound) result(c)
+      type(nilpotent_type), intent(in) :: a
+      real(wp), intent(in) :: bound
+
+      c = a
+      if (abs(a%a(0)%re) > bound) c%a(0) = sign(bound, a%a(0)%re)
+   end function within_bound
 
    pure type(nilpotent_type) function square_root(a) result(c)
       type(nilpotent_type), intent(in) :: a

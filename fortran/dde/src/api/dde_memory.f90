@@ -6,7 +6,7 @@ module dde_memory
    use, intrinsic :: iso_fortran_env, only: int8
    implicit none (type, external)
    private
-   public :: find_lacking, small
+   public :: bytes_of_real, find_lacking, small
 
    !> Bytes of a real number.
    integer, parameter :: bytes_of_real = storage_size(1.0_wp)/8

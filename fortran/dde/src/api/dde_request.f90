@@ -39,6 +39,8 @@ module dde_request
       real(wp) :: longest_step = huge(1.0_wp)
       !> Most steps, accepted and rejected
       integer(int64) :: most_steps = 100000000_int64
+      !> Most bytes of the past; a stiff run that stays explicit fills any memory
+      real(wp) :: most_bytes = 2.0e9_wp
       !> Time that a continuation reaches back, if longer than the longest delay: so that the next
       !> run may have a longer one
       real(wp) :: past_kept = 0.0_wp
@@ -218,6 +220,8 @@ contains
       else if (.not. above_zero(options%longest_step)) then
          call raise(error, "integrate: longest_step = "//text(options%longest_step) &
                     //"; > 0 expected")
+      else if (.not. above_zero(options%most_bytes)) then
+         call raise(error, "integrate: most_bytes = "//text(options%most_bytes)//"; > 0 expected")
       else if (.not. not_negative(options%past_kept)) then
          call raise(error, "integrate: past_kept = "//text(options%past_kept) &
                     //"; finite and >= 0 expected")

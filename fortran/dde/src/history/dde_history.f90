@@ -7,7 +7,7 @@
 module dde_history
    use dde_interpolant, only: highest_degree, newton_row, newton_values, stored_degree, &
                               taylor_coefficients, usual_degree
-   use dde_memory, only: find_lacking, small
+   use dde_memory, only: bytes_of_real, find_lacking, small
    use dde_problem, only: dde_problem_type
    use dde_time, only: elapsed, instant
    use dde_kinds, only: int64, wp
@@ -48,6 +48,10 @@ module dde_history
    type :: history_type
       !> Initial time of the integration
       type(instant) :: origin
+      !> Most bytes of the steps
+      real(wp) :: most_bytes = huge(1.0_wp)
+      !> Whether all of it is copied at the end
+      logical :: is_copied = .false.
       !> Whether the problem's history may jump where a step starts or ends
       logical :: history_jumps = .false.
       !> Components of y that are kept, without repetition
@@ -62,6 +66,8 @@ module dde_history
       integer(int64), private :: spare = 0
       !> Number of polynomials allocated
       integer, private :: used = 0
+      !> Place of the polynomials of the next step
+      integer, private :: place = 0
       !> Number of slots less 1, a mask of the bits of their numbers
       integer(int64), private :: mask = 0
       !> The ring, and the polynomials of its steps
@@ -71,7 +77,6 @@ module dde_history
       procedure, non_overridable :: start_of, length_of, validity_of, value, values, series
       procedure, non_overridable :: append, open_step, fill, make_room, recall, forget
       procedure, non_overridable :: degree_in_use
-      procedure, non_overridable, private :: double_capacity, is_full
    end type history_type
 
    interface history_type
@@ -222,8 +227,8 @@ contains
       end associate
    end subroutine series
 
-   !> Store the polynomials of the step from `start`, `length` long.
-   pure subroutine append(self, start, length, nodes, coefficients, valid_for)
+   !> Store the polynomials of the step from `start`, `length` long, where memory was asked for.
+   subroutine append(self, start, length, nodes, coefficients, valid_for)
       class(history_type), intent(inout) :: self
       type(instant), intent(in) :: start
       real(wp), intent(in) :: length
@@ -233,43 +238,80 @@ contains
       real(wp), contiguous, intent(in) :: coefficients(0:, :)
       !> Time from `start` for which they are valid; the length if that is longer
       real(wp), intent(in) :: valid_for
+      real(wp) :: lacking
       integer :: i
 
+      call self%make_room(size(nodes), lacking)
       call self%open_step(start, length, nodes, .not. any(abs(nodes) > 0.0_wp), valid_for)
       do i = 1, size(coefficients, 2)
          call self%fill(i, coefficients(:, i))
       end do
    end subroutine append
 
-   !> Make room for a step, if there is memory for it.
+   !> Make room for a step, if there is memory for it within the bound.
    subroutine make_room(self, degree, lacking)
       class(history_type), intent(inout) :: self
       !> Degree of the polynomials of the step
       integer, intent(in) :: degree
-      !> Bytes that could not be allocated, or 0
+      !> Bytes that could not be allocated, more than the bound where that forbids them, or 0
       real(wp), intent(out) :: lacking
-      real(wp) :: reals
+      integer :: slot
 
       lacking = 0.0_wp
-      if (self%spare < self%oldest) return
-      reals = real(size(self%kept), wp)*(1 + stored_degree(degree))
-      if (self%is_full()) then
-         ! small ones are asked for together
-         if (reals <= small) reals = reals*size(self%slots)
-         reals = reals + 2.0_wp*slot_size*size(self%slots)
+      ! in place of a dropped step, if one is left
+      self%place = self%used + 1
+      if (self%spare < self%oldest) then
+         slot = slot_of(self, self%spare)
+         self%place = self%slots(slot)%place
+         if (self%slots(slot)%degree == degree) return
       end if
-      lacking = find_lacking(reals)
-      if (self%is_full() .and. .not. lacking > 0.0_wp) call self%double_capacity()
+      call grow(self, degree, lacking)
    end subroutine make_room
 
-   !> Whether no slot is free.
-   pure logical function is_full(self) result(full)
-      class(history_type), intent(in) :: self
+   !> Allocate the polynomials of the next step. A full ring gets twice the slots: each step is in
+   !> its old slot and, a copy, in the same slot of the second half.
+   subroutine grow(self, degree, lacking)
+      class(history_type), intent(inout) :: self
+      integer, intent(in) :: degree
+      real(wp), intent(out) :: lacking
+      type(slot_type), allocatable :: slots(:)
+      type(polynomials), allocatable :: stored(:)
+      real(wp) :: ahead, reals, ring
+      integer :: i, n, status
 
-      full = self%newest - self%oldest == self%mask
-   end function is_full
+      n = size(self%slots)
+      reals = real(size(self%kept), wp)*(1 + stored_degree(degree))
+      ring = merge(3.0_wp, 1.0_wp, self%place > n)*slot_size*n
+      lacking = bytes_of_real*(self%place*reals + ring)
+      if (lacking > self%most_bytes) return
+      ! small ones are asked for together
+      ahead = reals
+      if (self%place > n) ahead = ring + merge(n*reals, reals, reals <= small)
+      if (self%is_copied .and. ahead > small) ahead = ahead + self%place*reals
+      lacking = find_lacking(ahead)
+      if (lacking > 0.0_wp) return
+      lacking = bytes_of_real*ahead
+      if (self%place <= n) then
+         if (allocated(self%stored(self%place)%a)) deallocate (self%stored(self%place)%a)
+      else
+         allocate (slots(2*n), stat=status)
+         if (status == 0) allocate (stored(2*n), stat=status)
+         if (status /= 0) return
+         do i = 1, n
+            call move_alloc(self%stored(i)%a, stored(i)%a)
+         end do
+         call move_alloc(stored, self%stored)
+         slots(:n) = self%slots
+         slots(n + 1:) = self%slots
+         call move_alloc(slots, self%slots)
+         self%mask = 2*n - 1
+      end if
+      allocate (self%stored(self%place)%a(0:stored_degree(degree), size(self%kept)), &
+                source=0.0_wp, stat=status)
+      if (status == 0) lacking = 0.0_wp
+   end subroutine grow
 
-   !> Store the step from `start`, `length` long. The caller fills in its coefficients.
+   !> Store the step from `start`, `length` long. The caller made room, and fills in coefficients.
    pure subroutine open_step(self, start, length, nodes, powers, valid_for)
       class(history_type), intent(inout) :: self
       type(instant), intent(in) :: start
@@ -278,26 +320,12 @@ contains
       !> Whether all of them are 0
       logical, intent(in) :: powers
       real(wp), intent(in) :: valid_for
-      integer :: place
 
-      if (self%is_full()) call self%double_capacity()
+      if (self%spare < self%oldest) self%spare = self%spare + 1
+      self%used = max(self%used, self%place)
       self%newest = self%newest + 1
-      if (self%spare < self%oldest) then
-         associate (dropped => self%slots(slot_of(self, self%spare)))
-            place = dropped%place
-            if (dropped%degree /= size(nodes)) deallocate (self%stored(place)%a)
-         end associate
-         self%spare = self%spare + 1
-      else
-         self%used = self%used + 1
-         place = self%used
-      end if
-      if (.not. allocated(self%stored(place)%a)) then
-         allocate (self%stored(place)%a(0:stored_degree(size(nodes)), size(self%kept)), &
-                   source=0.0_wp)
-      end if
       associate (slot => self%slots(slot_of(self, self%newest)))
-         slot%place = place
+         slot%place = self%place
          slot%start = start
          slot%length = length
          slot%valid_for = max(length, valid_for)
@@ -368,20 +396,4 @@ contains
          degree = max(degree, self%slots(slot_of(self, step))%degree)
       end do
    end function degree_in_use
-
-   !> Twice the slots of a full ring. Each step is in its old slot and, a copy, in the same slot of
-   !> the second half: its number gives one of these two.
-   pure subroutine double_capacity(self)
-      class(history_type), intent(inout) :: self
-      type(polynomials), allocatable :: stored(:)
-      integer :: i
-
-      allocate (stored(2*size(self%slots)))
-      do i = 1, size(self%slots)
-         call move_alloc(self%stored(i)%a, stored(i)%a)
-      end do
-      call move_alloc(stored, self%stored)
-      self%slots = [self%slots, self%slots]
-      self%mask = size(self%slots) - 1
-   end subroutine double_capacity
 end module dde_history

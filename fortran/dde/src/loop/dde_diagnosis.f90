@@ -7,7 +7,7 @@ module dde_diagnosis
    use dde_request, only: integration_options
    use dde_run, only: run_type
    use dde_errors, only: error_type, raise, text
-   use dde_kinds, only: wp
+   use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
    public :: explain
@@ -29,6 +29,7 @@ contains
       !> The error to set
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: culprit, why
+      integer(int64) :: steps
 
       select case (outcome%reason)
       case (interrupted)
@@ -36,7 +37,13 @@ contains
          why = "interrupted"
       case (out_of_memory)
          culprit = ""
+         steps = run%context%past%newest - run%context%past%oldest + 1
          why = "no memory for another "//text(run%lacking)//" bytes"
+         if (run%lacking > run%context%past%most_bytes) then
+            why = "no room in most_bytes = "//text(run%context%past%most_bytes)
+         end if
+         if (steps > 0) why = why//" beside the "//text(steps)//" steps of the past; longer ones " &
+                              //"(auto or an implicit method) or shorter delays expected"
       case (step_underflow)
          call find_below_rounding(run, h, culprit)
          why = "the step had to shrink to "//text(h)//", too small to change the time; "

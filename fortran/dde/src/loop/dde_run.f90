@@ -94,7 +94,7 @@ contains
       ! the state with its tolerances, and at most so many for each number and step that is restored
       reals = 16.0_wp*problem%n
       if (continued) reals = reals + 2.0_wp*size(continuation%coefficients) &
-                             + 80.0_wp*size(continuation%step_length)
+                             + 120.0_wp*size(continuation%step_length)
       self%lacking = find_lacking(reals)
       if (self%lacking > 0.0_wp) return
       self%context%problem => problem
@@ -197,6 +197,8 @@ contains
                                 problem%lag, problem%n, self%step%constants%order - 1, &
                                 context%tolerance%level)
       end associate
+      self%context%past%most_bytes = options%most_bytes
+      self%context%past%is_copied = self%points%remembers
       call prepare_start(self, options)
       self%first_slope = self%step%slope
    end subroutine start_anew
@@ -227,6 +229,8 @@ contains
          self%first_slope = continuation%slope
          context%past = history_type(problem, origin, continuation%kept)
          call continuation%restore(context%past, kinks)
+         context%past%most_bytes = options%most_bytes
+         context%past%is_copied = .true.
          call self%points%begin(causes(options, origin, kinks), origin, self%now, finish, &
                                 problem%lag, problem%n, self%step%constants%order - 1, &
                                 context%tolerance%level)

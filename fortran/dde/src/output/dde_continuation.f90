@@ -22,7 +22,7 @@ module dde_continuation
    type :: continuation_type
       !> When
       real(wp) :: time(2) = 0.0_wp
-      !> Initial time of the first run: before it the problem's own history holds
+      !> Initial time of the first run: before it the history of the next run's problem holds
       real(wp) :: origin(2) = 0.0_wp
       !> State, shape (n)
       real(wp), allocatable :: y(:)
@@ -96,6 +96,7 @@ contains
       real(wp), intent(in) :: t_start
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: delayed, kept
+      type(instant) :: oldest
       integer :: k
 
       if (.not. allocated(self%y)) return
@@ -119,9 +120,10 @@ contains
          call check_finite("integrate: the continuation has y", self%y, error)
       end if
       if (.not. allocated(error)) call check_steps(self, error)
-      if (allocated(error) .or. size(self%step_length) == 0) return
-      associate (oldest => instant(self%step_start(1, 1), self%step_start(2, 1)), &
-                 origin => instant(self%origin(1), self%origin(2)), &
+      if (allocated(error)) return
+      oldest = instant(self%time(1), self%time(2))
+      if (size(self%step_length) > 0) oldest = instant(self%step_start(1, 1), self%step_start(2, 1))
+      associate (origin => instant(self%origin(1), self%origin(2)), &
                  now => instant(self%time(1), self%time(2)))
          if (elapsed(origin, oldest) <= 0.0_wp) return
          do k = 1, size(problem%lag)
@@ -234,7 +236,7 @@ contains
    end subroutine store
 
    !> Give the past back.
-   pure subroutine restore(self, past, kinks)
+   subroutine restore(self, past, kinks)
       class(continuation_type), intent(in) :: self
       type(history_type), intent(inout) :: past
       type(kink_type), allocatable, intent(out) :: kinks(:)

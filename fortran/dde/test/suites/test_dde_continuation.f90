@@ -70,8 +70,8 @@ contains
       call expect_close(error, outcome%y, [-13.0_wp/128], 1.0e-14_wp, "y(5/2)")
    end subroutine test_changes
 
-   !> y' = -y(t - 1/2), and -y(t - 1) from 3/2 on. y(2) = -1/6 by hand. The first run must keep a
-   !> past of 1.
+   !> y' = -y(t - 1/2), and -y(t - 1) from 3/2 on: y(2) = -1/6 by hand. The first run must keep a
+   !> past of 1. From 1/2 on, y(1) = 0: the history of the problem holds before the first run.
    subroutine test_longer_lag(error)
       type(error_type), allocatable, intent(out) :: error
       type(continuation_type) :: continuation
@@ -79,28 +79,41 @@ contains
       type(integration_options) :: options
       type(integration_result) :: outcome
       type(linear) :: problem
-      real(wp) :: past_kept(2)
+      real(wp), parameter :: past_kept(4) = [1, 0, 0, 1], known(4) = [-1.0_wp/6, 0.0_wp, 0.0_wp, &
+                                                                      0.0_wp]
+      real(wp), parameter :: middle(4) = [1.5_wp, 0.5_wp, 1.5_wp, 1.5_wp]
       integer :: i
 
-      past_kept = [1.0_wp, 0.0_wp]
-      do i = 1, 2
+      do i = 1, 4
          options = at_tolerance(1.0_wp)
          options%past_kept = past_kept(i)
          problem = linear()
          problem%lag = [0.5_wp]
          continuation = continuation_type()
-         call run(error, problem, 0.0_wp, 1.5_wp, options, outcome, continuation=continuation)
+         call run(error, problem, 0.0_wp, middle(i), options, outcome, continuation=continuation)
+         if (i == 4) call drop_steps(continuation)
          problem%lag = [1.0_wp]
-         call integrate(problem, 1.5_wp, 2.0_wp, options, outcome, failure, &
+         call integrate(problem, middle(i), middle(i) + 0.5_wp, options, outcome, failure, &
                         continuation=continuation)
-         if (i == 1) then
+         if (i <= 2) then
             call expect_success(error, failure)
-            call expect_close(error, outcome%y, [-1.0_wp/6], 1.0e-14_wp, "y(2)")
+            call expect_close(error, outcome%y, known(i:i), 1.0e-14_wp, "the end")
          else
             call expect_failure(error, failure, "reaches beyond the past that the continuation")
          end if
       end do
    end subroutine test_longer_lag
+
+   !> A continuation whose steps a caller dropped.
+   pure subroutine drop_steps(continuation)
+      type(continuation_type), intent(inout) :: continuation
+
+      continuation%step_start = continuation%step_start(:, :0)
+      continuation%step_length = continuation%step_length(:0)
+      continuation%valid_for = continuation%valid_for(:0)
+      continuation%nodes = continuation%nodes(:, :0)
+      continuation%coefficients = continuation%coefficients(:, :, :0)
+   end subroutine drop_steps
 
    !> Three steps at a time to the end.
    subroutine test_too_many_steps(error)
