@@ -72,6 +72,8 @@ module model_description
    type :: description_type
       !> Name, and where the equations are from
       character(len=line_length) :: name = "", source = ""
+      !> Where a state at rest is looked for, and how
+      character(len=line_length) :: rest(2) = ""
       !> Parameters
       type(parameter_type), allocatable :: parameters(:)
       !> Names and meanings of the states
@@ -121,6 +123,8 @@ contains
             description%sizes%driven = .true.
          case ("name")
             description%name = words(2)
+         case ("rest")
+            description%rest = words(2:3)
          case ("source")
             description%source = words(2)
          case ("equation")

@@ -5,7 +5,7 @@ module cycle_branches
    use branch_ends, only: follow_settings_type
    use collocation_basis, only: collocation_basis_type
    use dde, only: continuation_type, integrate, integration_options, integration_result
-   use dde_errors, only: error_type
+   use dde_errors, only: error_type, text
    use dde_kinds, only: wp
    use hopf_lines, only: find_hopf_on_line, hopf_on_line_type
    use model_family, only: family_type
@@ -104,11 +104,13 @@ contains
       type(periodic_orbit_type) :: orbit
       type(model_type) :: block
       type(special_point_type), allocatable :: here(:)
-      integer :: branches, direction, i, j
+      integer :: branches, direction, i, j, last
+      logical, allocatable :: counted(:)
 
       associate (line => settings%line)
          call find_hopf_on_line(line%model, line%numbers_at(line%window(1)), &
-                                line%numbers_at(line%window(2)), scan_places, hopf, error)
+                                line%numbers_at(line%window(2)), scan_places, hopf, error, &
+                                counted)
          if (allocated(error)) return
          block = mode_of(line%model, 1)
          how%family = family_type(block, [line%along], [line%window(2) - line%window(1)])
@@ -119,6 +121,12 @@ contains
          basis = collocation_basis_type(settings%degree)
       end associate
       allocate (found(0), left_out(0))
+      do i = 0, scan_places
+         if (counted(i) .or. (i > 0 .and. .not. counted(max(i - 1, 0)))) cycle
+         last = i - 2 + findloc([counted(i:), .true.], .true., dim=1)
+         call leave_out("hopf", place(i), "no state at rest with finite derivatives is found up to " &
+                        //text(place(last))//", or roots are too many to count")
+      end do
       do i = 1, size(hopf)
          if (present(progress)) call progress%advance(i - 1, size(hopf) + size(settings%starts))
          if (is_end(settings, found, hopf(i))) cycle
@@ -162,6 +170,15 @@ contains
       end do
 
    contains
+
+      !> The parameter at a place of the scan.
+      pure real(wp) function place(number)
+         integer, intent(in) :: number
+         real(wp) :: share
+
+         share = real(number, wp)/scan_places
+         place = (1.0_wp - share)*settings%line%window(1) + share*settings%line%window(2)
+      end function place
 
       !> Follow the branch from `orbit` and append it with its special points, or leave it out if it
       !> cannot be started.

@@ -3,7 +3,9 @@
 !> beside the pair on the axis, and the points at which the kind of the bifurcation changes.
 module hopf_points
    use characteristic_function, only: characteristic_of, characteristic_type
-   use dde_errors, only: error_type
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use dde, only: stop_requested
+   use dde_errors, only: error_type, raise
    use dde_kinds, only: wp
    use hopf_curves, only: curve_point_type
    use hopf_planes, only: axis_point_type, chord_of, curve_plane_type, side, turn
@@ -20,7 +22,8 @@ module hopf_points
    integer, parameter :: kind_length = 20
    !> A coefficient this much smaller than that of the next point is 0 but for rounding.
    real(wp), parameter :: rounded = 1.0e-10_wp
-   !> The coefficient passes through 0, not through a pole, where it is this small.
+   !> The coefficient passes through 0, not through a pole, where it is this much smaller than those
+   !> of its neighbours.
    real(wp), parameter :: small_coefficient = 1.0e-7_wp
    !> Frequencies of two pairs differ by more than this share.
    real(wp), parameter :: least_difference = 1.0e-3_wp
@@ -48,20 +51,26 @@ module hopf_points
 
 contains
 
-   !> First Lyapunov coefficients and numbers of unstable roots of points on curves.
+   !> First Lyapunov coefficients, not a number where 0 or 2 i omega is a root, too, and numbers of
+   !> unstable roots of points on curves.
    subroutine judge_points(plane, points, error)
       type(curve_plane_type), intent(in) :: plane
       type(curve_point_type), intent(inout) :: points(:)
-      !> No coefficient: another root at 2 i omega
+      !> Interrupted
       type(error_type), allocatable, intent(out) :: error
+      type(error_type), allocatable :: singular
       type(model_type) :: model
       integer :: i
 
       do i = 1, size(points)
+         if (stop_requested /= 0) then
+            call raise(error, "Hopf curves: interrupted")
+            return
+         end if
          model = plane%model_at(points(i)%numbers)
          associate (point => points(i))
-            call first_lyapunov_coefficient(model, point%at%omega, point%l1, error)
-            if (allocated(error)) return
+            call first_lyapunov_coefficient(model, point%at%omega, point%l1, singular)
+            if (allocated(singular)) point%l1 = ieee_value(point%l1, ieee_quiet_nan)
             point%unstable_roots = roots_beside(characteristic_of(model), [point%at%omega])
          end associate
       end do
@@ -93,7 +102,7 @@ contains
          if (changes_sign(points(i:i + 1)%l1)) then
             call find_zero_of_l1(plane, points(i:i + 1), at, l1, error)
             if (allocated(error)) return
-            if (abs(l1) <= small_coefficient) then
+            if (abs(l1) <= small_coefficient*maxval(abs(points(i:i + 1)%l1))) then
                call add_point(found, "generalised_hopf", plane, at, [at%omega], error, &
                               direction_of(points(i:i + 1)%at))
                if (allocated(error)) return

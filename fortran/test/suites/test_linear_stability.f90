@@ -45,7 +45,7 @@ contains
                                             (-2.6531919740386973_wp, 13.949208334533215_wp)]
       integer :: i
 
-      call find_roots(delayed_decay(1.0_wp), -2.8_wp, 6, roots, failure)
+      call find_roots(delayed_decay(1.0_wp), -2.8_wp, 6, 1.0_wp, roots, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
       do i = 1, 3
@@ -117,9 +117,9 @@ contains
       complex(wp), allocatable :: roots(:)
       complex(wp) :: right(2, 1), solution(2, 1)
 
-      call find_roots(delayed_decay(1.0_wp), -8.0_wp, 948, roots, failure)
+      call find_roots(delayed_decay(1.0_wp), -8.0_wp, 948, 1.0_wp, roots, failure)
       call expect_failure(error, failure, "a bound nearer to 0 expected")
-      call find_roots(delayed_decay(1.0_wp), -2.8_wp, 7, roots, failure)
+      call find_roots(delayed_decay(1.0_wp), -2.8_wp, 7, 1.0_wp, roots, failure)
       call expect_failure(error, failure, "6 simple roots instead of 7 with real part above -2.8")
       right = 1.0_wp
       call solve(reshape([(1.0_wp, 0.0_wp), (2.0_wp, 0.0_wp), (2.0_wp, 0.0_wp), &
@@ -136,7 +136,7 @@ contains
       real(wp) :: l1
 
       model = known_model(neurons, [0.8071232250_wp, 1.5_wp])
-      call find_roots(linear_part(model), -0.01_wp, 2, roots, failure)
+      call find_roots(linear_part(model), -0.01_wp, 2, 1.0_wp, roots, failure)
       call expect_success(error, failure)
       call expect_close(error, real(roots(1)), 0.0_wp, 1.0e-9_wp, "real part of the pair")
       call expect_close(error, aimag(roots(1)), 0.7819651621_wp, 1.0e-9_wp, "omega")

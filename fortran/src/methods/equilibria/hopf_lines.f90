@@ -3,6 +3,7 @@
 !> by a pair. This holds for every model and parameter.
 module hopf_lines
    use characteristic_function, only: characteristic_of, characteristic_type
+   use dde, only: stop_requested
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use model_modes, only: mode_of
@@ -18,6 +19,8 @@ module hopf_lines
    !> Newton's method ends when steps are below this share, or after so many steps
    real(wp), parameter :: accuracy = 1.0e-14_wp
    integer, parameter :: most_steps = 20
+   !> Most Hopf points of a line: without end they are beside a pole of the equations.
+   integer, parameter :: most_points = 10000
    !> The frequency of a double pair is found between places this far from it; there the slope of
    !> Delta by s is this small in units of its curvature and frequency
    real(wp), parameter :: wide = 1.0e-6_wp, small_slope = 1.0e-4_wp
@@ -40,8 +43,9 @@ module hopf_lines
 contains
 
    !> All Hopf points on a line, by the turns that the pair makes in the longest delay, and by
-   !> frequency. Pairs that cross in and out between two places of the scan are missed.
-   subroutine find_hopf_on_line(model, from, to, places, points, error)
+   !> frequency. Pairs that cross in and out between two places of the scan are missed, and those
+   !> beside places where roots cannot be counted.
+   subroutine find_hopf_on_line(model, from, to, places, points, error, counted)
       !> The model
       class(model_type), intent(in) :: model
       !> Parameters at both ends, in the order of the definition
@@ -52,7 +56,10 @@ contains
       type(hopf_on_line_type), allocatable, intent(out) :: points(:)
       !> A Hopf point was not found
       type(error_type), allocatable, intent(out) :: error
+      !> Whether roots are counted at the places, shape (0:places)
+      logical, allocatable, intent(out), optional :: counted(:)
       type(model_type) :: block
+      logical :: finite(0:places)
       real(wp) :: here, next
       integer :: i, roots_here, roots_next
 
@@ -60,14 +67,17 @@ contains
       block = mode_of(model, 1)
       here = 0.0_wp
       roots_here = unstable_roots(here)
+      finite = roots_here >= 0
       do i = 1, places
          next = real(i, wp)/places
          roots_next = unstable_roots(next)
+         finite(i) = roots_next >= 0
          call search(here, next, roots_here, roots_next)
          if (allocated(error)) return
          here = next
          roots_here = roots_next
       end do
+      if (present(counted)) allocate (counted, source=finite)
 
    contains
 
@@ -93,6 +103,7 @@ contains
          real(wp), intent(in) :: x
 
          number = roots_right_of(function_at(x), 0.0_wp)
+         if (stop_requested /= 0) call raise(error, "Hopf points: interrupted")
       end function unstable_roots
 
       !> Add the Hopf points of an interval. A change by one is a real root.
@@ -105,6 +116,7 @@ contains
          real(wp) :: middle
          integer :: roots_middle
 
+         if (min(roots_start, roots_end) < 0) return
          if (abs(roots_end - roots_start) < 2 .or. allocated(error)) return
          found = .false.
          if (end - start <= narrow) then
@@ -115,6 +127,9 @@ contains
             point%roots_before = roots_start
             point%roots_behind = roots_end
             call insert(point)
+            if (size(points) == most_points) call raise(error, "Hopf points: more than " &
+               //text(most_points)//" on a line, the last at the share "//text(start) &
+               //"; expected a line without poles of the equations")
          else if (end - start <= narrowest) then
             call raise(error, "Hopf points: a pair of roots crosses the axis between the shares " &
                        //text(start)//" and "//text(end)//" of the line, and Newton's method " &
