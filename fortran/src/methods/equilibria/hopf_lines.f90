@@ -8,7 +8,7 @@ module hopf_lines
    use dde_kinds, only: wp
    use model_modes, only: mode_of
    use model_problem, only: model_type
-   use root_counts, only: crossing_frequency, roots_right_of
+   use root_counts, only: crossing_frequency, far_end, no_count, roots_right_of
    implicit none (type, external)
    private
    public :: find_hopf_on_line, hopf_on_line_type
@@ -19,8 +19,9 @@ module hopf_lines
    !> Newton's method ends when steps are below this share, or after so many steps
    real(wp), parameter :: accuracy = 1.0e-14_wp
    integer, parameter :: most_steps = 20
-   !> Most Hopf points of a line: without end they are beside a pole of the equations.
-   integer, parameter :: most_points = 10000
+   !> Between two places roots are counted up to this many times the largest frequency there: beside
+   !> a pole of the equations there are Hopf points without end
+   real(wp), parameter :: largest_growth = 8.0_wp
    !> The frequency of a double pair is found between places this far from it; there the slope of
    !> Delta by s is this small in units of its curvature and frequency
    real(wp), parameter :: wide = 1.0e-6_wp, small_slope = 1.0e-4_wp
@@ -60,20 +61,22 @@ contains
       logical, allocatable, intent(out), optional :: counted(:)
       type(model_type) :: block
       logical :: finite(0:places)
-      real(wp) :: here, next
+      real(wp) :: ends(2), here, next
       integer :: i, roots_here, roots_next
 
       allocate (points(0))
       block = mode_of(model, 1)
       here = 0.0_wp
-      roots_here = unstable_roots(here)
+      ends = 0.0_wp
+      roots_here = unstable_roots(here, ends(1))
       finite = roots_here >= 0
       do i = 1, places
          next = real(i, wp)/places
-         roots_next = unstable_roots(next)
+         roots_next = unstable_roots(next, ends(2))
          finite(i) = roots_next >= 0
          call search(here, next, roots_here, roots_next)
          if (allocated(error)) return
+         ends(1) = ends(2)
          here = next
          roots_here = roots_next
       end do
@@ -99,10 +102,23 @@ contains
       end function function_at
 
       !> Number of unstable roots at a share of the line.
-      integer function unstable_roots(x) result(number)
+      integer function unstable_roots(x, highest) result(number)
          real(wp), intent(in) :: x
+         !> Largest frequency at a place; without it, `no_count` if it is too far above that of both
+         real(wp), intent(out), optional :: highest
+         type(characteristic_type) :: c
+         real(wp) :: frequency
 
-         number = roots_right_of(function_at(x), 0.0_wp)
+         c = function_at(x)
+         number = roots_right_of(c, 0.0_wp)
+         frequency = 0.0_wp
+         if (number >= 0) frequency = far_end(c, 0.0_wp)
+         if (present(highest)) then
+            highest = frequency
+         else if (frequency > largest_growth*maxval(ends)) then
+            number = no_count
+            finite(i) = .false.
+         end if
          if (stop_requested /= 0) call raise(error, "Hopf points: interrupted")
       end function unstable_roots
 
@@ -127,9 +143,6 @@ contains
             point%roots_before = roots_start
             point%roots_behind = roots_end
             call insert(point)
-            if (size(points) == most_points) call raise(error, "Hopf points: more than " &
-               //text(most_points)//" on a line, the last at the share "//text(start) &
-               //"; expected a line without poles of the equations")
          else if (end - start <= narrowest) then
             call raise(error, "Hopf points: a pair of roots crosses the axis between the shares " &
                        //text(start)//" and "//text(end)//" of the line, and Newton's method " &
