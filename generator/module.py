@@ -89,6 +89,8 @@ def description_lines(model: Model) -> list[str]:
     equations += [f"{name} = exp({state})" for name, state in model.auxiliary.items()]
     terms = rest.characteristic_terms(model) if model.steady_state else []
     states = list(model.states)
+    rest_at = model.near or model.steady_state or {}
+    where = ", ".join(f"{state} = {value}" for state, value in rest_at.items())
     counted = (model.parameters, equations, model.states, model.delayed, terms)
     lines = [
         ("sizes", *(str(len(each)) for each in counted)),
@@ -103,7 +105,7 @@ def description_lines(model: Model) -> list[str]:
             for name, state in model.auxiliary.items()
         ),
         *(("equation", text) for text in equations),
-        ("rest", *rest_words(model)),
+        ("rest", f"near {where}, tried Newton's method" if model.near else where),
     ]
     for one in model.parameters:
         lines.append(("parameter", one.name, one.meaning, one.unit))
@@ -113,13 +115,6 @@ def description_lines(model: Model) -> list[str]:
     interface = f'"{interface_digest()} " // achar(iachar("0") + storage_size(1.0_wp)/32)'
     written = ([quoted(in_words(word, model.written)) for word in line] for line in lines)
     return [interface, *map(" // tab // ".join, written)]
-
-
-def rest_words(model: Model) -> tuple[str, str]:
-    """Where a state at rest is looked for, and how."""
-    given = model.near or model.steady_state or {}
-    where = ", ".join(f"{state} = {value}" for state, value in given.items())
-    return ("near " + where, "Newton's method") if model.near else (where, "this expression")
 
 
 def observed_line(model: Model) -> tuple[str, ...]:

@@ -72,8 +72,8 @@ module model_description
    type :: description_type
       !> Name, and where the equations are from
       character(len=line_length) :: name = "", source = ""
-      !> Where a state at rest is looked for, and how
-      character(len=line_length) :: rest(2) = ""
+      !> Where a state at rest is, or near which it is looked for
+      character(len=line_length) :: rest = ""
       !> Parameters
       type(parameter_type), allocatable :: parameters(:)
       !> Names and meanings of the states
@@ -124,7 +124,7 @@ contains
          case ("name")
             description%name = words(2)
          case ("rest")
-            description%rest = words(2:3)
+            description%rest = words(2)
          case ("source")
             description%source = words(2)
          case ("equation")

@@ -11,6 +11,7 @@ module cycle_branches
    use model_family, only: family_type
    use model_modes, only: mode_of
    use model_problem, only: model_type
+   use model_roots, only: check_rest
    use orbit_branch, only: branch_type, follow_branch
    use orbit_change, only: orbit_change_type
    use orbit_points, only: find_special_points
@@ -104,8 +105,8 @@ contains
       type(periodic_orbit_type) :: orbit
       type(model_type) :: block
       type(special_point_type), allocatable :: here(:)
-      integer :: branches, direction, i, j, last
-      logical, allocatable :: counted(:)
+      integer :: branches, direction, i, j
+      logical :: counted(0:scan_places)
 
       associate (line => settings%line)
          call find_hopf_on_line(line%model, line%numbers_at(line%window(1)), &
@@ -120,13 +121,16 @@ contains
          how%least_amplitude = first_amplitude
          basis = collocation_basis_type(settings%degree)
       end associate
+      if (.not. any(counted) .and. size(settings%starts) == 0) call check_rest(block, error)
+      if (allocated(error)) return
       allocate (found(0), left_out(0))
-      do i = 0, scan_places
-         if (counted(i) .or. (i > 0 .and. .not. counted(max(i - 1, 0)))) cycle
-         last = i - 2 + findloc([counted(i:), .true.], .true., dim=1)
-         call leave_out("hopf", place(i), "no state at rest with finite derivatives is found up to " &
-                        //text(place(last))//", or roots are too many to count")
-      end do
+      if (.not. all(counted)) then
+         associate (w => settings%line%window, i => findloc(counted, .false., dim=1) - 1)
+            call leave_out("hopf", w(1) + (w(2) - w(1))*i/scan_places, text(count(.not. counted)) &
+                           //" of "//text(size(counted))//" places from here have no state at " &
+                           //"rest with finite derivatives, or too many roots")
+         end associate
+      end if
       do i = 1, size(hopf)
          if (present(progress)) call progress%advance(i - 1, size(hopf) + size(settings%starts))
          if (is_end(settings, found, hopf(i))) cycle
@@ -170,15 +174,6 @@ contains
       end do
 
    contains
-
-      !> The parameter at a place of the scan.
-      pure real(wp) function place(number)
-         integer, intent(in) :: number
-         real(wp) :: share
-
-         share = real(number, wp)/scan_places
-         place = (1.0_wp - share)*settings%line%window(1) + share*settings%line%window(2)
-      end function place
 
       !> Follow the branch from `orbit` and append it with its special points, or leave it out if it
       !> cannot be started.

@@ -85,8 +85,8 @@ contains
    end subroutine trace_curves
 
    !> Follow the curves between two neighbours of the grid, unless known curves that pass explain
-   !> how their numbers of unstable roots differ, where both have one. A real root that passes 0 is on
-   !> no curve.
+   !> how their numbers of unstable roots differ. A real root that passes 0 is on no curve. Beside a
+   !> place without a number there are none.
    subroutine explain(plane, from, to, roots_from, roots_to, pieces, error)
       type(curve_plane_type), intent(in) :: plane
       real(wp), intent(in) :: from(2), to(2)

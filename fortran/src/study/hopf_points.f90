@@ -33,7 +33,7 @@ module hopf_points
 
    !> A point at which two pairs of roots are imaginary, or the coefficient is 0, or the delay is 0.
    type :: hopf_point_type
-      !> 'generalised_hopf', 'double_hopf' or 'hopf_without_delay', or 'without_normal_form' where one
+      !> 'generalised_hopf', 'double_hopf', 'hopf_without_delay', or 'without_normal_form' where one
       !> more root is on the axis, as by a symmetry
       character(len=kind_length) :: kind = ""
       !> All parameters
@@ -64,10 +64,8 @@ contains
       integer :: i
 
       do i = 1, size(points)
-         if (stop_requested /= 0) then
-            call raise(error, "Hopf curves: interrupted")
-            return
-         end if
+         if (stop_requested /= 0) call raise(error, "Hopf curves: interrupted")
+         if (allocated(error)) return
          model = plane%model_at(points(i)%numbers)
          associate (point => points(i))
             call first_lyapunov_coefficient(model, point%at%omega, point%l1, singular)
@@ -263,14 +261,10 @@ contains
             call first_lyapunov_coefficient(model, omega(i), point%l1(i), singular)
          end if
       end do
-      if (.not. allocated(singular)) then
-         select case (kind)
-         case ("generalised_hopf")
-            call unfold_generalised_hopf(plane, at, direction, point%unfolding, singular)
-         case ("double_hopf")
-            call unfold_double_hopf(plane, point%numbers, point%omega, point%unfolding, singular)
-         case default
-         end select
+      if (.not. allocated(singular) .and. kind == "generalised_hopf") then
+         call unfold_generalised_hopf(plane, at, direction, point%unfolding, singular)
+      else if (.not. allocated(singular) .and. kind == "double_hopf") then
+         call unfold_double_hopf(plane, point%numbers, point%omega, point%unfolding, singular)
       end if
       if (allocated(singular)) then
          point%kind = "without_normal_form"

@@ -48,15 +48,13 @@ contains
 
       intervals = first_intervals
       ! with one delayed component, fewer intervals do not resolve all roots
-      do while (intervals < min(expected, 2*most_intervals))
+      do while (intervals < expected)
          intervals = 2*intervals
       end do
       allocate (roots(0))
       do while (intervals <= most_intervals)
+         call approximate_roots(system, intervals, rate, approximate, error)
          if (stop_requested /= 0) call raise(error, "roots: interrupted")
-         if (.not. allocated(error)) then
-            call approximate_roots(system, intervals, rate, approximate, error)
-         end if
          if (allocated(error)) return
          roots = refine_roots(system, bound, rate, approximate)
          if (size(roots) == expected) return
@@ -179,7 +177,8 @@ contains
 
       allocate (roots(0))
       do i = 1, size(approximate)
-         if (real(approximate(i)) < bound - longest_way*rate .or. aimag(approximate(i)) < 0.0_wp) cycle
+         if (real(approximate(i)) < bound - longest_way*rate) cycle
+         if (aimag(approximate(i)) < 0.0_wp) cycle
          call follow_newton(system, approximate(i), rate, s, found)
          if (.not. found .or. real(s) - bound <= last_step*(rate + abs(s))) cycle
          if (any(abs(s - roots) <= same_root*(rate + abs(s)))) cycle

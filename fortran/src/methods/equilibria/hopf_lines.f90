@@ -58,7 +58,7 @@ contains
       !> A Hopf point was not found
       type(error_type), allocatable, intent(out) :: error
       !> Whether roots are counted at the places, shape (0:places)
-      logical, allocatable, intent(out), optional :: counted(:)
+      logical, intent(out), optional :: counted(0:)
       type(model_type) :: block
       logical :: finite(0:places)
       real(wp) :: ends(2), here, next
@@ -80,7 +80,7 @@ contains
          here = next
          roots_here = roots_next
       end do
-      if (present(counted)) allocate (counted, source=finite)
+      if (present(counted)) counted = finite
 
    contains
 

@@ -15,8 +15,8 @@ module model_roots
    private
    public :: check_rest, count_roots, find_model_roots, find_rightmost
 
-   !> First bound above which rightmost roots are sought, in units of the slowest rate, and how often
-   !> it is doubled: fast motions without delay are up to 2**34 times as fast.
+   !> First bound above which rightmost roots are sought, in units of the slowest rate, and how
+   !> often it is doubled: roots without delay are up to 2**34 times as fast.
    real(wp), parameter :: first_bound = -1.0_wp/64.0_wp
    integer, parameter :: most_doublings = 40
    !> Halvings of the interval between a bound with too few roots and one with many.
@@ -40,8 +40,8 @@ contains
       do i = 1, size(model%numbers)
          words = words//", "//trim(model%names(i))//" = "//text(model%numbers(i))
       end do
-      call raise(error, "no state at rest "//trim(about%rest(1))//words//" with finite derivatives, " &
-                 //"tried "//trim(about%rest(2))//"; expected parameters with one, or a nearer guess")
+      call raise(error, "no state at rest "//trim(about%rest)//words//"; expected one with " &
+                 //"finite derivatives: other parameters or a nearer guess")
    end subroutine check_rest
 
    !> Number of roots with real part above `bound`, of all modes of a chain, or `no_count`.

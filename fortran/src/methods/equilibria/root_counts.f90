@@ -26,8 +26,8 @@ module root_counts
    real(wp), parameter :: radius_share = 1.0e-5_wp
    !> Delta is 0 on the real axis where it is less than this share of its largest term.
    real(wp), parameter :: rounding = 16.0_wp*epsilon(1.0_wp)
-   !> Most steps of a walk: a second of a core of 3 GHz, enough for 1e5 unstable roots. Most halvings
-   !> to a frequency, down to 1e-60 of the line.
+   !> Most steps of a walk: a second of a core of 3 GHz, enough for 1e5 unstable roots. Most
+   !> halvings to a frequency, down to 1e-60 of the line.
    integer, parameter :: most_steps = 3000000, most_halvings = 200
    !> Steps of that way.
    integer, parameter :: arc_steps = 32
@@ -69,7 +69,8 @@ contains
       real(wp) :: from, growth
 
       number = no_count
-      if (.not. ieee_is_finite(slowest_rate(c)) .or. -bound*maxval(c%delay) > largest_exponent) return
+      if (.not. ieee_is_finite(slowest_rate(c))) return
+      if (-bound*maxval(c%delay) > largest_exponent) return
       call begin_line(c, bound, radius_share*slowest_rate(c), from, growth)
       number = number_of(c, growth + line_growth(c, bound, from, far_end(c, bound)), bound)
    end function roots_right_of
