@@ -92,6 +92,8 @@ def description_lines(model: Model) -> list[str]:
     equations += [f"{name} = exp({state})" for name, state in model.auxiliary.items()]
     terms = rest.characteristic_terms(model) if model.steady_state else []
     states = list(model.states)
+    rest_at = model.near or model.steady_state or {}
+    where = ", ".join(f"{state} = {value}" for state, value in rest_at.items())
     counted = (model.parameters, equations, model.states, model.delayed, terms)
     exponents = exponents_of(model)
     delayed = sum(any(one.symbol.name in text for one in model.delayed) for text in exponents)
@@ -108,6 +110,7 @@ def description_lines(model: Model) -> list[str]:
             for name, state in model.auxiliary.items()
         ),
         *(("equation", text) for text in equations),
+        ("rest", f"near {where}, tried Newton's method" if model.near else where),
     ]
     for one in model.parameters:
         lines.append(("parameter", one.name, one.meaning, one.unit))

@@ -5,7 +5,8 @@ module cycles_command
    use cycle_branches, only: cycle_settings_type, cycles_type, find_cycles, left_out_type
    use cycle_curves, only: cycle_curve_type, find_curves
    use cycles_files, only: read_cycles, write_cycles
-   use dde_errors, only: error_type
+   use dde, only: stop_requested
+   use dde_errors, only: error_type, raise
    use hopf_lines, only: hopf_on_line_type
    use progress, only: progress_type
    implicit none (type, external)
@@ -32,6 +33,8 @@ contains
       if (allocated(error)) return
       report = progress_type("curves of their special points")
       call find_curves(settings, found, curves, error, report)
+      if (allocated(error)) return
+      if (stop_requested /= 0) call raise(error, "cycles: interrupted")
       if (allocated(error)) return
       call write_cycles(output_path, settings, hopf, found, left_out, curves, error)
    end subroutine run_cycles

@@ -1,12 +1,14 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Hopf curves in one plane of parameters, their special points, and the number of unstable roots.
 module hopf_command
-   use dde_errors, only: error_type
+   use dde, only: stop_requested
+   use dde_errors, only: error_type, raise
    use dde_kinds, only: wp
    use hopf_curves, only: curve_point_type, trace_curves
    use hopf_files, only: hopf_settings_type, read_plane, write_curves
    use hopf_planes, only: curve_plane_type, middles
    use hopf_points, only: find_hopf_points, hopf_point_type, judge_points
+   use model_roots, only: check_rest
    implicit none (type, external)
    private
    public :: run_hopf
@@ -29,6 +31,9 @@ contains
       ! the edges of the window, and the middles of the cells
       grid = [0.0_wp, middles([0.0_wp, 1.0_wp], settings%cells), 1.0_wp]
       roots = plane%unstable_roots(grid, grid)
+      if (all(roots < 0)) call check_rest(plane%model, error)
+      if (stop_requested /= 0) call raise(error, "Hopf curves: interrupted")
+      if (allocated(error)) return
       call trace_curves(plane, grid, grid, roots, points, error)
       if (allocated(error)) return
       call judge_points(plane, points, error)

@@ -75,6 +75,8 @@ module model_description
    type :: description_type
       !> Name, and where the equations are from
       character(len=line_length) :: name = "", source = ""
+      !> Where a state at rest is, or near which it is looked for
+      character(len=line_length) :: rest = ""
       !> Parameters
       type(parameter_type), allocatable :: parameters(:)
       !> Names and meanings of the states
@@ -125,6 +127,8 @@ contains
             description%sizes%driven = .true.
          case ("name")
             description%name = words(2)
+         case ("rest")
+            description%rest = words(2)
          case ("source")
             description%source = words(2)
          case ("equation")

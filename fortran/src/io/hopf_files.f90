@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What the program `hopf` reads and writes: the plane and window of Hopf curves; these curves.
 module hopf_files
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use double_hopf, only: letters => word_length
@@ -91,6 +92,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
       integer :: cells(2), i, rows
+      real(wp) :: map(size(roots, 1), size(roots, 2))
 
       call file%create(path, "Hopf curves: where a pair of characteristic roots is imaginary")
       call put_model(file, plane%model, but=settings%along)
@@ -99,6 +101,9 @@ contains
       end if
       call file%attribute("abscissa", trim(settings%along(1)))
       call file%attribute("ordinate", trim(settings%along(2)))
+      if (any(roots < 0)) call file%attribute("left_out", text(count(roots < 0))//" of " &
+         //text(size(roots))//" cells, NaN in map_unstable_roots: no state at rest with finite " &
+         //"derivatives is found there, or roots are too many to count")
       rows = file%dimension("point", size(points))
       call put_places(file, rows, plane%model, [(points(i)%numbers, i=1, size(points))])
       call file%column(rows, "omega", points%at%omega, "angular frequency of the pair")
@@ -120,7 +125,9 @@ contains
                        "abscissa in the middle of a cell")
       call file%column(cells(2), "map_ordinate", middles(settings%windows(:, 2), size(roots, 2)), &
                        "ordinate in the middle of a cell")
-      call file%table(cells, "map_unstable_roots", real(roots, wp), "number of unstable roots")
+      map = roots
+      where (roots < 0) map = ieee_value(map, ieee_quiet_nan)
+      call file%table(cells, "map_unstable_roots", map, "number of unstable roots")
       call file%finish(error)
    end subroutine write_curves
 

@@ -5,12 +5,13 @@ module cycle_branches
    use branch_ends, only: follow_settings_type
    use collocation_basis, only: collocation_basis_type
    use dde, only: continuation_type, integrate, integration_options, integration_result
-   use dde_errors, only: error_type
+   use dde_errors, only: error_type, text
    use dde_kinds, only: wp
    use hopf_lines, only: find_hopf_on_line, hopf_on_line_type
    use model_family, only: family_type
    use model_modes, only: mode_of
    use model_problem, only: model_type
+   use model_roots, only: check_rest
    use orbit_branch, only: branch_type, follow_branch
    use orbit_change, only: orbit_change_type
    use orbit_points, only: find_special_points
@@ -105,10 +106,12 @@ contains
       type(model_type) :: block
       type(special_point_type), allocatable :: here(:)
       integer :: branches, direction, i, j
+      logical :: counted(0:scan_places)
 
       associate (line => settings%line)
          call find_hopf_on_line(line%model, line%numbers_at(line%window(1)), &
-                                line%numbers_at(line%window(2)), scan_places, hopf, error)
+                                line%numbers_at(line%window(2)), scan_places, hopf, error, &
+                                counted)
          if (allocated(error)) return
          block = mode_of(line%model, 1)
          how%family = family_type(block, [line%along], [line%window(2) - line%window(1)])
@@ -118,7 +121,16 @@ contains
          how%least_amplitude = first_amplitude
          basis = collocation_basis_type(settings%degree)
       end associate
+      if (.not. any(counted) .and. size(settings%starts) == 0) call check_rest(block, error)
+      if (allocated(error)) return
       allocate (found(0), left_out(0))
+      if (.not. all(counted)) then
+         associate (w => settings%line%window, i => findloc(counted, .false., dim=1) - 1)
+            call leave_out("hopf", w(1) + (w(2) - w(1))*i/scan_places, text(count(.not. counted)) &
+                           //" of "//text(size(counted))//" places from here have no state at " &
+                           //"rest with finite derivatives, or too many roots")
+         end associate
+      end if
       do i = 1, size(hopf)
          if (present(progress)) call progress%advance(i - 1, size(hopf) + size(settings%starts))
          if (is_end(settings, found, hopf(i))) cycle

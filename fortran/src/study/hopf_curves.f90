@@ -5,6 +5,7 @@
 !> that close between the points of the grid.
 module hopf_curves
    use characteristic_function, only: characteristic_type
+   use dde, only: stop_requested
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use hopf_lines, only: find_hopf_on_line, hopf_on_line_type
@@ -84,7 +85,8 @@ contains
    end subroutine trace_curves
 
    !> Follow the curves between two neighbours of the grid, unless known curves that pass explain
-   !> how their numbers of unstable roots differ. A real root that passes 0 is on no curve.
+   !> how their numbers of unstable roots differ. A real root that passes 0 is on no curve. Beside a
+   !> place without a number there are none.
    subroutine explain(plane, from, to, roots_from, roots_to, pieces, error)
       type(curve_plane_type), intent(in) :: plane
       real(wp), intent(in) :: from(2), to(2)
@@ -97,7 +99,7 @@ contains
       integer :: i, passing, pairs
 
       pairs = abs(roots_to - roots_from)/2
-      if (pairs == 0) return
+      if (pairs == 0 .or. min(roots_from, roots_to) < 0) return
       passing = sum([(crossings(pieces(i), from, to), i=1, size(pieces))])
       if (passing >= pairs) return
       call find_hopf_on_line(plane%model, plane%numbers_at(from), plane%numbers_at(to), 1, found, &
@@ -212,7 +214,7 @@ contains
             if (found) found = is_smooth(here, next, tangent, turned)
             if (found) exit
             length = 0.5_wp*length
-            if (length < least_step) return
+            if (length < least_step .or. stop_requested /= 0) return
          end do
          if (any(next%place < 0.0_wp) .or. any(next%place > 1.0_wp)) then
             call add_end(plane, here, next, points)
@@ -312,13 +314,15 @@ contains
       type(piece_type), intent(in) :: pieces(:)
       type(curve_point_type), allocatable :: points(:)
       type(curve_point_type) :: first
-      real(wp) :: key(size(pieces))
+      real(wp), dimension(size(pieces)) :: key, omega
       integer :: i, j, k, number(size(pieces))
 
       do i = 1, size(pieces)
          first = point_of(plane, pieces(i)%points(1), 0)
-         key(i) = first%branch + first%at%omega/(1.0_wp + first%at%omega)
+         key(i) = first%branch
+         omega(i) = first%at%omega
       end do
+      key = key + 0.5_wp*omega/maxval(omega)
       do i = 1, size(pieces)
          number(i) = 1 + count(key < key(i)) + count(abs(key(:i - 1) - key(i)) <= 0.0_wp)
       end do

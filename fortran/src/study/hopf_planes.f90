@@ -3,9 +3,10 @@
 !> these curves: where Delta(i omega) = 0.
 module hopf_planes
    use characteristic_function, only: characteristic_of, characteristic_type
+   use dde, only: stop_requested
    use dde_kinds, only: wp
    use model_problem, only: model_type
-   use root_counts, only: roots_right_of
+   use root_counts, only: no_count, roots_right_of
    implicit none (type, external)
    private
    public :: axis_point_type, chord_of, curve_plane_type, middles, side, turn
@@ -133,7 +134,7 @@ contains
       slopes = [c%root_by(self%along(1), s), c%root_by(self%along(2), s)]
    end function root_slopes
 
-   !> Number of unstable roots at places on a grid.
+   !> Number of unstable roots at places on a grid, `no_count` where there is none.
    function unstable_roots(self, x, y) result(roots)
       class(curve_plane_type), intent(in) :: self
       !> Places of columns and lines in units of the window
@@ -143,8 +144,10 @@ contains
       integer :: i, j
 
       model = self%model
+      roots = no_count
       do j = 1, size(y)
          do i = 1, size(x)
+            if (stop_requested /= 0) return
             call model%put(self%numbers_at([x(i), y(j)]))
             roots(i, j) = roots_right_of(characteristic_of(model), 0.0_wp)
          end do

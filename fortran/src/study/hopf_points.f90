@@ -3,7 +3,9 @@
 !> beside the pair on the axis, and the points at which the kind of the bifurcation changes.
 module hopf_points
    use characteristic_function, only: characteristic_of, characteristic_type
-   use dde_errors, only: error_type
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use dde, only: stop_requested
+   use dde_errors, only: error_type, raise
    use dde_kinds, only: wp
    use hopf_curves, only: curve_point_type
    use hopf_planes, only: axis_point_type, chord_of, curve_plane_type, side, turn
@@ -20,7 +22,8 @@ module hopf_points
    integer, parameter :: kind_length = 20
    !> A coefficient this much smaller than that of the next point is 0 but for rounding.
    real(wp), parameter :: rounded = 1.0e-10_wp
-   !> The coefficient passes through 0, not through a pole, where it is this small.
+   !> The coefficient passes through 0, not through a pole, where it is this much smaller than those
+   !> of its neighbours.
    real(wp), parameter :: small_coefficient = 1.0e-7_wp
    !> Frequencies of two pairs differ by more than this share.
    real(wp), parameter :: least_difference = 1.0e-3_wp
@@ -30,7 +33,8 @@ module hopf_points
 
    !> A point at which two pairs of roots are imaginary, or the coefficient is 0, or the delay is 0.
    type :: hopf_point_type
-      !> 'generalised_hopf', 'double_hopf' or 'hopf_without_delay'
+      !> 'generalised_hopf', 'double_hopf', 'hopf_without_delay', or 'without_normal_form' where one
+      !> more root is on the axis, as by a symmetry
       character(len=kind_length) :: kind = ""
       !> All parameters
       real(wp), allocatable :: numbers(:)
@@ -48,20 +52,24 @@ module hopf_points
 
 contains
 
-   !> First Lyapunov coefficients and numbers of unstable roots of points on curves.
+   !> First Lyapunov coefficients, not a number where 0 or 2 i omega is a root, too, and numbers of
+   !> unstable roots of points on curves.
    subroutine judge_points(plane, points, error)
       type(curve_plane_type), intent(in) :: plane
       type(curve_point_type), intent(inout) :: points(:)
-      !> No coefficient: another root at 2 i omega
+      !> Interrupted
       type(error_type), allocatable, intent(out) :: error
+      type(error_type), allocatable :: singular
       type(model_type) :: model
       integer :: i
 
       do i = 1, size(points)
+         if (stop_requested /= 0) call raise(error, "Hopf curves: interrupted")
+         if (allocated(error)) return
          model = plane%model_at(points(i)%numbers)
          associate (point => points(i))
-            call first_lyapunov_coefficient(model, point%at%omega, point%l1, error)
-            if (allocated(error)) return
+            call first_lyapunov_coefficient(model, point%at%omega, point%l1, singular)
+            if (allocated(singular)) point%l1 = ieee_value(point%l1, ieee_quiet_nan)
             point%unstable_roots = roots_beside(characteristic_of(model), [point%at%omega])
          end associate
       end do
@@ -85,18 +93,16 @@ contains
          ! a curve begins or ends where its delay becomes 0
          if (has_delay(points(i)) .eqv. has_delay(points(i + 1))) cycle
          at = points(merge(i + 1, i, has_delay(points(i))))%at
-         call add_point(found, "hopf_without_delay", plane, at, [at%omega], error)
-         if (allocated(error)) return
+         call add_point(found, "hopf_without_delay", plane, at, [at%omega])
       end do
       do i = 1, size(points) - 1
          if (points(i)%piece /= points(i + 1)%piece) cycle
          if (changes_sign(points(i:i + 1)%l1)) then
             call find_zero_of_l1(plane, points(i:i + 1), at, l1, error)
             if (allocated(error)) return
-            if (abs(l1) <= small_coefficient) then
-               call add_point(found, "generalised_hopf", plane, at, [at%omega], error, &
+            if (abs(l1) <= small_coefficient*maxval(abs(points(i:i + 1)%l1))) then
+               call add_point(found, "generalised_hopf", plane, at, [at%omega], &
                               direction_of(points(i:i + 1)%at))
-               if (allocated(error)) return
             end if
          end if
          do j = i + 1, size(points) - 1
@@ -105,9 +111,8 @@ contains
             call find_meeting(plane, points(i:i + 1)%at, points(j:j + 1)%at, at, other)
             associate (low => min(at%omega, other%omega), high => max(at%omega, other%omega))
                if (high - low <= least_difference*high) cycle
-               call add_point(found, "double_hopf", plane, at, [low, high], error)
+               call add_point(found, "double_hopf", plane, at, [low, high])
             end associate
-            if (allocated(error)) return
          end do
       end do
 
@@ -229,17 +234,17 @@ contains
    end subroutine find_meeting
 
    !> Append a point with its coefficients and its normal form.
-   subroutine add_point(found, kind, plane, at, omega, error, direction)
+   subroutine add_point(found, kind, plane, at, omega, direction)
       type(hopf_point_type), allocatable, intent(inout) :: found(:)
       character(len=*), intent(in) :: kind
       type(curve_plane_type), intent(in) :: plane
       type(axis_point_type), intent(in) :: at
       !> Frequencies of the pairs, ascending
       real(wp), intent(in) :: omega(:)
-      type(error_type), allocatable, intent(out) :: error
       !> Direction of the curve of a generalised Hopf point
       real(wp), intent(in), optional :: direction(3)
       type(characteristic_type) :: c
+      type(error_type), allocatable :: singular
       type(hopf_point_type) :: point
       type(model_type) :: model
       integer :: i
@@ -252,16 +257,19 @@ contains
       point%branch(:size(omega)) = nint(omega*maxval(c%delay)/turn)
       do i = 1, size(omega)
          point%omega(i) = omega(i)
-         call first_lyapunov_coefficient(model, omega(i), point%l1(i), error)
-         if (allocated(error)) return
+         if (.not. allocated(singular)) then
+            call first_lyapunov_coefficient(model, omega(i), point%l1(i), singular)
+         end if
       end do
-      select case (kind)
-      case ("generalised_hopf")
-         call unfold_generalised_hopf(plane, at, direction, point%unfolding, error)
-      case ("double_hopf")
-         call unfold_double_hopf(plane, point%numbers, point%omega, point%unfolding, error)
-      case default
-      end select
+      if (.not. allocated(singular) .and. kind == "generalised_hopf") then
+         call unfold_generalised_hopf(plane, at, direction, point%unfolding, singular)
+      else if (.not. allocated(singular) .and. kind == "double_hopf") then
+         call unfold_double_hopf(plane, point%numbers, point%omega, point%unfolding, singular)
+      end if
+      if (allocated(singular)) then
+         point%kind = "without_normal_form"
+         point%l1 = ieee_value(0.0_wp, ieee_quiet_nan)
+      end if
       found = [found, point]
    end subroutine add_point
 end module hopf_points

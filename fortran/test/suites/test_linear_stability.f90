@@ -4,7 +4,7 @@
 module test_linear_stability
    use, intrinsic :: iso_fortran_env, only: real128
    use block_builder, only: block_at, by_epsilon, by_gamma, by_tau, by_xi
-   use characteristic_function, only: characteristic_of
+   use characteristic_function, only: characteristic_of, characteristic_type
    use characteristic_roots, only: find_roots
    use closed_form, only: block_with_pair
    use dde_errors, only: failure_type => error_type, text
@@ -16,7 +16,7 @@ module test_linear_stability
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use model_roots, only: find_model_roots
    use normal_form, only: first_lyapunov_coefficient
-   use root_counts, only: roots_beside, roots_right_of
+   use root_counts, only: no_count, roots_beside, roots_right_of
    implicit none (type, external)
    private
    public :: collect_linear_stability
@@ -45,7 +45,7 @@ contains
                                             (-2.6531919740386973_wp, 13.949208334533215_wp)]
       integer :: i
 
-      call find_roots(delayed_decay(1.0_wp), -2.8_wp, 6, roots, failure)
+      call find_roots(delayed_decay(1.0_wp), -2.8_wp, 6, 1.0_wp, roots, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
       do i = 1, 3
@@ -110,16 +110,23 @@ contains
       end do
    end subroutine test_extremes
 
-   !> Too many roots above a bound, a root less than expected, and a singular matrix.
+   !> Too many roots above a bound, or to count, a root less than expected, and a singular matrix.
    subroutine test_refusals(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
       complex(wp), allocatable :: roots(:)
+      type(characteristic_type) :: long
       complex(wp) :: right(2, 1), solution(2, 1)
 
-      call find_roots(delayed_decay(1.0_wp), -8.0_wp, 948, roots, failure)
+      ! s + 1 + 2 exp(-s 1e9) has 5e8 roots to the right of the axis
+      long%n = 1
+      long%delay = [0.0_wp, 1.0e9_wp]
+      allocate (long%coefficient(0:1, 2))
+      long%coefficient(:, :) = reshape([1.0_wp, 1.0_wp, 2.0_wp, 0.0_wp], [2, 2])
+      call expect(error, roots_right_of(long, 0.0_wp) == no_count, "no count")
+      call find_roots(delayed_decay(1.0_wp), -8.0_wp, 948, 1.0_wp, roots, failure)
       call expect_failure(error, failure, "a bound nearer to 0 expected")
-      call find_roots(delayed_decay(1.0_wp), -2.8_wp, 7, roots, failure)
+      call find_roots(delayed_decay(1.0_wp), -2.8_wp, 7, 1.0_wp, roots, failure)
       call expect_failure(error, failure, "6 simple roots instead of 7 with real part above -2.8")
       right = 1.0_wp
       call solve(reshape([(1.0_wp, 0.0_wp), (2.0_wp, 0.0_wp), (2.0_wp, 0.0_wp), &
@@ -136,7 +143,7 @@ contains
       real(wp) :: l1
 
       model = known_model(neurons, [0.8071232250_wp, 1.5_wp])
-      call find_roots(linear_part(model), -0.01_wp, 2, roots, failure)
+      call find_roots(linear_part(model), -0.01_wp, 2, 1.0_wp, roots, failure)
       call expect_success(error, failure)
       call expect_close(error, real(roots(1)), 0.0_wp, 1.0e-9_wp, "real part of the pair")
       call expect_close(error, aimag(roots(1)), 0.7819651621_wp, 1.0e-9_wp, "omega")

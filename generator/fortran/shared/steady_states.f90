@@ -81,34 +81,43 @@ contains
       step = right(:, 1)
    end function correction
 
-   !> Solutions of linear equations by elimination with pivots; not a number if they have none.
+   !> Solutions of linear equations by elimination with pivots; not a number if they have none. An
+   !> unknown that any number solves, as by a symmetry of the equations, is 0.
    pure subroutine solve(matrix, right)
       !> Shape (n, n)
       real(wp), intent(in) :: matrix(:, :)
       !> Right-hand sides; the solutions, shape (n, any)
       real(wp), intent(inout) :: right(:, :)
       real(wp) :: a(size(matrix, 1), size(matrix, 2)), row(size(matrix, 2))
-      real(wp) :: row_right(size(right, 2))
-      integer :: i, k, pivot
+      real(wp) :: given(size(right, 1), size(right, 2)), row_right(size(right, 2))
+      integer :: i, k, pivot, rank, unknown(size(matrix, 1))
 
       a = matrix
+      given = right
+      rank = 0
       do k = 1, size(a, 1)
-         pivot = k - 1 + maxloc(abs(a(k:, k)), 1)
-         if (.not. abs(a(pivot, k)) > 0.0_wp) then
-            right = ieee_value(1.0_wp, ieee_quiet_nan)
-            return
-         end if
+         pivot = rank + maxloc(abs(a(rank + 1:, k)), 1)
+         if (.not. abs(a(pivot, k)) > 0.0_wp) cycle
+         rank = rank + 1
+         unknown(rank) = k
          row = a(pivot, :)/a(pivot, k)
-         row_right = right(pivot, :)/a(pivot, k)
-         a(pivot, :) = a(k, :)
-         right(pivot, :) = right(k, :)
-         a(k, :) = row
-         right(k, :) = row_right
+         row_right = given(pivot, :)/a(pivot, k)
+         a(pivot, :) = a(rank, :)
+         given(pivot, :) = given(rank, :)
+         a(rank, :) = row
+         given(rank, :) = row_right
          do i = 1, size(a, 1)
-            if (i == k) cycle
-            right(i, :) = right(i, :) - a(i, k)*row_right
+            if (i == rank) cycle
+            given(i, :) = given(i, :) - a(i, k)*row_right
             a(i, :) = a(i, :) - a(i, k)*row
          end do
+      end do
+      right = 0.0_wp
+      right(unknown(:rank), :) = given(:rank, :)
+      do i = 1, size(right, 2)
+         if (.not. all(abs(given(rank + 1:, i)) <= 0.0_wp)) then
+            right(:, i) = ieee_value(1.0_wp, ieee_quiet_nan)
+         end if
       end do
    end subroutine solve
 end module steady_states

@@ -2,6 +2,7 @@
 !> Periodic orbits by Newton's method: collocation equations, phase condition and further linear
 !> conditions. Unknowns are the past of one period, the period and free parameters.
 module orbit_equations
+   use dde, only: stop_requested
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use linear_map, only: linear_map_type, solve_by_gmres
@@ -77,6 +78,8 @@ contains
       newton%last_change = huge(1.0_wp)
       do i = 1, newton%most_iterations
          newton%iterations = i
+         if (stop_requested /= 0) call raise(error, "periodic orbit: interrupted")
+         if (allocated(error)) return
          call find_targets(reference, family, conditions, distances, orbit, target(:, 1))
          call linearise_orbit(family, orbit, newton%linear, error)
          if (allocated(error)) return

@@ -3,6 +3,7 @@
 !> generator (Breda, Maset and Vermiglio 2005), each eigenvalue refined by Newton's method on
 !> det Delta(s). The number of nodes grows until the expected number of roots is found.
 module characteristic_roots
+   use dde, only: stop_requested
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use lapack, only: eigenvalues, solve
@@ -15,11 +16,12 @@ module characteristic_roots
    integer, parameter :: first_intervals = 16, most_intervals = 512
    !> No more roots than these are found.
    integer, parameter :: most_roots = most_intervals
-   !> Roots nearer than this, relative to 1 + |s|, are the same.
+   !> Roots nearer than this, relative to rate + |s|, are the same.
    real(wp), parameter :: same_root = 1.0e-8_wp
-   !> Farthest way from an eigenvalue to its root, relative to 1 + |s|.
+   !> Farthest way from an eigenvalue to its root, relative to rate + |s|.
    real(wp), parameter :: longest_way = 0.1_wp
-   !> Most iterations of Newton's method, and the step after which it ends, relative to 1 + |s|.
+   !> Most iterations of Newton's method, and the step after which it ends, relative to rate + |s|;
+   !> it also ends where steps below `same_root` do not become smaller.
    integer, parameter :: most_iterations = 30
    real(wp), parameter :: last_step = 1.0e-14_wp
    real(wp), parameter :: pi = acos(-1.0_wp)
@@ -28,13 +30,15 @@ contains
 
    !> All simple roots with real part above `bound`, the rightmost first; of a pair, the one above
    !> the real axis first.
-   subroutine find_roots(system, bound, expected, roots, error)
+   subroutine find_roots(system, bound, expected, rate, roots, error)
       !> The system
       type(linear_system_type), intent(in) :: system
       !> Least real part
       real(wp), intent(in) :: bound
       !> Number of roots by the principle of the argument
       integer, intent(in) :: expected
+      !> The unit of frequency
+      real(wp), intent(in) :: rate
       !> The roots
       complex(wp), allocatable, intent(out) :: roots(:)
       !> Another number is found
@@ -49,9 +53,10 @@ contains
       end do
       allocate (roots(0))
       do while (intervals <= most_intervals)
-         call approximate_roots(system, intervals, approximate, error)
+         call approximate_roots(system, intervals, rate, approximate, error)
+         if (stop_requested /= 0) call raise(error, "roots: interrupted")
          if (allocated(error)) return
-         roots = refine_roots(system, bound, approximate)
+         roots = refine_roots(system, bound, rate, approximate)
          if (size(roots) == expected) return
          intervals = 2*intervals
       end do
@@ -62,9 +67,10 @@ contains
    end subroutine find_roots
 
    !> The eigenvalues s of the scaled generator, M s x = G x.
-   subroutine approximate_roots(system, intervals, approximate, error)
+   subroutine approximate_roots(system, intervals, rate, approximate, error)
       type(linear_system_type), intent(in) :: system
       integer, intent(in) :: intervals
+      real(wp), intent(in) :: rate
       complex(wp), allocatable, intent(out) :: approximate(:)
       type(error_type), allocatable, intent(out) :: error
       real(wp), allocatable :: divisor(:), matrix(:, :)
@@ -75,8 +81,8 @@ contains
       if (unit > 0.0_wp) then
          matrix = generator(system, intervals, unit)
       else
-         unit = 1.0_wp
-         matrix = sum(system%a, dim=3)
+         unit = 1.0_wp/rate
+         matrix = unit*sum(system%a, dim=3)
       end if
       ! a row of large entries (a fast component) gets a small mass; otherwise its size would be
       ! that of the rounding errors of all roots
@@ -160,9 +166,9 @@ contains
    end function interpolation
 
    !> The roots that approximate ones lead to, each once.
-   function refine_roots(system, bound, approximate) result(roots)
+   function refine_roots(system, bound, rate, approximate) result(roots)
       type(linear_system_type), intent(in) :: system
-      real(wp), intent(in) :: bound
+      real(wp), intent(in) :: bound, rate
       complex(wp), intent(in) :: approximate(:)
       complex(wp), allocatable :: roots(:)
       complex(wp) :: s
@@ -171,10 +177,11 @@ contains
 
       allocate (roots(0))
       do i = 1, size(approximate)
-         if (real(approximate(i)) < bound - longest_way .or. aimag(approximate(i)) < 0.0_wp) cycle
-         call follow_newton(system, approximate(i), s, found)
-         if (.not. found .or. real(s) <= bound) cycle
-         if (any(abs(s - roots) <= same_root*(1.0_wp + abs(s)))) cycle
+         if (real(approximate(i)) < bound - longest_way*rate) cycle
+         if (aimag(approximate(i)) < 0.0_wp) cycle
+         call follow_newton(system, approximate(i), rate, s, found)
+         if (.not. found .or. real(s) - bound <= last_step*(rate + abs(s))) cycle
+         if (any(abs(s - roots) <= same_root*(rate + abs(s)))) cycle
          after = count(real(roots) >= real(s))
          roots = [roots(:after), s, roots(after + 1:)]
       end do
@@ -184,10 +191,11 @@ contains
    end function refine_roots
 
    !> Newton's method on det Delta(s), whose logarithm has the derivative trace(Delta^-1 Delta').
-   subroutine follow_newton(system, start, s, found)
+   subroutine follow_newton(system, start, rate, s, found)
       type(linear_system_type), intent(in) :: system
       !> Where to start, on or above the real axis
       complex(wp), intent(in) :: start
+      real(wp), intent(in) :: rate
       !> The root, on or above the real axis
       complex(wp), intent(out) :: s
       !> Whether there is one near the start
@@ -195,10 +203,12 @@ contains
       complex(wp), dimension(size(system%a, 1), size(system%a, 1)) :: ratio
       complex(wp) :: step, trace
       type(error_type), allocatable :: singular
+      real(wp) :: before
       integer :: i, j
 
       s = start
       found = .false.
+      before = huge(before)
       do i = 1, most_iterations
          call solve(system%characteristic_matrix(s), system%characteristic_slope(s), ratio, &
                     singular)
@@ -208,11 +218,14 @@ contains
          if (.not. abs(trace) > tiny(1.0_wp)) exit
          step = -1.0_wp/trace
          s = s + step
-         if (abs(s - start) > longest_way*(1.0_wp + abs(start))) exit
-         found = abs(step) <= last_step*(1.0_wp + abs(s))
+         if (abs(s - start) > longest_way*(rate + abs(start))) exit
+         associate (share => abs(step)/(rate + abs(s)))
+            found = share <= last_step .or. (share <= same_root .and. abs(step) > 0.5_wp*before)
+         end associate
          if (found) exit
+         before = abs(step)
       end do
-      if (abs(aimag(s)) <= same_root*(1.0_wp + abs(s))) s = real(s)
+      if (abs(aimag(s)) <= same_root*(rate + abs(s))) s = real(s)
       s = cmplx(real(s), abs(aimag(s)), kind=wp)
    end subroutine follow_newton
 end module characteristic_roots

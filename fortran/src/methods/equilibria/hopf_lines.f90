@@ -3,11 +3,12 @@
 !> by a pair. This holds for every model and parameter.
 module hopf_lines
    use characteristic_function, only: characteristic_of, characteristic_type
+   use dde, only: stop_requested
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use model_modes, only: mode_of
    use model_problem, only: model_type
-   use root_counts, only: crossing_frequency, roots_right_of
+   use root_counts, only: crossing_frequency, far_end, no_count, roots_right_of
    implicit none (type, external)
    private
    public :: find_hopf_on_line, hopf_on_line_type
@@ -18,6 +19,9 @@ module hopf_lines
    !> Newton's method ends when steps are below this share, or after so many steps
    real(wp), parameter :: accuracy = 1.0e-14_wp
    integer, parameter :: most_steps = 20
+   !> Between two places roots are counted up to this many times the largest frequency there: beside
+   !> a pole of the equations there are Hopf points without end
+   real(wp), parameter :: largest_growth = 8.0_wp
    !> The frequency of a double pair is found between places this far from it; there the slope of
    !> Delta by s is this small in units of its curvature and frequency
    real(wp), parameter :: wide = 1.0e-6_wp, small_slope = 1.0e-4_wp
@@ -40,8 +44,9 @@ module hopf_lines
 contains
 
    !> All Hopf points on a line, by the turns that the pair makes in the longest delay, and by
-   !> frequency. Pairs that cross in and out between two places of the scan are missed.
-   subroutine find_hopf_on_line(model, from, to, places, points, error)
+   !> frequency. Pairs that cross in and out between two places of the scan are missed, and those
+   !> beside places where roots cannot be counted.
+   subroutine find_hopf_on_line(model, from, to, places, points, error, counted)
       !> The model
       class(model_type), intent(in) :: model
       !> Parameters at both ends, in the order of the definition
@@ -52,22 +57,30 @@ contains
       type(hopf_on_line_type), allocatable, intent(out) :: points(:)
       !> A Hopf point was not found
       type(error_type), allocatable, intent(out) :: error
+      !> Whether roots are counted at the places, shape (0:places)
+      logical, intent(out), optional :: counted(0:)
       type(model_type) :: block
-      real(wp) :: here, next
+      logical :: finite(0:places)
+      real(wp) :: ends(2), here, next
       integer :: i, roots_here, roots_next
 
       allocate (points(0))
       block = mode_of(model, 1)
       here = 0.0_wp
-      roots_here = unstable_roots(here)
+      ends = 0.0_wp
+      roots_here = unstable_roots(here, ends(1))
+      finite = roots_here >= 0
       do i = 1, places
          next = real(i, wp)/places
-         roots_next = unstable_roots(next)
+         roots_next = unstable_roots(next, ends(2))
+         finite(i) = roots_next >= 0
          call search(here, next, roots_here, roots_next)
          if (allocated(error)) return
+         ends(1) = ends(2)
          here = next
          roots_here = roots_next
       end do
+      if (present(counted)) counted = finite
 
    contains
 
@@ -89,10 +102,24 @@ contains
       end function function_at
 
       !> Number of unstable roots at a share of the line.
-      integer function unstable_roots(x) result(number)
+      integer function unstable_roots(x, highest) result(number)
          real(wp), intent(in) :: x
+         !> Largest frequency at a place; without it, `no_count` if it is too far above that of both
+         real(wp), intent(out), optional :: highest
+         type(characteristic_type) :: c
+         real(wp) :: frequency
 
-         number = roots_right_of(function_at(x), 0.0_wp)
+         c = function_at(x)
+         number = roots_right_of(c, 0.0_wp)
+         frequency = 0.0_wp
+         if (number >= 0) frequency = far_end(c, 0.0_wp)
+         if (present(highest)) then
+            highest = frequency
+         else if (frequency > largest_growth*maxval(ends)) then
+            number = no_count
+            finite(i) = .false.
+         end if
+         if (stop_requested /= 0) call raise(error, "Hopf points: interrupted")
       end function unstable_roots
 
       !> Add the Hopf points of an interval. A change by one is a real root.
@@ -105,6 +132,7 @@ contains
          real(wp) :: middle
          integer :: roots_middle
 
+         if (min(roots_start, roots_end) < 0) return
          if (abs(roots_end - roots_start) < 2 .or. allocated(error)) return
          found = .false.
          if (end - start <= narrow) then
