@@ -38,7 +38,7 @@ typedef struct {
     double t_start, t_start_rest;   /* the start, and what rounding took from it */
     double t_end;
     const char *method;             /* auto, explicit, bs5, dop853, taylor, radau5, radau9, radau13 */
-    const double *rtol, *atol;      /* (n) tolerances of a step */
+    const double *rtol, *atol;      /* (n) tolerances of a step; NULL: a share of values */
     double first_step, max_step;    /* 0: chosen */
     int64_t max_steps;
     double max_bytes;               /* most memory of the past */
@@ -61,6 +61,8 @@ typedef struct {
 int32_t dk_open(const char *path, dk_model **model, char *message, int32_t length);
 void dk_close(dk_model *model);
 void dk_delays(const dk_model *model, const double *parameters, double *lag, int32_t *number);
+/* The longest delay or, without one, the inverse of the fastest rate at the start. */
+double dk_unit_of_time(const dk_model *model, const dk_request *request);
 int32_t dk_integrate(const dk_model *model, const dk_request *request, dk_results **results,
                      char *message, int32_t length);
 

@@ -23,6 +23,7 @@ contains
       block%code = model%code
       block%sizes = model%sizes
       block%names = model%names
+      block%own_units = model%own_units
       if (model%is_chain()) then
          block%left = [1]
          block%right = [1]

@@ -53,6 +53,9 @@ module model_problem
       character(len=word_length) :: ends = "free"
       !> Whether delays of 0 are delayed values, too
       logical :: keeps_delays = .false.
+      !> Whether thresholds of methods count in units that follow from its motion; otherwise its
+      !> numbers are of order 1
+      logical :: own_units = .false.
    contains
       !> What the definition says
       procedure :: describe

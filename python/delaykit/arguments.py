@@ -13,7 +13,7 @@ import numpy as np
 from delaykit.errors import ModelError, check_name
 from delaykit.events import Event
 from delaykit.history import Pieces, fit
-from delaykit.library import Request, address
+from delaykit.library import LIBRARY, Request, address
 
 HUGE = sys.float_info.max
 ENDS = ("free", "ring", "plate")
@@ -206,6 +206,11 @@ class Arguments:
             found[str(name)] = value
         return found
 
+    def unit_of_time(self, past: np.ndarray) -> float:
+        """The unit of times that are not given, of a model with constant states before."""
+        request, _ = self.request(Start(0.0, 0.0, past), 0.0)
+        return LIBRARY.dk_unit_of_time(self.model.handle, ctypes.byref(request))
+
     def request(self, start: Start, t_end: float) -> tuple[Request, list]:
         """A request with all that is not an option, and what must live as long as it."""
         request = Request()
@@ -232,7 +237,7 @@ def begin(own: Arguments, history, t_start: float, initial, breaks, rtol, atol) 
         if reads and len(delays) and max(delays) > 0:
             start.pieces = fit(
                 lambda t: own.values("history", given, t),
-                t_start - max(delays), t_start, breaks, rtol, atol,
+                t_start - max(delays), t_start, breaks, rtol, 0.0 if atol is None else atol,
             ).with_kink(0)  # fmt: skip
             start.state = start.pieces.state
         else:

@@ -149,7 +149,7 @@ def fit(
     end: float,
     breaks,
     rtol: np.ndarray,
-    atol: np.ndarray,
+    atol: np.ndarray | float,
 ) -> Pieces:
     """The pieces of a function of time on [begin, end], within a tenth of the tolerance.
 
@@ -157,7 +157,7 @@ def fit(
     """
     edges = sorted({begin, end, *(t for t in breaks if begin < t < end)})
     todo = [*pairwise(edges)][::-1]
-    done = []
+    done, size = [], 0.0
     while todo:
         left, right = todo.pop()
         values = np.array([function(left + (right - left) * x) for x in NODES])
@@ -166,7 +166,8 @@ def fit(
         fitted = np.array([newton_value(coefficients, x) for x in TESTS])
         if not np.isfinite(values).all() or not np.isfinite(read).all():
             raise ModelError(f"the history is not finite between t = {left} and {right}")
-        if (np.abs(read - fitted) <= SHARE * (atol + rtol * np.abs(read))).all():
+        size = np.maximum(size, np.abs(read).max(axis=0))
+        if (np.abs(read - fitted) <= SHARE * (atol + rtol * size)).all():
             done.append((left, right, coefficients))
         elif len(done) + len(todo) >= MOST_PIECES or (left + right) / 2 in (left, right):
             raise ModelError(

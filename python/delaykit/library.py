@@ -70,6 +70,7 @@ def load() -> ctypes.CDLL:
         "dk_open": (number, [text, to_handle, text, number]),
         "dk_close": (None, [handle]),
         "dk_free": (None, [handle]),
+        "dk_unit_of_time": (ctypes.c_double, [handle, ctypes.POINTER(Request)]),
         "dk_delays": (None, [handle, handle, handle, ctypes.POINTER(number)]),
         "dk_values": (handle, [handle, text, ctypes.POINTER(number)]),
         "dk_describe": (number, [handle, text, number]),

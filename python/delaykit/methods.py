@@ -19,18 +19,23 @@ from delaykit.library import LIBRARY, Results, call
 from delaykit.version import __version__
 
 OBSERVATION = {
-    **{"t_lasting": 4000.0, "t_path": 0.0, "interval": 20.0, "exponents": 3, "zero_level": 3e-5},
-    **{"longest_bar": 1e-3, "doublings": 6, "sample_interval": 0.1, "window": "hann"},
+    **{"t_lasting": None, "t_path": 0.0, "interval": None, "exponents": 3, "zero_level": None},
+    **{"longest_bar": None, "doublings": 6, "sample_interval": None, "window": "hann"},
     **{"segments": 8, "overlap": 0.5, "peak_floor": 1e-6, "peak_prominence": 10.0},
 }
-"""How attractors are judged unless the caller says otherwise."""
+"""How attractors are judged unless the caller says otherwise; None: of TIMES or RATES."""
+TIMES = {
+    **{"t_transient": 100.0, "t_observed": 2000.0, "t_turning": 20.0, "t_lasting": 4000.0},
+    **{"interval": 5.0, "sample_interval": 0.1, "longest_period": 50.0},
+}
+RATES = {"zero_level": 3e-5, "longest_bar": 1e-3}
+"""Times that are not given in units of time of the model (the longest delay or, without one, the
+inverse of the fastest rate at the start), and rates in units of its inverse."""
 ALWAYS = ("point", "orbit", "special", "root")
 """Dimensions that results keep where they have no such thing."""
 OF_FILES = ("scene", "name", "parameters")
 """Attributes of files that are left out."""
 SIGNS = ("negative", "zero", "positive", "unclear")
-TRANSIENT, OBSERVED, TURNING = 100.0, 2000.0, 20.0
-"""Times of exponents and attractors where they are not given, in longest delays."""
 
 
 def command(model, name: str, groups: Mapping, histories: Mapping | None = None) -> xr.Dataset:
@@ -97,7 +102,7 @@ def model_group(own: Arguments, but=()) -> dict:
     model = own.model
     known = dict(zip(model.definition["parameters"], own.numbers.tolist(), strict=True))
     known = {key: value for key, value in known.items() if key not in but}
-    group = {"name": model.path.stem}
+    group = {"name": model.path.stem, "own_units": True}
     if known:
         group |= {"parameters": list(known), "values": list(known.values())}
     if model.blocks > 1:
@@ -139,9 +144,12 @@ def mean_of(model, run) -> dict[str, float]:
     }
 
 
-def longest_delay(own: Arguments) -> float:
-    """The unit of times that are not given."""
-    return max(own.model.delays_of(own.numbers), default=0.0) or 1.0
+def in_units(own: Arguments, histories: Mapping, given: Mapping) -> dict:
+    """Times and rates, those that are None in units of the model."""
+    past = np.reshape(histories["values"], (len(own.states), -1)).T
+    unit = own.unit_of_time(own.by_place(past))
+    known = {key: TIMES[key] * unit if key in TIMES else RATES[key] / unit for key in given}
+    return {key: known[key] if value is None else value for key, value in given.items()}
 
 
 def exponents(
@@ -155,10 +163,10 @@ def exponents(
     rtol=1e-8,
     method="auto",
     t_turning=None,
-    interval=20.0,
+    interval=None,
     batches=20,
-    zero_level=3e-5,
-    longest_bar=1e-3,
+    zero_level=None,
+    longest_bar=None,
 ) -> xr.Dataset:
     """The `count` largest Lyapunov exponents from t_transient to t_end, with standard errors.
 
@@ -172,22 +180,24 @@ def exponents(
     between two orthonormalisations.
     """
     own = Arguments(model, parameters)
-    unit = longest_delay(own)
-    t_transient = TRANSIENT * unit if t_transient is None else t_transient
-    t_end = t_transient + OBSERVED * unit if t_end is None else t_end
-    t_turning = TURNING * unit if t_turning is None else t_turning
+    histories = histories_group(own, history)
+    known = in_units(
+        own,
+        histories,
+        {"t_transient": t_transient, "t_observed": None, "t_turning": t_turning}
+        | {"interval": interval, "zero_level": zero_level, "longest_bar": longest_bar},
+    )
+    t_transient, t_observed = known.pop("t_transient"), known.pop("t_observed")
+    t_end = t_transient + t_observed if t_end is None else t_end
     groups = {
         "scene": {
             **{"name": model.definition["name"], "model": model_group(own), "method": method},
-            **{"t_end": t_end, "t_transient": t_transient, "sample_interval": unit},
+            **{"t_end": t_end, "t_transient": t_transient, "sample_interval": t_observed},
             "tolerance": rtol,
         },
-        "exponents": {
-            **{"count": count, "t_end": t_end, "t_turning": t_turning, "interval": interval},
-            **{"batches": batches, "zero_level": zero_level, "longest_bar": longest_bar},
-        },
+        "exponents": {"count": count, "t_end": t_end, "batches": batches, **known},
     }
-    found = command(model, "exponents", groups, histories_group(own, history)).isel(run=0)
+    found = command(model, "exponents", groups, histories).isel(run=0)
     signs = [SIGNS[1 + int(sign)] for sign in found.sign]
     found = found.drop_vars(["tolerance", "longest_step", "mean_step", "sign"]).rename(
         dimension="kaplan_yorke",
@@ -224,21 +234,19 @@ def attractor(
     own = Arguments(model, parameters)
     for key in observation:
         check_name("option", key, OBSERVATION)
-    unit = longest_delay(own)
-    times = {
-        "t_transient": TRANSIENT * unit if t_transient is None else t_transient,
-        "t_observed": OBSERVED * unit if t_observed is None else t_observed,
-        "t_turning": TURNING * unit if t_turning is None else t_turning,
-    }
+    histories = histories_group(own, history)
+    observation = {**OBSERVATION, **observation, "t_transient": t_transient}
+    observation |= {"t_observed": t_observed, "t_turning": t_turning}
+    known = {key: value for key, value in observation.items() if key in {**TIMES, **RATES}}
     groups = {
-        "observation": {**OBSERVATION, **times, **observation},
+        "observation": observation | in_units(own, histories, known),
         "points": {
             **{"name": model.definition["name"], "model": model_group(own), "kept": kept},
             **{"refinements": 0, "sweep": "none"},
         },
         "solver": {"method": method, "tolerance": rtol, "most_steps": max_steps},
     }
-    found = command(model, "attractors", groups, histories_group(own, history)).isel(point=0)
+    found = command(model, "attractors", groups, histories).isel(point=0)
     if problem := str(found.problem.item()):
         raise RunError(problem, found)
     return found
@@ -308,12 +316,12 @@ def cycle(
     check_name("parameter", along, model.definition["parameters"])
     own = Arguments(model, parameters)
     here = dict(zip(model.definition["parameters"], own.numbers.tolist(), strict=True))[along]
-    unit = longest_delay(own)
+    histories = histories_group(own, dict.fromkeys(own.states, 0.0) if start is None else start)
+    times = {"t_transient": t_transient, "longest_period": longest_period}
     group = {
         **{"along": along, "window": list(window), "model": model_group(own, but=[along])},
         **{"degree": degree, "intervals": intervals, "most_orbits": most_orbits},
-        "t_transient": TRANSIENT * unit if t_transient is None else t_transient,
-        "longest_period": 50 * unit if longest_period is None else longest_period,
+        **in_units(own, histories, times),
     }
     if start is not None:
         group["starts"] = [here, *window]
@@ -322,5 +330,4 @@ def cycle(
             "curves_along": list(curves),
             "curves_windows": list(np.ravel([*curves.values()])),
         }
-    start = dict.fromkeys(own.states, 0.0) if start is None else start
-    return command(model, "cycles", {"cycles": group}, histories_group(own, start))
+    return command(model, "cycles", {"cycles": group}, histories)

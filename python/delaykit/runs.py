@@ -74,7 +74,7 @@ def integrate(
     parameters=None,
     method="auto",
     rtol=1e-9,
-    atol=1e-9,
+    atol=None,
     events=(),
     dense_output=False,
     initial=None,
@@ -93,7 +93,8 @@ def integrate(
         pairs (times, values); or an earlier run with dense output, which goes on.
     initial: the state at t_start where it differs from the history (a jump).
     t_eval: times of the samples; otherwise they follow the steps, `samples_per_step` in each.
-    rtol, atol: tolerances of a step, numbers or a dict by state.
+    rtol, atol: tolerances of a step, numbers or a dict by state. Without atol it is 1e-6 rtol, but
+        at least 2e-14, times the largest value of each state so far: units do not matter.
     events: texts such as "y = 1 rising" or "y' = 0 falling stop", or Event.
     breaks: times at which the equations or the history jump.
     doses: pairs (time, {state: change}).
@@ -104,7 +105,8 @@ def integrate(
     """
     own = Arguments(model, parameters)
     t_end = own.number("t_end", t_end)
-    rtol, atol = own.tolerance("rtol", rtol), own.tolerance("atol", atol)
+    rtol = own.tolerance("rtol", rtol)
+    atol = None if atol is None else own.tolerance("atol", atol)
     breaks = own.array("breaks", breaks)
     start = begin(own, history, own.number("t_start", t_start), initial, breaks, rtol, atol)
     request, kept = own.request(start, t_end)
@@ -143,7 +145,9 @@ def integrate(
         problem.partial = solution_of(own, problem.partial, events, start)
         raise
     solution = solution_of(own, found, events, start)
-    solution.options = {"method": method, "rtol": rtol.tolist(), "atol": atol.tolist()}
+    solution.options = {"method": method, "rtol": rtol.tolist()}
+    if atol is not None:
+        solution.options["atol"] = atol.tolist()
     del kept
     return solution
 

@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 from tqdm import tqdm
 
+from delaykit.arguments import Arguments, begin
 from delaykit.errors import DelaykitError, ModelError, check_name
 from delaykit.library import LIBRARY
 
@@ -17,8 +18,8 @@ STACK = 1 << 28
 """Bytes of the stack of a thread: compiled models have their work arrays there."""
 PATIENCE = 0.2
 """Seconds between two looks for Ctrl-C."""
-DELAYS_OF_RUN, SHARE_LEFT_OUT = 400, 0.5
-"""Length of a run in longest delays where it is not given, and the share that is left out."""
+UNITS_OF_RUN, SHARE_LEFT_OUT = 400, 0.5
+"""Length of a run in units of time where it is not given, and the share that is left out."""
 
 
 def extrema(model, sign: int, options: dict) -> np.ndarray:
@@ -26,8 +27,9 @@ def extrema(model, sign: int, options: dict) -> np.ndarray:
     state = options.pop("state", model.states[0])
     left_out = options.pop("t_transient", None)
     if options.get("t_end") is None:
-        longest = max(model.delays(), default=0.0)
-        options["t_end"] = DELAYS_OF_RUN * (longest or 1.0)
+        own = Arguments(model, options.get("parameters"))
+        past = begin(own, options["history"], 0.0, None, (), np.ones(own.n), None).past
+        options["t_end"] = UNITS_OF_RUN * own.unit_of_time(past)
     if left_out is None:
         left_out = SHARE_LEFT_OUT * options["t_end"]
     word = "falling" if sign > 0 else "rising"

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Two neurons: Shayer and Campbell (2000), SIAM J. Appl. Math. 61, 673.
 
-Published: the demonstration "neuron" of DDE-BIFTOOL. A branch of cycles begins at a Hopf point,
-turns once and ends at a homoclinic orbit.
+Published: the demonstration "neuron" of DDE-BIFTOOL: cycles from Hopf point to a homoclinic orbit.
 """
 
 import delaykit as dk
@@ -27,7 +26,8 @@ def numbers() -> dict[str, float]:
     late = line.isel(orbit=slice(int(line.a21.values.argmax()), None))
     a, b, c = np.interp([100, 110, 120], late.period, late.a21)
     found = [line.hopf_a21[0], line.hopf_omega[0], here.l1.mean()]
-    found += [np.interp(0.8072, line.a21[:3], line.period[:3]), sum(line.special_kind == "fold")]
+    early = [line.hopf_a21[0], line.a21[0]], [2 * np.pi / line.hopf_omega[0], line.period[0]]
+    found += [np.interp(0.8072, *early), sum(line.special_kind == "fold")]
     found += [c - (c - b) ** 2 / (c - 2 * b + a), double.special_a21[0], double.special_tau_s[0]]
     return dict(zip(PUBLISHED, found, strict=True))
 

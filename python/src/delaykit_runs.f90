@@ -11,6 +11,7 @@ module delaykit_runs
    use delaykit_handles, only: message_of, model_of, string_of
    use model_chain, only: chain_ends, find_neighbours
    use model_problem, only: model_type
+   use natural_units, only: in_own_units
    implicit none (type, external)
    private
 
@@ -120,6 +121,20 @@ contains
       lag(:number) = model%delays(parameters(:model%sizes%parameters))
    end subroutine dk_delays
 
+   !> The unit of time of a model with the parameters and past of a request; 1 if they are wrong.
+   real(c_double) function dk_unit_of_time(handle, request) result(unit) bind(c)
+      type(c_ptr), value :: handle
+      type(request_type), intent(in) :: request
+      type(error_type), allocatable :: error
+      type(integration_options) :: options
+      type(model_type) :: model
+
+      model = model_of(handle)
+      call set_model(request, model, error)
+      if (.not. allocated(error)) options = in_own_units(model, options, known=abs(model%past))
+      unit = options%unit_of_time
+   end function dk_unit_of_time
+
    !> Give a model its parameters, blocks and constant past.
    subroutine set_model(request, model, error)
       type(request_type), intent(in) :: request
@@ -162,8 +177,9 @@ contains
       integer :: k
       logical :: follows
 
-      call set_options(request, model%n, options)
       call begin(request, model, now)
+      call c_f_pointer(request%doses, doses, [1 + model%n, request%dose_count])
+      call set_options(request, model, now, doses, options)
       follows = request%time_count < 0
       if (follows) then
          followed%wanted = [(k, k=1, model%n)]
@@ -178,7 +194,6 @@ contains
                             integers_at(request%event_direction, request%event_count), &
                             integers_at(request%event_terminal, request%event_count) /= 0, &
                             integers_at(request%event_of_slope, request%event_count) /= 0)
-      call c_f_pointer(request%doses, doses, [1 + model%n, request%dose_count])
       from = request%t_start(1)
       do k = 1, request%dose_count + 1
          to = request%t_end
@@ -223,14 +238,26 @@ contains
    end subroutine run
 
    !> Method, tolerances and limits.
-   subroutine set_options(request, n, options)
+   subroutine set_options(request, model, start, doses, options)
       type(request_type), intent(in) :: request
-      integer, intent(in) :: n
+      type(model_type), intent(in) :: model
+      type(continuation_type), intent(in) :: start
+      real(wp), intent(in) :: doses(:, :)
       type(integration_options), intent(out) :: options
+      real(wp) :: sizes(model%n)
 
       options%method = string_of(request%method)
-      options%each_relative = reals_at(request%rtol, n)
-      options%each_absolute = reals_at(request%atol, n)
+      options%each_relative = reals_at(request%rtol, model%n)
+      sizes = max(0.0_wp, maxval(abs(doses(2:, :)), dim=2))
+      if (allocated(start%y)) then
+         sizes = max(sizes, abs(start%y), maxval(abs(start%coefficients(1, :, :)), dim=2))
+      end if
+      options%relative = minval(options%each_relative)
+      options = in_own_units(model, options, request%t_start(1), sizes)
+      if (c_associated(request%atol)) then
+         options%each_absolute = reals_at(request%atol, model%n)
+         options%share_of_largest = 0.0_wp
+      end if
       options%first_step = request%first_step
       options%longest_step = request%max_step
       options%most_steps = request%max_steps

@@ -68,9 +68,9 @@ contains
       call check_number(error, path//": observation", "t_path", observation%t_path, &
                         at_least=0.0_wp)
       call check_number(error, path//": observation", "sample_interval", &
-                        observation%sample_interval, at_least=max(1.0_wp, observation%t_path, &
-                                                                  observation%t_observed) &
-                        /most_samples)
+                        observation%sample_interval, above=0.0_wp, &
+                        at_least=max(0.0_wp, observation%t_path, &
+                                                  observation%t_observed)/most_samples)
       call points%open(path//": points", model, error)
       call read_histories(path, model, history, error)
    end subroutine read_attractors

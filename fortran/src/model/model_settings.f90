@@ -25,6 +25,8 @@ module model_settings
       !> Number of blocks of a chain, and what is beyond its ends
       integer :: blocks = 1
       character(len=word_length) :: ends = "free"
+      !> Whether its units follow from its motion; otherwise its numbers are of order 1
+      logical :: own_units = .false.
    contains
       procedure :: put => put_parameter
       procedure :: open => open_settings
@@ -94,6 +96,7 @@ contains
       call check_delays(model, place, numbers, error)
       call check_blocks(self, model, place, error)
       if (allocated(error)) return
+      model%own_units = self%own_units
       model%ends = self%ends
       if (size(model%sizes%couplings) > 0) then
          call find_neighbours(self%blocks, trim(self%ends), model%left, model%right)

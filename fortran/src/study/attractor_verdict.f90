@@ -149,7 +149,7 @@ contains
       signal = motion%signal_shown()
       value = size(signal) > 0
       if (value) value = maxval(abs(signal - signal(1))) &
-                         <= least_range*max(1.0_wp, abs(signal(1)))
+                         <= least_range*max(motion%unit, abs(signal(1)))
    end function is_at_rest
 
    !> Give a motion the class of a fixed point.

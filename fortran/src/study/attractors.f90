@@ -17,6 +17,7 @@ module attractors
                              not_stationary, three_torus, torus, undecided, unstable_rest
    use motion_path, only: follow_path
    use observed_motion, only: observed_motion_type
+   use natural_units, only: in_own_units
    use rest, only: exponents_at_rest, settles
    use section_motion, only: drifts
    use tangent_vectors, only: undisturbed_part
@@ -71,10 +72,10 @@ contains
       end if
       allocate (search%model, source=model)
       search%settings = settings
-      search%options = options
+      search%options = in_own_units(model, options)
       if (present(start)) attractor%motion%continuation = start
       if (.not. allocated(attractor%motion%continuation%y)) then
-         call integrate(model, 0.0_wp, 0.0_wp, options, outcome, error, &
+         call integrate(model, 0.0_wp, 0.0_wp, search%options, outcome, error, &
                         continuation=attractor%motion%continuation)
          if (allocated(error)) return
       end if
@@ -135,7 +136,8 @@ contains
          if (allocated(error) .or. attractor%class == fixed_point) return
          if (on_cycle(attractor%motion)) return
          if (part < approach_parts) cycle
-         if (.not. settles(attractor%motion%signal() - rest_level(search%model))) return
+         if (.not. settles(attractor%motion%signal() - rest_level(search%model), &
+                            search%model)) return
       end do
       attractor%reason = unstable_rest
    end subroutine approach
@@ -163,7 +165,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(exponent_type), allocatable :: exponents(:)
 
-      if (.not. settles(attractor%motion%signal() - rest_level(search%model))) return
+      if (.not. settles(attractor%motion%signal() - rest_level(search%model), search%model)) return
       call exponents_at_rest(search%model, &
                              search%most_exponents(search%settings%exponents), exponents, error)
       if (allocated(error)) return

@@ -12,6 +12,7 @@ module cycle_branches
    use model_modes, only: mode_of
    use model_problem, only: model_type
    use model_roots, only: check_rest
+   use natural_units, only: in_own_units
    use orbit_branch, only: branch_type, follow_branch
    use orbit_change, only: orbit_change_type
    use orbit_points, only: find_special_points
@@ -74,11 +75,11 @@ module cycle_branches
       character(len=120) :: reason = ""
    end type left_out_type
 
-   !> Amplitude of the first orbit at a Hopf point and at a period doubling
+   !> Amplitude of the first orbit at a Hopf point and at a period doubling, in units of the state
    real(wp), parameter :: first_amplitude = 0.01_wp
    !> Places of a line at which unstable roots are counted
    integer, parameter :: scan_places = 4000
-   !> Tolerance of trajectories, and the time in which a period is looked for
+   !> Tolerance of trajectories, and the time in which a period is looked for, in units of time
    real(wp), parameter :: tolerance = 1.0e-9_wp, search_time = 300.0_wp
    !> A branch ends at a Hopf point if parameter and period differ by less than this share. A
    !> trajectory reaches an orbit of a branch if period and amplitude differ by less than the
@@ -152,6 +153,7 @@ contains
          else if (is_known(settings, found, orbit)) then
             call leave_out("trajectory", settings%starts(i), "its cycle is on a branch")
          else
+            if (settings%line%model%own_units) orbit%unit = orbit%unit*orbit%amplitude()
             do direction = -1, 1, 2
                branches = size(found)
                call append(direction, "trajectory", settings%starts(i))
@@ -221,10 +223,11 @@ contains
 
       model = settings%line%model
       call model%put(settings%line%numbers_at(settings%starts(i)))
-      options%relative = tolerance
-      options%absolute = tolerance
+      options = in_own_units(model, integration_options(relative=tolerance, absolute=tolerance))
       call find_reached_orbit(model, settings%t_transient, options, basis, settings%intervals, &
                               orbit, error)
+      ! the size at the start, beside which a small orbit is rest
+      if (model%own_units) orbit%unit = maxval(options%each_absolute)/options%share_of_largest
    end subroutine orbit_at
 
    !> The cycle that a trajectory reaches, before it is corrected.
@@ -248,7 +251,7 @@ contains
       call integrate(model, 0.0_wp, time, options, outcome, error, continuation=arrived)
       if (allocated(error)) return
       call orbit_of_trajectory(model, options, arrived, model%sizes%observed%component, &
-                               search_time, basis, intervals, orbit, error)
+                               search_time*options%unit_of_time, basis, intervals, orbit, error)
       orbit%parameters = model%numbers
    end subroutine find_reached_orbit
 
@@ -297,7 +300,8 @@ contains
                if ((a%parameters(p) - orbit%parameters(p)) &
                    *(b%parameters(p) - orbit%parameters(p)) > 0.0_wp) cycle
                value = value .or. (is_between(orbit%period, a%period, b%period) .and. &
-                                   is_between(orbit%amplitude(), a%amplitude(), b%amplitude()))
+                                   is_between(orbit%unit*orbit%amplitude(), &
+                                              a%unit*a%amplitude(), b%unit*b%amplitude()))
             end associate
          end do
       end do

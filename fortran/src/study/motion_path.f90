@@ -12,7 +12,8 @@ module motion_path
    private
    public :: find_kept_points, follow_path
 
-   !> Longest time between two samples, and longest integral of a signal that is an exponential. If
+   !> Longest time between two samples, in units of time, and longest integral of a signal that is
+   !> an exponential. If
    !> its mean is one, there are about as many samples by time as by its integral, and events of any
    !> height are resolved.
    real(wp), parameter :: longest_time = 0.05_wp, longest_slip = 0.05_wp
@@ -25,6 +26,8 @@ module motion_path
       integer :: received = 0
       !> Time of the last one
       real(wp) :: last = 0.0_wp
+      !> Longest time between two
+      real(wp) :: step = longest_time
       !> Whether the signal is the exponential of its component
       logical :: is_exponential = .false.
    contains
@@ -70,7 +73,8 @@ contains
       start = here%time(1)
       samples%next = start
       samples%last = start + time
-      allocate (samples%rows(3, ceiling(time/longest_time)))
+      samples%step = longest_time*options%unit_of_time
+      allocate (samples%rows(3, ceiling(time/samples%step)))
       call integrate(model, start, samples%last, options, outcome, error, &
                      sampler=samples, continuation=here)
       if (allocated(error)) return
@@ -95,7 +99,7 @@ contains
          self%next = huge(1.0_wp)
          return
       end if
-      step = longest_time
+      step = self%step
       if (self%is_exponential) step = min(step, longest_slip*exp(-y(2)))
       ! time goes on however large the signal is
       self%next = self%next + max(step, spacing(self%next))

@@ -19,8 +19,8 @@ module observed_motion
       enumerator :: section = 1, maximum, minimum
    end enum
 
-   !> The component of the signal rises by this much at least from a minimum to a maximum. Where it
-   !> hardly changes, errors within the tolerance make smaller ones.
+   !> The component of the signal rises by this much at least, in its unit, from a minimum to a
+   !> maximum. Where it hardly changes, errors within the tolerance make smaller ones.
    real(wp), parameter :: least_rise = 1.0e-3_wp
 
    !> Samples that there is room for at first.
@@ -54,6 +54,8 @@ module observed_motion
       !> What is observed, and the level of the section
       type(observed_type), private :: observed
       real(wp), private :: level = 0.0_wp
+      !> Unit of the signal: 1, or in own units its size at the start or in the section
+      real(wp) :: unit = 1.0_wp
       !> Samples of the signal's component and of the coordinates
       type(even_sampler_type), private :: sampler
       !> Events since the motion arrived somewhere, and how many of them are kept
@@ -78,6 +80,9 @@ contains
       self%observed = model%sizes%observed
       self%level = section_level(model)
       self%sample_interval = sample_interval
+      if (model%own_units .and. .not. self%observed%is_exponential) then
+         self%unit = max(abs(self%level), abs(model%past(self%observed%component)))
+      end if
       call self%clear()
    end subroutine begin
 
@@ -226,7 +231,7 @@ contains
                select case (events%which(i))
                case (maximum)
                   self%highest = max(self%highest, value)
-                  if (value - self%lowest >= least_rise) then
+                  if (value - self%lowest >= least_rise*self%unit) then
                      peaks = peaks + 1
                      maxima(peaks) = value
                      self%lowest = huge(1.0_wp)

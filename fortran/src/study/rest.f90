@@ -45,22 +45,31 @@ contains
                               [(t_begin + (t_end - t_begin)*i/last, i=1, last - 1)])
       call integrate(model, 0.0_wp, t_end, options, outcome, error, sampler=samples)
       if (allocated(error)) return
-      if (.not. settles(maxval(abs(samples%values - rest_level(model)), dim=1))) return
+      if (.not. settles(maxval(abs(samples%values - rest_level(model)), dim=1), model)) return
       rest = count_roots(model, 0.0_wp) == 0
    end subroutine comes_to_rest
 
    !> Whether differences from rest stay small or decay; rest is the attractor if it is stable, too.
-   pure logical function settles(differences) result(value)
+   pure logical function settles(differences, model) result(value)
       !> Samples of the component of the signal less its value at rest
       real(wp), intent(in) :: differences(:)
+      !> The model; its unit is the signal at rest or, if that is larger, in the motion
+      class(model_type), intent(in), optional :: model
+      real(wp) :: unit
 
+      unit = 1.0_wp
+      if (present(model)) then
+         if (model%own_units .and. .not. model%sizes%observed%is_exponential) then
+            unit = max(abs(rest_level(model)), maxval(abs(differences)))
+         end if
+      end if
       ! one sample shows no approach
       value = size(differences) > 1
       if (.not. value) return
       associate (half => size(differences)/2)
          associate (first => maxval(abs(differences(:half))), &
                     second => maxval(abs(differences(half + 1:))))
-            value = second <= small .or. (second <= near .and. second <= shrunk*first)
+            value = second <= small*unit .or. (second <= near*unit .and. second <= shrunk*first)
          end associate
       end associate
    end function settles

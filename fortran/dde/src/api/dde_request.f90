@@ -33,8 +33,12 @@ module dde_request
       real(wp) :: absolute = 1.0e-9_wp
       !> Tolerances of each component in place of those two, shape (n)
       real(wp), allocatable :: each_relative(:), each_absolute(:)
+      !> Least absolute tolerance of a component over its largest value in the run so far
+      real(wp) :: share_of_largest = 0.0_wp
       !> Length of the first step; chosen by the solver when 0
       real(wp) :: first_step = 0.0_wp
+      !> A time on which the solution changes, > 0, from which the choice of the first step begins
+      real(wp) :: unit_of_time = 1.0_wp
       !> Longest step
       real(wp) :: longest_step = huge(1.0_wp)
       !> Most steps, accepted and rejected

@@ -20,8 +20,10 @@ module dde_tolerance
       !> The strictest relative tolerance above 0, which has no unit: orders and bounds of errors
       !> follow from it. Where all are 0 it is the strictest absolute one, as for a state of size 1.
       real(wp) :: level = 0.0_wp
+      !> Least absolute tolerance over the largest value so far
+      real(wp) :: share_of_largest = 0.0_wp
    contains
-      procedure, non_overridable :: scale, of_component
+      procedure, non_overridable :: scale, of_component, take_in
    end type tolerance_type
 
    interface tolerance_type
@@ -56,6 +58,16 @@ contains
 
       values = self%absolute + self%relative*abs(y)
    end subroutine scale
+
+   !> Take in values of a state.
+   pure subroutine take_in(self, y)
+      class(tolerance_type), intent(inout) :: self
+      real(wp), contiguous, intent(in) :: y(:)
+
+      if (self%share_of_largest > 0.0_wp) then
+         self%absolute = max(self%absolute, self%share_of_largest*abs(y))
+      end if
+   end subroutine take_in
 
    !> Tolerance of one component.
    pure real(wp) function of_component(self, i, value) result(tolerance)

@@ -101,6 +101,7 @@ contains
       self%points%remembers = present(continuation)
       self%context%tolerance = tolerance_type(problem%n, options%relative, options%absolute, &
                                               options%each_relative, options%each_absolute)
+      self%context%tolerance%share_of_largest = options%share_of_largest
       self%context%cursor = cursor_type(problem)
       self%context%work = work_type(problem%n)
       self%reach = max(options%past_kept, maxval(problem%lag))
@@ -111,22 +112,23 @@ contains
          call self%start_anew(instant(t_start), instant(t_end), options, error)
       end if
       if (self%lacking > 0.0_wp .or. allocated(error)) return
+      call self%context%tolerance%take_in(self%step%y)
       if (options%first_step > 0.0_wp) then
          self%h = options%first_step
       else if (.not. self%h > 0.0_wp .and. t_end > t_start) then
-         call choose_first_step(self%context, self%step, &
+         call choose_first_step(self%context, self%step, options%unit_of_time, &
                                 min(t_end - t_start, options%longest_step), self%h)
       end if
    end subroutine begin
 
    !> First step length: about a hundredth of |y|/|y'|, refined by the second derivative (Hairer,
    !> Norsett and Wanner 1993, sec. II.4).
-   pure subroutine choose_first_step(context, step, longest, h)
+   pure subroutine choose_first_step(context, step, unit, longest, h)
       type(step_context), intent(inout) :: context
       !> The step, its first slope known
       class(step_type), intent(inout) :: step
-      !> Time to the end of the run, or the longest step allowed, the shorter
-      real(wp), intent(in) :: longest
+      !> Unit of time; time to the end of the run, or the longest step allowed, the shorter
+      real(wp), intent(in) :: unit, longest
       real(wp), intent(out) :: h
       real(wp), allocatable :: slope_ahead(:)
       real(wp) :: bend, slope
@@ -134,24 +136,25 @@ contains
       allocate (slope_ahead, mold=step%slope)
       call context%tolerance%scale(step%y, step%scale)
       h = 1.0e-6_wp*longest
-      slope = length_of(step%slope, step%scale)
+      slope = unit*length_of(step%slope, step%scale)
       if (slope > hopeless) return
-      h = 1.0e-6_wp
+      h = 1.0e-6_wp*unit
       if (slope > 1.0e-5_wp .and. length_of(step%y, step%scale) > 1.0e-5_wp) then
-         h = 0.01_wp*length_of(step%y, step%scale)/slope
+         h = 0.01_wp*length_of(step%y, step%scale)/slope*unit
       end if
       h = min(h, longest, minval(context%problem%lag))
       call context%delayed_values([h], step%z)
       step%y_new = step%y + h*step%slope
       call context%evaluate(context%cursor%t + h, step%y_new, step%z, slope_ahead)
       slope_ahead = slope_ahead - step%slope
-      bend = length_of(slope_ahead, step%scale)
+      bend = unit*length_of(slope_ahead, step%scale)
       if (bend > hopeless) return
-      bend = bend/h
+      bend = bend/(h/unit)
       if (max(slope, bend) > 1.0e-15_wp) then
-         h = min(100.0_wp*h, (0.01_wp/max(slope, bend))**(1.0_wp/step%constants%error_order))
+         h = min(100.0_wp*h, &
+                 unit*(0.01_wp/max(slope, bend))**(1.0_wp/step%constants%error_order))
       else
-         h = min(100.0_wp*h, max(1.0e-6_wp, 1.0e-3_wp*h))
+         h = min(100.0_wp*h, max(1.0e-6_wp*unit, 1.0e-3_wp*h))
       end if
    end subroutine choose_first_step
 
@@ -212,7 +215,11 @@ contains
       type(continuation_type), intent(in) :: continuation
       character(len=8) :: method
       type(kink_type), allocatable :: kinks(:)
+      real(wp) :: largest(size(continuation%y))
 
+      largest = 0.0_wp
+      largest(continuation%kept) = max(0.0_wp, maxval(abs(continuation%coefficients(1, :, :)), 2))
+      call self%context%tolerance%take_in(largest)
       self%now = instant(continuation%time(1), continuation%time(2))
       self%h = continuation%next_step
       method = options%method
@@ -354,6 +361,7 @@ contains
       type(instant) :: horizon
 
       self%now = step_end
+      call self%context%tolerance%take_in(self%step%y)
       self%at_cause = .false.
       if (.not. landing) then
          call self%points%pass(step_end)

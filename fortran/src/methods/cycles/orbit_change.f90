@@ -49,7 +49,7 @@ contains
    end function parameter_direction
 
    !> The condition that the integral of x . x_ref' over the period is 0, divided by the norm of
-   !> x_ref'.
+   !> x_ref' and the unit.
    function phase_condition(reference, free) result(condition)
       !> The reference
       type(periodic_orbit_type), intent(in) :: reference
@@ -70,7 +70,7 @@ contains
             end associate
          end do
       end associate
-      condition%nodes = reference%functional(slope/sqrt(max(square, tiny(square))))
+      condition%nodes = reference%functional(slope/(sqrt(max(square, tiny(square)))*reference%unit))
       allocate (condition%parameters(free), source=0.0_wp)
    end function phase_condition
 
@@ -87,15 +87,16 @@ contains
       associate (m => orbit%basis%degree)
          allocate (values(size(orbit%nodes, 1), m, orbit%intervals()))
          do i = 1, size(values, 3)
-            values(:, :, i) = matmul(direction%nodes(:, (i - 1)*m + 1:i*m + 1), orbit%basis%value)
+            values(:, :, i) = matmul(direction%nodes(:, (i - 1)*m + 1:i*m + 1), orbit%basis%value) &
+                              /orbit%unit**2
          end do
       end associate
       condition = direction
       condition%nodes = orbit%functional(values)
    end function weights_of
 
-   !> Inner product of two changes of an orbit: the integral over the period, and the products of
-   !> the changes of period and parameters.
+   !> Inner product of two changes of an orbit: the integral over the period in units of the state,
+   !> and the products of the changes of period and parameters.
    real(wp) function inner_product(orbit, a, b) result(value)
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit

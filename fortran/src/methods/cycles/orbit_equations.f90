@@ -39,8 +39,8 @@ module orbit_equations
    !> A change so much larger than the orbit is divergence.
    real(wp), parameter :: divergence = 1.0e3_wp
 
-   !> The linear system of an iteration; the vector is the past, then the changes of the period and
-   !> of the free parameters.
+   !> The linear system of an iteration; the vector is the past in units of the state, then the
+   !> changes of the period and of the free parameters.
    type, extends(linear_map_type) :: orbit_map_type
       !> Collocation equations, prepared for the sums over the nodes in the conditions
       type(orbit_passes_type) :: linear
@@ -214,9 +214,9 @@ contains
       integer :: i, past
 
       past = self%linear%past_size()
-      call self%linear%pass(vector(:past), [residual, vector(past + 1:)], image(:past), &
-                            image(past + 1:), nodes)
-      image(:past) = vector(:past) - image(:past)
+      call self%linear%pass(self%linear%unit*vector(:past), [residual, vector(past + 1:)], &
+                            image(:past), image(past + 1:), nodes)
+      image(:past) = vector(:past) - image(:past)/self%linear%unit
       do i = 1, size(self%conditions)
          associate (c => self%conditions(i))
             image(past + i) = image(past + i) + c%period*vector(past + 1) &

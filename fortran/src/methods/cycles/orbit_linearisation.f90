@@ -73,6 +73,7 @@ contains
       self%n = problem%n
       self%degree = orbit%basis%degree
       self%intervals = orbit%intervals()
+      self%unit = orbit%unit
       call find_sources(self, problem, orbit, slope)
       forcings = 0
       if (present(further)) forcings = size(further, 4)

@@ -15,6 +15,8 @@ module orbit_passes
    type :: orbit_passes_type
       !> Number of equations n, degree m, intervals, and intervals of the past
       integer :: n = 0, degree = 0, intervals = 0, reach = 0
+      !> Unit of the state
+      real(wp) :: unit = 1.0_wp
       !> Components that are delayed
       integer, allocatable :: delayed(:)
       !> Which of them each delayed value is

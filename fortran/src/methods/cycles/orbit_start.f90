@@ -12,6 +12,7 @@ module orbit_start
    use linear_system, only: linear_part, linear_system_type
    use model_family, only: family_type
    use model_problem, only: model_type
+   use normal_form, only: first_lyapunov_coefficient
    use orbit_change, only: orbit_change_type
    use orbit_linearisation, only: linearise_orbit
    use orbit_mesh, only: adapted_mesh, uniform_mesh
@@ -121,7 +122,8 @@ contains
 
    !> The small orbit x = x0 + a Re(q exp(2 pi i s)), T = 2 pi/omega, near a Hopf point of the
    !> state at rest x0, where q is the null vector of the characteristic matrix at i omega and its
-   !> greatest component is 1.
+   !> greatest component is the unit: 1 or, in own units, the size of the cycle at which cubic terms
+   !> change its growth by omega.
    subroutine orbit_at_hopf_point(family, parameters, omega, amplitude, basis, intervals, orbit, &
                                   tangent, error)
       !> The model and its free parameters
@@ -141,8 +143,9 @@ contains
       !> There is no null vector
       type(error_type), allocatable, intent(out) :: error
       complex(wp), dimension(family%model%n) :: p, q
-      real(wp) :: state(family%model%n)
+      real(wp) :: l1, state(family%model%n)
       class(model_type), allocatable :: problem
+      type(error_type), allocatable :: failure
       type(linear_system_type) :: linear
       real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
       integer :: i
@@ -153,6 +156,11 @@ contains
       call null_vectors(linear%characteristic_matrix(cmplx(0.0_wp, omega, kind=wp)), q, p, error)
       if (allocated(error)) return
       q = q/q(maxloc(abs(q), dim=1))
+      if (problem%own_units) then
+         call first_lyapunov_coefficient(problem, omega, l1, failure)
+         if (.not. allocated(failure) .and. abs(l1) > 0.0_wp) orbit%unit = 1.0_wp/sqrt(abs(l1))
+         q = orbit%unit*q
+      end if
       orbit%basis = basis
       orbit%mesh = uniform_mesh(intervals)
       orbit%period = turn/omega
@@ -176,7 +184,7 @@ contains
       type(family_type), intent(in) :: family
       !> The period doubling
       type(special_point_type), intent(in) :: point
-      !> Largest change of a component
+      !> Largest change of a component, in its unit
       real(wp), intent(in) :: amplitude
       !> The orbit
       type(periodic_orbit_type), intent(out) :: orbit
@@ -202,7 +210,7 @@ contains
       last = size(point%orbit%nodes, 2)
       allocate (tangent%nodes(size(point%orbit%nodes, 1), 2*last - 1))
       associate (v => real(disturbances(:, :, critical)))
-         tangent%nodes(:, :last) = v/maxval(abs(v))
+         tangent%nodes(:, :last) = v/maxval(abs(v))*point%orbit%unit
       end associate
       tangent%nodes(:, last + 1:) = -tangent%nodes(:, 2:last)
       tangent%nodes(:, 2*last - 1) = tangent%nodes(:, 1)

@@ -16,6 +16,8 @@ module periodic_orbit
       real(wp), allocatable :: mesh(:)
       !> State at the nodes, shape (n, intervals m + 1); the last is the first
       real(wp), allocatable :: nodes(:, :)
+      !> Unit of the state, > 0, in which amplitudes and changes of it count
+      real(wp) :: unit = 1.0_wp
       !> Period T > 0
       real(wp) :: period = 0.0_wp
       !> Parameters of the problem family
@@ -98,6 +100,7 @@ contains
 
       orbit%basis = self%basis
       orbit%mesh = mesh
+      orbit%unit = self%unit
       orbit%period = self%period
       orbit%parameters = self%parameters
       associate (times => orbit%node_times())
@@ -118,11 +121,11 @@ contains
                                   size(self%nodes, 2))
    end function deviations
 
-   !> The largest range of a component, by the nodes.
+   !> The largest range of a component, by the nodes, in its unit.
    pure real(wp) function amplitude(self) result(value)
       class(periodic_orbit_type), intent(in) :: self
 
-      value = maxval(maxval(self%nodes, dim=2) - minval(self%nodes, dim=2))
+      value = maxval(maxval(self%nodes, dim=2) - minval(self%nodes, dim=2))/self%unit
    end function amplitude
 
    !> Number k of turns after which the mean of an orbit is taken if the parts of two orbits on the

@@ -104,7 +104,7 @@ contains
    pure real(wp) function least_size(self) result(z)
       class(torus_expansion_type), intent(in) :: self
 
-      z = share*self%orbit%amplitude()/(2.0_wp*maxval(abs(self%nodes(:, :, q))))
+      z = share*self%orbit%amplitude()*self%orbit%unit/(2.0_wp*maxval(abs(self%nodes(:, :, q))))
    end function least_size
 
    !> Forcings at the collocation points: real and imaginary part of that of h20, and that of h11; q

@@ -25,8 +25,8 @@ module torus_normal_form
    private
    public :: find_torus_coefficient
 
-   !> The linear equation of a term; the vector is its past, then the further unknown, each by real
-   !> and imaginary part. Forcings are numbered as in `orbit_passes`; 0 is none.
+   !> The linear equation of a term; the vector is its past in units of the state, then the further
+   !> unknown, each by real and imaginary part. Forcings have numbers as in `orbit_passes`, or 0.
    type, extends(linear_map_type) :: term_map_type
       !> Linear equations about the orbit
       type(orbit_passes_type) :: linear
@@ -119,7 +119,8 @@ contains
       allocate (h21(size(orbit%nodes, 1), size(orbit%nodes, 2)))
       call solve_term(map, h21, d, error)
       if (allocated(error)) return
-      coefficient = real(d)/orbit%period
+      coefficient = real(d)/(orbit%period*orbit%unit**2)
+      disturbed = disturbed/orbit%unit
    end subroutine find_torus_coefficient
 
    !> Weights w of the nodes with sum(w x) = mean of conjg(y) . x over the period.
@@ -189,7 +190,7 @@ contains
       real(wp) :: later(size(past), 2), sums(2, 2)
       integer :: i
 
-      associate (n => size(past))
+      associate (n => size(past), unit => self%linear%unit)
          past = cmplx(vector(:n), vector(n + 1:2*n), kind=wp)
          unknown = cmplx(vector(2*n + 1), vector(2*n + 2), kind=wp)
          factor = 0.0_wp
@@ -199,14 +200,14 @@ contains
          factor(self%given(2), 2) = given
          do i = 1, 2
             if (present(nodes)) then
-               call self%linear%pass(vector((i - 1)*n + 1:i*n), factor(1:, i), later(:, i), &
+               call self%linear%pass(unit*vector((i - 1)*n + 1:i*n), factor(1:, i), later(:, i), &
                                      sums(:, i), nodes(:, :, i))
             else
-               call self%linear%pass(vector((i - 1)*n + 1:i*n), factor(1:, i), later(:, i), &
+               call self%linear%pass(unit*vector((i - 1)*n + 1:i*n), factor(1:, i), later(:, i), &
                                      sums(:, i))
             end if
          end do
-         past = self%multiplier*past - cmplx(later(:, 1), later(:, 2), kind=wp)
+         past = self%multiplier*past - cmplx(later(:, 1), later(:, 2), kind=wp)/unit
          if (allocated(self%condition)) then
             unknown = cmplx(sums(1, 1) - sums(2, 2), sums(1, 2) + sums(2, 1), kind=wp)
          end if

@@ -168,7 +168,7 @@ contains
       tangent = tangent_problem_type(problem, settings%vectors())
       call start_vectors(tangent, approach, measured%continuation)
       call orthonormalise(tangent, vector_size, settings%across_flow, &
-                          measured%continuation, norm, share)
+                          measured%continuation, norm, share, options)
       ! no solution of the variational equations yet: a kink
       measured%continuation%rate = [approach%rate, (0.0_wp, i=1, tangent%n - problem%n)]
       intervals = intervals_in(settings%t_end - measured%t_begin, settings)
@@ -271,18 +271,26 @@ contains
       type(error_type), allocatable, intent(out) :: error
       class(interval_observer_type), intent(inout), optional :: observer
       type(continuation_type) :: before
+      type(integration_options) :: all
       type(integration_result) :: outcome
       real(wp) :: first_half(size(growth)), lost, norm(size(growth)), share
       real(wp), allocatable :: slope(:)
+      integer :: j
 
       growth = 0.0_wp
+      all = options
+      if (allocated(options%each_absolute)) then
+         ! components of vectors are of sizes in the ratio of those of the state
+         associate (a => options%each_absolute)
+            all%each_absolute = [a, (options%relative*a/maxval(a), j=1, tangent%vectors)]
+         end associate
+      end if
       lost = noise*max(options%relative, epsilon(1.0_wp))/vector_size
       before = measured%continuation
       if (present(observer)) then
-         call observer%observe_interval(tangent, time, options, outcome, error, &
-                                        measured%continuation)
+         call observer%observe_interval(tangent, time, all, outcome, error, measured%continuation)
       else
-         call integrate(tangent, before%time(1), time, options, outcome, error, &
+         call integrate(tangent, before%time(1), time, all, outcome, error, &
                         continuation=measured%continuation)
       end if
       if (allocated(error)) return
@@ -292,7 +300,7 @@ contains
       measured%implicit_steps = measured%implicit_steps + outcome%implicit_steps
       slope = measured%continuation%slope
       call orthonormalise(tangent, vector_size, settings%across_flow, &
-                          measured%continuation, norm, share)
+                          measured%continuation, norm, share, options)
       if (share > lost) then
          measured%least_share = min(measured%least_share, share)
          growth = log(norm/vector_size)
@@ -302,7 +310,7 @@ contains
          ! noise need not be orthogonal to the others, nor of this size
          measured%continuation%slope = slope
          call orthonormalise(tangent, vector_size, settings%across_flow, &
-                             measured%continuation, norm, share)
+                             measured%continuation, norm, share, options)
          if (present(observer)) call observer%keep_interval()
       else if (outcome%accepted <= 1 .and. .not. settings%bounds) then
          ! lost within a step
