@@ -46,7 +46,8 @@ def exponents_of(model: Model) -> list[str]:
 
 
 def logarithm_of(power: sympy.Pow) -> str:
-    """The text of the logarithm of a base; where the power is below exp(-FARTHEST), of a larger one."""
+    """The text of the logarithm of a base, of a larger one where the power is below
+    exp(-FARTHEST)."""
     base, exponent = text_of(power.base), text_of(power.exp)
     least = f"-{FARTHEST}.0_wp/max(abs({exponent}), 1.0_wp)"
     return f"max(log(max(abs({base}), tiny(1.0_wp))), {least})"

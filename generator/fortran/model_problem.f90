@@ -8,7 +8,8 @@ module model_problem
    use dde, only: problem_with_tangents
    use dde_kinds, only: wp
    use model_border, only: describe_line, expand, expand_tangents, find_delayed, find_exponents, &
-                           find_forms, find_jacobian, find_rate, find_rhs, find_state, list_terms, shape_type
+                           find_forms, find_jacobian, find_rate, find_rhs, find_state, &
+                           list_terms, shape_type
    use model_description, only: description_of, description_type, sizes_type, word_length
    implicit none (type, external)
    private

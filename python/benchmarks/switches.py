@@ -2,12 +2,12 @@
 """Errors of all methods where f saturates: thirty right-hand sides that switch.
 
     python python/benchmarks/switches.py > measured-switches.tsv
-    python python/benchmarks/switches.py picture measured-switches.tsv OLDER.tsv measured-switches.png
+    python python/benchmarks/switches.py picture OLDER.tsv measured-switches.tsv PICTURE.png
 
-In 24 of them x = -cos(t - lag) is known, lag 0 or 1/2, and z' = f(x) is integrated by quadrature. In
-six the switch acts back with delay 1: SciPy's DOP853 integrates them interval by interval in short
-steps. The error at the end is in units of the tolerance times the condition: the largest change at
-the end by a change of one state, at one of some times, over that change.
+In 24 of them x = -cos(t - lag) is known, lag 0 or 1/2, and z' = f(x) is integrated by quadrature.
+In six the switch acts back with delay 1: SciPy's DOP853 integrates them interval by interval in
+short steps. The error at the end is in units of the tolerance times the condition: the largest
+change at the end by a change of one state, at one of some times, over that change.
 """
 
 import sys
@@ -15,9 +15,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 
-import numpy as np
-
 import delaykit as dk
+import numpy as np
 
 METHODS = ("bs5", "dop853", "taylor", "radau5", "radau9", "radau13", "auto")
 TOLERANCES = tuple(10.0**-n for n in range(3, 11))
@@ -199,37 +198,40 @@ def feedback() -> list[Feedback]:
 
 
 def table() -> None:
-    """Print a row for each method, tolerance and problem."""
-    print("problem\tcondition\tmethod\ttolerance\terror")
-    for problem in [*driven(), *feedback()]:
-        for method in METHODS:
-            for tolerance in TOLERANCES:
+    """Print a row for each method and tolerance: the largest error and its problem."""
+    problems = [*driven(), *feedback()]
+    print("method\ttolerance\tlargest\tof\tmedian\trefused")
+    for method in METHODS:
+        for tolerance in TOLERANCES:
+            errors = {}
+            for problem in problems:
                 try:
-                    error = f"{problem.error(method, tolerance):.2g}"
+                    errors[problem.name] = problem.error(method, tolerance)
                 except dk.RunError:
-                    error = "refused"
-                print(
-                    f"{problem.name}\t{problem.condition:.2g}\t{method}\t{tolerance:.0e}\t{error}"
-                )
+                    errors[problem.name] = np.nan
+            values = np.array([*errors.values()])
+            worst = [*errors][np.nanargmax(values)]
+            largest, median = np.nanmax(values), np.nanmedian(values)
+            refused = np.isnan(values).sum()
+            print(f"{method}\t{tolerance:.0e}\t{largest:.2g}\t{worst}\t{median:.2g}\t{refused}")
 
 
-def picture(now: str, before: str, path: str) -> None:
-    """Draw the errors of two tables."""
+def picture(before: str, now: str, path: str) -> None:
+    """Draw the largest errors of two tables."""
     from matplotlib import pyplot as plt
 
     figure, panels = plt.subplots(1, 2, figsize=(6.7, 3.0), sharey=True, layout="constrained")
     for axes, title, source in zip(panels, ("before", "now"), (before, now), strict=True):
-        rows = np.genfromtxt(source, delimiter="\t", names=True, dtype=None, encoding="utf-8")
-        for place, method in enumerate(METHODS):
-            mine = rows[rows["method"] == method]
-            error = np.array([float(e) if e != "refused" else np.nan for e in mine["error"]])
-            shift = np.linspace(-0.3, 0.3, len(TOLERANCES))
-            at = place + shift[np.searchsorted(-np.log10(TOLERANCES), -np.log10(mine["tolerance"]) - 0.5)]
-            axes.plot(at, np.maximum(error, 1e-4), ".", markersize=3)
+        with open(source, encoding="utf-8") as file:
+            rows = [line.split("\t") for line in file][1:]
+        for method, marker in zip(METHODS, "ovs^<>D", strict=True):
+            mine = np.array([row[1:3] for row in rows if row[0] == method], float)
+            axes.plot(*mine.T, marker=marker, markersize=3, linewidth=0.8, label=method)
         axes.axhline(30, color="black", linewidth=0.8, linestyle="--")
-        axes.set(yscale="log", title=title, xticks=range(len(METHODS)))
-        axes.set_xticklabels(METHODS, rotation=45)
-    panels[0].set_ylabel("error / (tolerance × condition)")
+        axes.set(xscale="log", yscale="log", title=title, xlabel="tolerance")
+        axes.invert_xaxis()
+    panels[0].set_ylabel("largest error / (tolerance × condition)")
+    panels[1].legend(fontsize=7, ncols=2)
     figure.savefig(path, dpi=150)
 
 

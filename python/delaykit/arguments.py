@@ -208,7 +208,7 @@ class Arguments:
 
     def unit_of_time(self, past: np.ndarray) -> float:
         """The unit of times that are not given, of a model with constant states before."""
-        request, _ = self.request(Start(0.0, 0.0, past), 0.0)
+        request, _ = self.request(Start(Pieces.none(0.0, past, past)), 0.0)
         return LIBRARY.dk_unit_of_time(self.model.handle, ctypes.byref(request))
 
     def request(self, start: Start, t_end: float) -> tuple[Request, list]:

@@ -138,8 +138,9 @@ def integrate(
     if dosed := own.doses(doses, start.pieces.end[0], t_end):
         changes = np.array(dosed)
         request.doses, request.dose_count = address(changes), len(changes)
+    handle = model.handle
     try:
-        found = call(LIBRARY.dk_integrate, model.handle, ctypes.byref(request))
+        found = call(LIBRARY.dk_integrate, handle, ctypes.byref(request))
     except RunError as problem:
         problem.args = (own.in_names(str(problem)),)
         problem.partial = solution_of(own, problem.partial, events, start)

@@ -9,8 +9,8 @@
 !>
 !> Optional are - for implicit methods: `jacobian`, `lower` and `upper` of a banded one, and `rows`
 !> of delayed values, - for the method `taylor`: `series` and `past_series`, with `analytic` true, -
-!> for long Taylor steps where fast components are in balance: `relaxation_rate` and `slow_series`, -
-!> where f saturates: `exponents`, with their number in `exponentials`.
+!> for long Taylor steps where fast components are in balance: `relaxation_rate` and `slow_series`,
+!> - where f saturates: `exponents`, with their number in `exponentials`.
 module dde_problem
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde_kinds, only: wp

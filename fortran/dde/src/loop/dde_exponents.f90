@@ -104,11 +104,12 @@ contains
    end subroutine advance
 
    !> Change of an exponent within -far and far, from its values at the places.
-   pure real(wp) function change(a, far)
+   pure function change(a, far) result(value)
       real(wp), intent(in) :: a(3), far
+      real(wp) :: value
       real(wp) :: bend, extreme, least, most, rise, s
 
-      change = 0.0_wp
+      value = 0.0_wp
       if (.not. all(abs(a) < farthest)) return
       bend = a(1) - 2.0_wp*a(2) + a(3)
       rise = 4.0_wp*a(2) - 3.0_wp*a(1) - a(3)
@@ -119,6 +120,6 @@ contains
       end if
       least = min(extreme, minval(a)) - uncertain*abs(bend)
       most = max(extreme, maxval(a)) + uncertain*abs(bend)
-      change = max(-far, min(far, most)) - max(-far, min(far, least))
+      value = max(-far, min(far, most)) - max(-far, min(far, least))
    end function change
 end module dde_exponents

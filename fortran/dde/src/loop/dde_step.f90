@@ -92,8 +92,8 @@ contains
       call problem%initial(self%y)
    end subroutine allocate_state
 
-   !> After an attempt of the first step: refuse series of the problem that do not solve its equations. A
-   !> method without series has nothing to refuse.
+   !> After an attempt of the first step: refuse series of the problem that do not solve its
+   !> equations. A method without series has nothing to refuse.
    pure subroutine refuse_series(self, context, error)
       class(step_type), intent(inout) :: self
       type(step_context), intent(inout) :: context

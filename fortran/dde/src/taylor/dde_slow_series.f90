@@ -173,8 +173,10 @@ contains
       end do
       reach = exp(-max(log(last(1))/(degree - 1), log(last(2))/degree))
       growth = huge(1.0_wp)
-      ! one term may vanish by chance; if both are at the floor, nothing is known
-      if (last(2) > tiny(1.0_wp)) growth = max(last(1)/last(2), sqrt(last(0)/last(2)))
+      ! one term may vanish by chance; if others are at the floor, nothing is known
+      if (last(2) > tiny(1.0_wp) .and. max(last(0), last(1)) > tiny(1.0_wp)) then
+         growth = max(last(1)/last(2), sqrt(last(0)/last(2)))
+      end if
       reach = share*min(reach, growth, farthest)
    end subroutine series_reach
 end module dde_slow_series

@@ -137,7 +137,8 @@ contains
       call expect_close(error, [series%slope_of(1, 0.0_wp)], [6.0_wp], 1.0e-15_wp, "at the start")
       call expect_close(error, [series%slope_of(1, 0.25_wp)], [2.0_wp], 1.0e-15_wp, "in the middle")
       series%coefficients(3, 1) = ieee_value(1.0_wp, ieee_quiet_nan)
-      call expect_close(error, [series%slope_of(1, 0.0_wp)], [6.0_wp], 1.0e-15_wp, "where one is no number")
+      call expect_close(error, [series%slope_of(1, 0.0_wp)], [6.0_wp], 1.0e-15_wp, &
+                        "where one is no number")
    end subroutine test_slope
 
    !> One step of y' = y^2 from y(0) = 1.
