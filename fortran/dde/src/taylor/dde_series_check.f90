@@ -166,6 +166,7 @@ contains
       end if
       call raise(error, "integrate: series: the slope of component "//text(i)//" is " &
                  //text(found)//" at t = "//text(context%cursor%t + time)//", rhs gives " &
-                 //text(given)//"; the same expected (wrong from about coefficient "//text(wrong)//" on)")
+                 //text(given)//"; the same expected (wrong from about coefficient "//text(wrong) &
+                 //" on)")
    end subroutine find_wrong
 end module dde_series_check
