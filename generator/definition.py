@@ -40,7 +40,7 @@ TEXTS = ("fast", "event", "section", "integral")
 LARGEST_EXPONENT = 700
 """The argument of exp is refused beyond this, unless `domain` says otherwise or the exponential
 stands in a bounded quotient (saturation.py): exp(709.8) is the largest number."""
-LARGEST_POWER = 64
+LARGEST_POWER = 256
 """Largest exponent that is a number: 9**9**9 has more digits than there is memory for."""
 LARGEST_LOGARITHM = 700
 """Largest logarithm of a power of numbers: ((9**64)**64)**64 has a million digits."""
