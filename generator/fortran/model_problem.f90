@@ -314,12 +314,10 @@ contains
       real(wp), intent(in) :: z(0:degree, size(self%lag))
       real(wp), intent(inout) :: y(0:degree, self%n)
 
-      if (associated(self%code%slow_series)) then
-         call self%code%slow_series(self%shape, self%numbers, self%place, self%left, &
-                                    self%right, t, unit, degree, z, y)
-      else
-         y = ieee_value(1.0_wp, ieee_quiet_nan)
-      end if
+      if (.not. associated(self%code%slow_series)) y = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (.not. associated(self%code%slow_series)) return
+      call self%code%slow_series(self%shape, self%numbers, self%place, self%left, self%right, &
+                                 t, unit, degree, z, y)
    end subroutine slow_series
 
    !> Better Taylor coefficients of disturbances of the slow solution; not a number if there are
@@ -334,13 +332,10 @@ contains
       real(wp), intent(in) :: dz(0:degree, size(self%lag), vectors)
       real(wp), intent(inout) :: dy(0:degree, self%n, vectors)
 
-      if (associated(self%code%slow_tangent_series)) then
-         call self%code%slow_tangent_series(self%shape, self%numbers, self%place, self%left, &
-                                            self%right, t, unit, degree, z, before, y, vectors, &
-                                            dz, dy)
-      else
-         dy = ieee_value(1.0_wp, ieee_quiet_nan)
-      end if
+      if (.not. associated(self%code%slow_tangent_series)) dy = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (.not. associated(self%code%slow_tangent_series)) return
+      call self%code%slow_tangent_series(self%shape, self%numbers, self%place, self%left, &
+                                         self%right, t, unit, degree, z, before, y, vectors, dz, dy)
    end subroutine slow_tangent_series
 
    !> The state at rest; not a number if the definition has none.
