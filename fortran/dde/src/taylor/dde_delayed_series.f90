@@ -197,8 +197,8 @@ contains
       real(wp), intent(in) :: unit
       !> Length of the step: proposed, then possible
       real(wp), intent(inout) :: h
-      real(wp) :: actual, difference, own, time, wanted
-      integer(int64) :: first
+      real(wp) :: actual, agreed, difference, time, wanted
+      integer(int64) :: step
       integer :: k
 
       wanted = h
@@ -208,25 +208,23 @@ contains
                  component => context%problem%component, z => self%coefficients)
          do k = 1, size(z, 2)
             if (cursor%before_origin(k) .or. cursor%step(k) == past%newest) cycle
-            first = cursor%step(k)
-            own = past%length_of(first) - cursor%offset(k)
-            do while (h > own)
-               call cursor%read_from(past, k, first)
-               difference = 0.0_wp
-               time = own
-               do while (time < h)
-                  ! at the end of each past step: a pulse may be over at the end of this one
-                  call cursor%read_from(past, k, cursor%step(k) + 1)
-                  time = past%length_of(cursor%step(k)) - cursor%offset(k)
-                  if (cursor%step(k) == past%newest) time = h
-                  time = min(time, h)
-                  actual = past%value(cursor%step(k), k, cursor%offset(k) + time)
-                  difference = max(difference, &
-                                   abs(series_value(ubound(z, 1), z(:, k), time/unit) - actual) &
-                                   /(agreement*tolerance%of_component(component(k), actual)))
+            step = cursor%step(k)
+            agreed = past%length_of(step) - cursor%offset(k)
+            ! at the end of each past step: a pulse may be over at the end of this one
+            do while (h > agreed)
+               if (step < past%newest) step = step + 1
+               call cursor%read_from(past, k, step)
+               time = h
+               if (step < past%newest) time = min(h, past%length_of(step) - cursor%offset(k))
+               do
+                  actual = past%value(step, k, cursor%offset(k) + time)
+                  difference = abs(series_value(ubound(z, 1), z(:, k), time/unit) - actual) &
+                               /(agreement*tolerance%of_component(component(k), actual))
+                  if (difference <= 1.0_wp .or. time <= agreed) exit
+                  h = max(agreed, 0.9_wp*time/difference**(1.0_wp/ubound(z, 1)))
+                  time = h
                end do
-               if (difference <= 1.0_wp) exit
-               h = max(own, 0.9_wp*h/difference**(1.0_wp/ubound(z, 1)))
+               agreed = time
             end do
          end do
          do k = 1, size(z, 2)

@@ -24,6 +24,8 @@ module dde_taylor_step
    real(wp), parameter :: growth = 1000.0_wp
    !> A step of this share of the length to a breaking point ends there.
    real(wp), parameter :: nearly = 1.0_wp - 1.0e-8_wp
+   !> Shorter attempts along a slow series before it is left: one that holds needs one or two.
+   integer, parameter :: most_retries = 5
    !> Cost of a series over that of a right-hand side, divided by its degree (measured in
    !> instructions and time on a spring-block model).
    real(wp), parameter :: cost_of_degree = 0.75_wp
@@ -40,6 +42,8 @@ module dde_taylor_step
       integer, private :: wrong = 0
       !> Whether the series is that from the start of the step, which an earlier attempt found
       logical, private :: found = .false.
+      !> Shorter attempts along it
+      integer, private :: retries = 0
       !> Time along the series of the present state; negative if its slope was evaluated instead
       real(wp), private :: place = -1.0_wp
    contains
@@ -109,7 +113,8 @@ contains
          ! rejected: the series is not valid as far as its coefficients say
          self%series%reach = min(self%series%reach, h)
          self%valid_for = h
-         if (.not. self%series%slow%holds) return
+         self%retries = self%retries + 1
+         if (.not. self%series%slow%holds .or. self%retries <= most_retries) return
          call self%series%slow%give_up()
       end if
       held = self%series%slow%holds
@@ -133,6 +138,7 @@ contains
          end do
          self%place = 0.0_wp
          self%found = .true.
+         self%retries = 0
          self%valid_for = beyond*series%reach
          if (series%reach > 0.0_wp) h = possible
       end associate
