@@ -24,8 +24,8 @@ module dde_taylor_step
    real(wp), parameter :: growth = 1000.0_wp
    !> A step of this share of the length to a breaking point ends there.
    real(wp), parameter :: nearly = 1.0_wp - 1.0e-8_wp
-   !> Shorter attempts along a slow series before it is left: one that holds needs one or two.
-   integer, parameter :: most_retries = 5
+   !> A slow series is left if its residual is so many times the largest allowed, else shortened.
+   real(wp), parameter :: most_misfit = 5.0_wp
    !> Cost of a series over that of a right-hand side, divided by its degree (measured in
    !> instructions and time on a spring-block model).
    real(wp), parameter :: cost_of_degree = 0.75_wp
@@ -42,8 +42,8 @@ module dde_taylor_step
       integer, private :: wrong = 0
       !> Whether the series is that from the start of the step, which an earlier attempt found
       logical, private :: found = .false.
-      !> Shorter attempts along it
-      integer, private :: retries = 0
+      !> Residual of the last attempt over the largest allowed
+      real(wp), private :: misfit = 0.0_wp
       !> Time along the series of the present state; negative if its slope was evaluated instead
       real(wp), private :: place = -1.0_wp
    contains
@@ -113,8 +113,7 @@ contains
          ! rejected: the series is not valid as far as its coefficients say
          self%series%reach = min(self%series%reach, h)
          self%valid_for = h
-         self%retries = self%retries + 1
-         if (.not. self%series%slow%holds .or. self%retries <= most_retries) return
+         if (.not. self%series%slow%holds .or. self%misfit <= most_misfit) return
          call self%series%slow%give_up()
       end if
       held = self%series%slow%holds
@@ -138,7 +137,6 @@ contains
          end do
          self%place = 0.0_wp
          self%found = .true.
-         self%retries = 0
          self%valid_for = beyond*series%reach
          if (series%reach > 0.0_wp) h = possible
       end associate
@@ -174,6 +172,7 @@ contains
       if (.not. all(ieee_is_finite(self%y_new))) return
       call measure_residual(context, self%series, self%h, self%h, self%scale, self%y_new, self%z, &
                             self%slope, worst, error)
+      self%misfit = error
    end subroutine attempt
 
    !> The series of component `i`.
