@@ -288,7 +288,9 @@ contains
          ahead = length - cursor%offset(k)
          if (ahead >= cursor%h) return
          if (ahead > most) then
-            if (ahead < cursor%offset(k) .and. past%validity_of(first) > length) then
+            ! backwards no farther than it is long
+            if (ahead < min(cursor%offset(k), past%length_of(first + 1)) &
+                .and. past%validity_of(first) > length) then
                call cursor%read_from(past, k, first + 1)
             end if
             return

@@ -19,9 +19,8 @@ module dde_series_check
    real(wp), parameter :: allowance = 2.0_wp
    !> It may be off by this share of itself.
    real(wp), parameter :: rounding = 1.0e-13_wp
-   !> It may be off by this many times the change that the tolerance of state and delayed values
-   !> makes. In one direction of these, changes cancelled once in 1e5 steps.
-   real(wp), parameter :: most_tolerances = 10.0_wp
+   !> It may be off by the change that the tolerance of state and delayed values makes. In one
+   !> direction of these, changes cancelled once in 1e5 steps.
    integer, parameter :: directions = 3
    !> A first coefficient is refused if it is off by this many times what the tolerance makes: the
    !> series of delayed values may differ from them by some tolerances.
@@ -95,7 +94,7 @@ contains
          call context%problem%rhs(t, y + scale*[(sin(real(i*j, wp)), i=1, size(y))], &
                                   z(:, 1) + of_past*[(cos(real(i*j, wp)), i=1, size(z, 1))], &
                                   beside)
-         where (ieee_is_finite(beside)) allowed = max(allowed, most_tolerances*abs(beside - slope))
+         where (ieee_is_finite(beside)) allowed = max(allowed, abs(beside - slope))
       end do
       beside = [(over(abs(series%slope_of(i, time) - slope(i)), allowed(i)), i=1, size(y))]
       worst = maxloc(beside, dim=1)

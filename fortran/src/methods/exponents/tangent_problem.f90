@@ -182,6 +182,8 @@ contains
       class is (problem_with_tangents)
          associate (n => base%n, delays => size(base%lag))
             call base%series(t, unit, degree, z, y)
+            ! where a delayed value has none the vectors have none
+            if (.not. all(ieee_is_finite(y(1, :n)))) return
             call base%tangent_series(t, unit, degree, z, y, self%vectors, z(:, delays + 1:), &
                                      y(:, n + 1:))
          end associate
@@ -233,6 +235,8 @@ contains
          associate (n => base%n, delays => size(base%lag))
             before = y(:, :n)
             call base%slow_series(t, unit, degree, z, y)
+            ! without a slow solution there are no disturbances of it
+            if (.not. all(ieee_is_finite(y(0, :n)))) return
             call base%slow_tangent_series(t, unit, degree, z, before, y, self%vectors, &
                                           z(:, delays + 1:), y(:, n + 1:))
          end associate
