@@ -24,9 +24,8 @@ module dde_taylor_step
    real(wp), parameter :: growth = 1000.0_wp
    !> A step of this share of the length to a breaking point ends there.
    real(wp), parameter :: nearly = 1.0_wp - 1.0e-8_wp
-   !> A slow series is asymptotic, and its residual times the relaxation time is what counts: it is
-   !> left if the residual is so many times the largest allowed of others.
-   real(wp), parameter :: most_misfit = 3.0_wp
+   !> A slow series is left if its residual is so many times the largest allowed, else shortened.
+   real(wp), parameter :: most_misfit = 5.0_wp
    !> Cost of a series over that of a right-hand side, divided by its degree (measured in
    !> instructions and time on a spring-block model).
    real(wp), parameter :: cost_of_degree = 0.75_wp
@@ -114,7 +113,7 @@ contains
          ! rejected: the series is not valid as far as its coefficients say
          self%series%reach = min(self%series%reach, h)
          self%valid_for = h
-         if (.not. self%series%slow%holds .or. self%misfit <= 1.0_wp) return
+         if (.not. self%series%slow%holds .or. self%misfit <= most_misfit) return
          call self%series%slow%give_up()
       end if
       held = self%series%slow%holds
@@ -173,7 +172,6 @@ contains
       if (.not. all(ieee_is_finite(self%y_new))) return
       call measure_residual(context, self%series, self%h, self%h, self%scale, self%y_new, self%z, &
                             self%slope, worst, error)
-      if (self%series%slow%holds) error = error/most_misfit
       self%misfit = error
    end subroutine attempt
 
