@@ -107,6 +107,24 @@ def test_where_equations_saturate():
     np.testing.assert_allclose(curves.l1, 0, atol=1e-9)
 
 
+def test_exponents_of_stick_slip():
+    """Far from balance at the start, where slopes are 1e16: sizes of states are not theirs."""
+    block = {
+        "theta": "-v*(theta + (1 + epsilon)*log(v(t - tau)))",
+        "u": "expm1(w)",
+        "w": "-gamma**2/v*(u + (theta + log(v))/xi)",
+    }
+    numbers = {"tau": 0.4, "epsilon": 1.18, "xi": 0.5, "gamma": 1e8}
+    model = dk.Model(block, numbers, auxiliary={"v": "exp(w)"}, fast="w")
+    auto, radau = (
+        model.exponents(
+            {"theta": 0, "u": 0, "v": 1.5}, t_transient=500, t_end=600, interval=0.4, method=method
+        ).value
+        for method in ("auto", "radau9")
+    )
+    np.testing.assert_allclose(auto, radau, rtol=1e-5, atol=1e-7)
+
+
 def test_exponents_of_equations_with_time():
     """No disturbance along the flow stays: the exponents are Re W(-1) (DLMF 4.13), twice."""
     driven = dk.Model({"y": "-y(t - 1) + sin(t)"})

@@ -6,6 +6,7 @@ module linear_system
    use dde, only: find_jacobian
    use dde_kinds, only: wp
    use model_problem, only: model_type
+   use tangent_problem, only: allocate_slopes
    implicit none (type, external)
    private
    public :: find_full_jacobian, linear_part, linear_system_type
@@ -57,8 +58,7 @@ contains
          return
       end if
       associate (n => problem%n, upper => problem%upper, rows => problem%rows)
-         allocate (band(1 + problem%lower + upper, n))
-         allocate (columns(1 + maxval([0, rows(2, :) - rows(1, :)]), size(z)))
+         call allocate_slopes(problem, band, columns)
          call find_jacobian(problem, 0.0_wp, y, z, band, columns)
          by_y = 0.0_wp
          do column = 1, n

@@ -12,7 +12,7 @@ module tangent_problem
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: tangent_problem_type
+   public :: allocate_slopes, tangent_problem_type
 
    !> State y, then the tangent vectors delta_1, ..., delta_m; delayed values in the same order.
    type, extends(dde_problem_type) :: tangent_problem_type
