@@ -74,7 +74,7 @@ def test_model_of_a_user_reaches_the_program(with_model):
     config = checked(with_model)
     groups = scene_groups(config, "mg")
     model = {"name": "mackey_glass", "parameters": list(PLACE), "values": list(PLACE.values())}
-    assert groups["scene"]["model"] == model
+    assert groups["scene"]["model"] == {**model, "own_units": True}
     assert groups["histories"] == {"names": ["y"], "values": [1.2]}
     plane = atlas.groups(config, "mg", "1")
     assert [axis["along"] for axis in plane["points"]["axes"]] == ["n", "tau"]

@@ -5,7 +5,6 @@ module exponents_command
    use dde_errors, only: error_type
    use exponents_files, only: exponents_settings_type, read_exponents, write_exponents
    use lyapunov_spectrum, only: growth_settings_type, growth_type, measure_growth
-   use natural_units, only: in_own_units
    use progress, only: progress_type
    use rest, only: comes_to_rest
    use scene_input, only: scene_type
@@ -29,7 +28,7 @@ contains
 
       call read_exponents(namelist_path, scene, settings, error)
       if (allocated(error)) return
-      options = settings%options_of_runs(in_own_units(scene%problem, scene%options()))
+      options = settings%options_of_runs(scene%options())
       allocate (measured(size(options)))
       call comes_to_rest(scene%problem, scene%t_transient, settings%t_end, options(1), at_rest, &
                          error)

@@ -28,6 +28,9 @@ def with_model(config: dict, values: dict) -> dict:
     left_out = {*known, *of_chain, "law", "blocks", "ends"}
     rest = {key: value for key, value in values.items() if key not in left_out}
     model = {"name": values["law"]}
+    if not is_law(config, values["law"]):
+        # no number of it is known to be of order 1
+        model["own_units"] = True
     if is_chain:
         model |= {"name": CHAIN + values["law"], "blocks": values["blocks"], "ends": values["ends"]}
     # a namelist has no empty lists

@@ -8,6 +8,7 @@ module scene_input
    use model_attributes, only: put_history, put_model
    use model_history, only: history_type
    use model_problem, only: model_type
+   use natural_units, only: in_own_units
    use model_settings, only: model_settings_type
    use namelist_input, only: element_length, namelist_file_type, word_length
    use output_file, only: output_file_type
@@ -102,5 +103,6 @@ contains
 
       options = integration_options(method=trim(self%method), relative=self%tolerance, &
                                     absolute=self%tolerance)
+      options = in_own_units(self%problem, options)
    end function options_of_scene
 end module scene_input
