@@ -22,14 +22,19 @@ UNITS_OF_RUN, SHARE_LEFT_OUT = 400, 0.5
 """Length of a run in units of time where it is not given, and the share that is left out."""
 
 
-def extrema(model, sign: int, options: dict) -> np.ndarray:
-    """Values of a state at its maxima or minima after the transient."""
-    state = options.pop("state", model.states[0])
-    left_out = options.pop("t_transient", None)
+def set_end(model, options: dict) -> None:
+    """The end of a run where it is not given."""
     if options.get("t_end") is None:
         own = Arguments(model, options.get("parameters"))
         past = begin(own, options["history"], 0.0, None, (), np.ones(own.n), None).pieces.past
         options["t_end"] = UNITS_OF_RUN * own.unit_of_time(past)
+
+
+def extrema(model, sign: int, options: dict) -> np.ndarray:
+    """Values of a state at its maxima or minima after the transient."""
+    state = options.pop("state", model.states[0])
+    left_out = options.pop("t_transient", None)
+    set_end(model, options)
     if left_out is None:
         left_out = SHARE_LEFT_OUT * options["t_end"]
     word = "falling" if sign > 0 else "rising"
@@ -41,6 +46,7 @@ def extrema(model, sign: int, options: dict) -> np.ndarray:
 
 def final(model, options: dict) -> np.ndarray:
     """The state at the end."""
+    set_end(model, options)
     run = model.integrate(**{**options, "t_eval": [options["t_end"]]})
     return run.y[..., -1]
 

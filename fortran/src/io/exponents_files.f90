@@ -77,6 +77,7 @@ contains
       call check_count(error, path, "exponents%count", exponents%count, at_least=1, at_most=1000)
       call check_count(error, path, "exponents%batches", exponents%batches, at_least=2, &
                        at_most=100000)
+      call check_number(error, path, "exponents%t_end", exponents%t_end, above=opened%t_transient)
       call check_number(error, path, "exponents%interval", exponents%interval, &
                         at_least=exponents%t_end/most_samples*exponents%count)
    end subroutine read_exponents

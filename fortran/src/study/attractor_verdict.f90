@@ -19,7 +19,7 @@ module attractor_verdict
    use value_checks, only: missing, missing_count
    implicit none (type, external)
    private
-   public :: attractor_settings_type, attractor_type, judge, on_cycle, settle
+   public :: attractor_settings_type, attractor_type, is_at_rest, judge, on_cycle, settle
 
    !> A motion is at rest whose signal changes by less than this share.
    real(wp), parameter :: least_range = 1.0e-9_wp
@@ -86,11 +86,13 @@ module attractor_verdict
 contains
 
    !> The class by the observation so far. The spectrum is computed where it matters.
-   subroutine judge(settings, measured, last, attractor, error)
+   subroutine judge(settings, measured, flow, last, attractor, error)
       !> How an attractor is judged
       type(attractor_settings_type), intent(in) :: settings
       !> Growth of the vectors
       type(growth_type), intent(in) :: measured
+      !> Whether one more exponent is that of the flow, which is 0
+      logical, intent(in) :: flow
       !> Whether this is the last judgement
       logical, intent(in) :: last
       type(attractor_type), intent(inout) :: attractor
@@ -99,7 +101,7 @@ contains
       type(peak_type), allocatable :: peaks(:)
       logical :: clear
 
-      attractor%exponents = average_growth(measured%growth, measured%length, blocks=1, flow=.true.)
+      attractor%exponents = average_growth(measured%growth, measured%length, blocks=1, flow=flow)
       attractor%by_exponents = class_by_exponents(attractor%exponents, settings%zero_level, &
                                                   settings%longest_bar)
       clear = clear_by_exponents(attractor%exponents, sum(measured%length))
@@ -110,10 +112,8 @@ contains
       attractor%line_share = not_measured
       attractor%reason = no_class_by_exponents
       if (attractor%by_exponents == undecided .and. .not. last) return
-      if (attractor%by_exponents == cycle_motion .and. is_at_rest(attractor%motion)) then
+      if (attractor%by_exponents == fixed_point .and. is_at_rest(attractor%motion)) then
          call settle(attractor)
-         ! at rest the flow has no direction, and so no exponent
-         attractor%exponents = pack(attractor%exponents, abs(attractor%exponents%value) > 0.0_wp)
          return
       end if
       associate (motion => attractor%motion)
@@ -139,14 +139,15 @@ contains
                  attractor%class, attractor%reason)
    end subroutine judge
 
-   !> Whether the signal no longer changes: the model has come to another state of rest than that of
-   !> its definition.
+   !> Whether the signal has not changed in the second half of the observation: the model has come to
+   !> another state of rest than that of its definition.
    pure logical function is_at_rest(motion) result(value)
       type(observed_motion_type), intent(in) :: motion
 
       real(wp), allocatable :: signal(:)
 
       signal = motion%signal_shown()
+      signal = signal(1 + size(signal)/2:)
       value = size(signal) > 0
       if (value) value = maxval(abs(signal - signal(1))) &
                          <= least_range*max(motion%unit, abs(signal(1)))

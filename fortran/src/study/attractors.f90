@@ -5,7 +5,8 @@
 !> Then the motion is observed and its exponents are measured, for longer and longer times, until
 !> the class is certain or a limit is reached.
 module attractors
-   use attractor_verdict, only: attractor_settings_type, attractor_type, judge, on_cycle, settle
+   use attractor_verdict, only: attractor_settings_type, attractor_type, is_at_rest, judge, &
+                                on_cycle, settle
    use dde, only: continuation_type, integrate, integration_options, integration_result
    use dde_errors, only: error_type, raise
    use dde_kinds, only: wp
@@ -132,6 +133,7 @@ contains
                                        search%settings%t_transient/approach_parts, &
                                        search%options, error)
          if (allocated(error)) return
+         call attractor%motion%place_section()
          call judge_rest(search, attractor, error)
          if (allocated(error) .or. attractor%class == fixed_point) return
          if (on_cycle(attractor%motion)) return
@@ -181,7 +183,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(attractor_type) :: later
       type(growth_type) :: measured
-      logical :: last, reached, surviving, turned
+      logical :: flow, last, reached, surviving, turned
       real(wp) :: spent, time
       integer :: exponents
 
@@ -191,14 +193,22 @@ contains
       exponents = search%most_exponents(search%settings%exponents)
       spent = 0.0_wp
       time = search%settings%t_observed
+      ! at rest the flow has no direction, and so no exponent
+      flow = .not. is_at_rest(attractor%motion)
       if (.not. reached) call attractor%motion%clear()
       do
-         call go_on(search, exponents, time, attractor%motion, measured, error)
+         call go_on(search, exponents, flow, time, attractor%motion, measured, error)
          if (allocated(error)) return
          spent = spent + time
          last = spent >= search%longest_time()
          call judge_rest(search, attractor, error)
          if (allocated(error) .or. attractor%class == fixed_point) return
+         if ((flow .eqv. is_at_rest(attractor%motion)) .and. .not. last) then
+            flow = .not. flow
+            call attractor%motion%clear()
+            deallocate (measured%growth)
+            cycle
+         end if
          if (reached .neqv. on_cycle(attractor%motion)) then
             ! the motion before was the approach to a cycle, or the stay near an unstable one
             if (last .and. turned) then
@@ -213,7 +223,7 @@ contains
             deallocate (measured%growth)
             cycle
          end if
-         call judge(search%settings, measured, last, attractor, error)
+         call judge(search%settings, measured, flow, last, attractor, error)
          if (allocated(error)) return
          if (last .and. exponents < search%most_exponents(most_with_zeros) &
              .and. all(without_sign(attractor%exponents, search%settings%zero_level))) then
@@ -243,7 +253,7 @@ contains
             call judge_rest(search, attractor, error)
             if (allocated(error) .or. attractor%class == fixed_point) return
             later = attractor
-            call judge(search%settings, measured, last, later, error)
+            call judge(search%settings, measured, flow, last, later, error)
             if (allocated(error)) return
             if (later%reason == contradicted) then
                ! it was the approach to another motion
@@ -261,9 +271,10 @@ contains
    end subroutine judge_motion
 
    !> Observe the motion for a time, and measure exponents: go on, or begin if nothing was measured.
-   subroutine go_on(search, exponents, time, motion, measured, error)
+   subroutine go_on(search, exponents, flow, time, motion, measured, error)
       type(search_type), intent(in) :: search
       integer, intent(in) :: exponents
+      logical, intent(in) :: flow
       real(wp), intent(in) :: time
       type(observed_motion_type), intent(inout) :: motion
       type(growth_type), intent(inout) :: measured
@@ -276,7 +287,7 @@ contains
          wanted = growth_settings_type(exponents=exponents, t_turning=settings%t_turning, &
                                        t_end=now%time(1) + settings%t_turning + time, &
                                        interval=settings%interval, bounds=.true., &
-                                       across_flow=.true.)
+                                       across_flow=flow)
          if (allocated(measured%growth)) then
             call extend_growth(model, wanted, search%options, measured, error, motion)
          else

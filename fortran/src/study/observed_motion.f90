@@ -2,6 +2,7 @@
 !> What is kept of a motion: samples of the signal, its maxima that stand out, and the section, in
 !> which it rises through a level, with two coordinates of each point.
 module observed_motion
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use dde, only: continuation_type, dde_problem_type, event_table, integrate, &
                   integration_options, integration_result, sampler_type
    use dde_errors, only: error_type
@@ -54,6 +55,8 @@ module observed_motion
       !> What is observed, and the level of the section
       type(observed_type), private :: observed
       real(wp), private :: level = 0.0_wp
+      !> Whether the level is that of a motion, without a state at rest in the definition
+      logical, private :: placed = .false.
       !> Unit of the signal: 1, or in own units its size at the start or in the section
       real(wp) :: unit = 1.0_wp
       !> Samples of the signal's component and of the coordinates
@@ -64,8 +67,8 @@ module observed_motion
       !> Where the motion is; empty at its beginning
       type(continuation_type) :: continuation
    contains
-      procedure :: begin, clear, forget_path, observe, observe_interval, keep_interval, arrive, &
-         signal, signal_shown, scale
+      procedure :: begin, place_section, clear, forget_path, observe, observe_interval, &
+         keep_interval, arrive, signal, signal_shown, scale
    end type observed_motion_type
 
 contains
@@ -79,12 +82,24 @@ contains
 
       self%observed = model%sizes%observed
       self%level = section_level(model)
+      self%placed = ieee_is_nan(self%level)
+      if (self%placed) self%level = model%past(self%observed%component)
       self%sample_interval = sample_interval
       if (model%own_units .and. .not. self%observed%is_exponential) then
          self%unit = max(abs(self%level), abs(model%past(self%observed%component)))
       end if
       call self%clear()
    end subroutine begin
+
+   !> Without a state at rest the section is in the middle of the signal as far as it was observed.
+   pure subroutine place_section(self)
+      class(observed_motion_type), intent(inout) :: self
+
+      if (.not. self%placed) return
+      associate (signal => self%signal())
+         self%level = 0.5_wp*(minval(signal) + maxval(signal))
+      end associate
+   end subroutine place_section
 
    !> Forget the observations, not where the motion is.
    pure subroutine clear(self)

@@ -3,12 +3,12 @@
 !> roots.
 module rest
    use dde, only: integrate, integration_options, integration_result, table_sampler
-   use dde_errors, only: error_type
+   use dde_errors, only: error_type, raise
    use dde_kinds, only: wp
    use exponent_averages, only: exponent_type
    use model_levels, only: rest_level
    use model_problem, only: model_type
-   use model_roots, only: count_roots, find_rightmost
+   use model_roots, only: find_rightmost
    implicit none (type, external)
    private
    public :: comes_to_rest, exponents_at_rest, settles
@@ -19,11 +19,17 @@ module rest
    real(wp), parameter :: small = 1.0e-3_wp, near = 0.2_wp, shrunk = 0.8_wp
    !> Samples of a motion that may come to rest: of all blocks, and at least of each.
    integer, parameter :: samples_of_rest = 10000, least_samples = 500
+   !> Parts of the time in which it becomes slower, to this share at the end, by a slope so many
+   !> times its standard error; changes within so many tolerances are noise.
+   integer, parameter :: parts = 10
+   real(wp), parameter :: decayed = 0.95_wp, clear = 10.0_wp, above_noise = 100.0_wp
+   !> A history with slopes below this share of its states is at rest.
+   real(wp), parameter :: rounding = 100.0_wp*epsilon(1.0_wp)
 
 contains
 
-   !> Whether a motion from the model's own past comes to rest: its signal settles between two
-   !> times, and rest is stable, for a chain to all of its modes.
+   !> Whether a motion from the model's own past comes to rest, at the state of the definition or at
+   !> another: from part to part of a time it becomes slower.
    subroutine comes_to_rest(model, t_begin, t_end, options, rest, error)
       !> The model and its past
       class(model_type), intent(in) :: model
@@ -33,21 +39,65 @@ contains
       type(integration_options), intent(in) :: options
       !> Whether it comes to rest
       logical, intent(out) :: rest
-      !> The run ended before its time
+      !> The run began at rest, which rounding may leave, or ended before its time
       type(error_type), allocatable, intent(out) :: error
       type(integration_result) :: outcome
       type(table_sampler) :: samples
+      real(wp) :: slope(model%n)
       integer :: i, last
 
       rest = .false.
+      call model%rhs(0.0_wp, model%past, model%past(model%component), slope)
+      if (all(abs(slope)*options%unit_of_time <= rounding*abs(model%past)) &
+          .and. .not. model%sizes%driven) then
+         call raise(error, "exponents: the history is a state at rest, of which they are the real " &
+                    //"parts of roots; expected another history")
+         return
+      end if
       last = max(least_samples, samples_of_rest/model%shape%blocks)
-      samples = table_sampler([(i, i=model%sizes%observed%component, model%n, model%states())], &
+      ! of a chain the signal of each block
+      samples = table_sampler([(i, i=merge(1, model%sizes%observed%component, &
+                                           model%shape%blocks == 1), model%n, &
+                                merge(1, model%states(), model%shape%blocks == 1))], &
                               [(t_begin + (t_end - t_begin)*i/last, i=1, last - 1)])
       call integrate(model, 0.0_wp, t_end, options, outcome, error, sampler=samples)
       if (allocated(error)) return
-      if (.not. settles(maxval(abs(samples%values - rest_level(model)), dim=1), model)) return
-      rest = count_roots(model, 0.0_wp) == 0
+      rest = slows_down(samples%values, options)
    end subroutine comes_to_rest
+
+   !> Whether changes from sample to sample end below the tolerance, or decay: a line through the
+   !> logarithms of the largest ones in parts of the time falls, by far more than these scatter. A
+   !> motion that approaches a cycle may do so, too.
+   pure logical function slows_down(values, options) result(value)
+      !> Samples, shape (components, samples)
+      real(wp), intent(in) :: values(:, :)
+      !> Their tolerances
+      type(integration_options), intent(in) :: options
+      real(wp) :: change(parts), fastest(parts), line(parts), slope, x(parts)
+      integer :: first, i, part
+
+      fastest = 0.0_wp
+      do i = 1, size(values, 1)
+         do part = 1, parts
+            first = 1 + (part - 1)*(size(values, 2) - 1)/parts
+            associate (here => values(i, first:1 + part*(size(values, 2) - 1)/parts))
+               change(part) = maxval(abs(here(2:) - here(:size(here) - 1)))
+            end associate
+         end do
+         associate (noise => above_noise*(options%absolute + options%relative &
+                                          *maxval(abs(values(i, :)))))
+            if (change(parts) > noise) fastest = max(fastest, change/maxval(change))
+         end associate
+      end do
+      value = all(fastest <= 0.0_wp)
+      if (value .or. any(fastest <= 0.0_wp)) return
+      x = [(part - 0.5_wp*(parts + 1), part=1, parts)]
+      fastest = log(fastest)
+      slope = dot_product(x, fastest)/dot_product(x, x)
+      line = sum(fastest)/parts + slope*x
+      value = (parts - 1)*slope < log(decayed) .and. &
+              -slope*norm2(x) > clear*norm2(fastest - line)/sqrt(real(parts - 2, wp))
+   end function slows_down
 
    !> Whether differences from rest stay small or decay; rest is the attractor if it is stable, too.
    pure logical function settles(differences, model) result(value)
