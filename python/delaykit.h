@@ -66,10 +66,9 @@ double dk_unit_of_time(const dk_model *model, const dk_request *request);
 int32_t dk_integrate(const dk_model *model, const dk_request *request, dk_results **results,
                      char *message, int32_t length);
 
-/* The folder in which commands find models by name, for all threads. */
-void dk_folder(const char *path);
 /* A command of the program, attractors, cycles, exponents, hopf or linear_stability, with the path of
- * a namelist (`spring_block COMMAND --help` lists its keys). */
+ * a namelist (`spring_block COMMAND --help` lists its keys). It finds models by name in the folder of
+ * the namelist. */
 int32_t dk_command(const char *command, const char *namelist, dk_results **results, char *message,
                    int32_t length);
 

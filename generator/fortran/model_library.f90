@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Compiled models, opened by name: shared objects NAME.so in a folder. The folders are those of the
 !> environment variable `MODELS`, with colons between them, or else the folder `models` beside that
-!> of the program (`models_quad` of a program in quadruple precision).
+!> of the program (`models_quad` of a program in quadruple precision); before them that of a namelist.
 module model_library
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_procpointer, c_funptr, &
                                           c_null_char, c_ptr, c_size_t
@@ -15,10 +15,7 @@ module model_library
    use model_problem, only: code_type, model_type
    implicit none (type, external)
    private
-   public :: folders_given, list_models, open_model, open_object, path_of_model
-
-   !> Folders of models with colons between them, in place of those of the environment.
-   character(len=:), allocatable :: folders_given
+   public :: list_models, open_model, open_object, path_of_model
 
    !> Letters of paths, and of lists of names.
    integer, parameter :: path_length = 4096
@@ -61,16 +58,18 @@ module model_library
 contains
 
    !> Open a compiled model by its name. It has no parameters yet.
-   subroutine open_model(name, model, error)
+   subroutine open_model(name, model, error, beside)
       !> Name of the definition
       character(len=*), intent(in) :: name
       !> The model
       type(model_type), intent(out) :: model
       !> Error if there is no model of this name, or one that does not fit this program
       type(error_type), allocatable, intent(out) :: error
+      !> Path of a file in whose folder it is looked for first
+      character(len=*), intent(in), optional :: beside
       character(len=:), allocatable :: path
 
-      path = path_of_model(name)
+      path = path_of_model(name, beside)
       if (path == "") then
          call raise(error, "no model '"//name//"' in "//model_folders())
          return
@@ -136,8 +135,10 @@ contains
    end function list_models
 
    !> Path of the object of a model; empty if there is none. A name is no path.
-   function path_of_model(name) result(path)
+   function path_of_model(name, beside) result(path)
       character(len=*), intent(in) :: name
+      !> Path of a file in whose folder it is looked for first
+      character(len=*), intent(in), optional :: beside
       character(len=:), allocatable :: path, rest
       integer :: at
       logical :: there
@@ -145,6 +146,7 @@ contains
       path = ""
       if (verify(name, letters_of_names) > 0) return
       rest = model_folders()//":"
+      if (present(beside)) rest = beside(:index(beside, "/", back=.true.))//".:"//rest
       do while (len(rest) > 0)
          at = index(rest, ":")
          path = rest(:at - 1)//"/"//name//".so"
@@ -162,10 +164,6 @@ contains
       character(kind=c_char, len=path_length) :: program
       integer :: length
 
-      if (allocated(folders_given)) then
-         folders = folders_given
-         return
-      end if
       call get_environment_variable("MODELS", value, length)
       if (length > 0) then
          folders = trim(value)

@@ -40,10 +40,10 @@ SIGNS = ("negative", "zero", "positive", "unclear")
 
 def command(model, name: str, groups: Mapping, histories: Mapping | None = None) -> xr.Dataset:
     """Run a command of the library with a namelist of these groups."""
-    LIBRARY.dk_folder(str(model.path.parent).encode())
     lists = {"settings": groups} | ({"histories": histories} if histories else {})
     with tempfile.TemporaryDirectory(prefix="delaykit") as folder:
         path = Path(folder, f"{name}.nml")
+        path.with_name(model.path.name).symlink_to(model.path)
         f90nml.Namelist(lists).write(path)
         try:
             found = call(LIBRARY.dk_command, name.encode(), str(path).encode())

@@ -9,20 +9,12 @@ module delaykit_methods
    use exponents_command, only: run_exponents
    use hopf_command, only: run_hopf
    use linear_stability_command, only: run_linear_stability
-   use model_library, only: folders_given
    use output_file, only: place_of
    use results, only: results_type
    implicit none (type, external)
    private
 
 contains
-
-   !> Tell in which folder the models of commands are.
-   subroutine dk_folder(path) bind(c)
-      type(c_ptr), value :: path
-
-      folders_given = string_of(path)
-   end subroutine dk_folder
 
    !> Run a command; 0 if it succeeded, else 1 with a message.
    integer(c_int) function dk_command(name, namelist, result, message, length) result(status) &

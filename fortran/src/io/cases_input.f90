@@ -11,10 +11,10 @@ module cases_input
    use value_checks, only: absent, check_number, missing, most_samples
    implicit none (type, external)
    private
-   public :: case_settings_type, most_cases, open_cases
+   public :: case_settings_type, lines_of_case, most_cases, open_cases
 
-   !> Most cases in one file, and most states of a case.
-   integer, parameter :: most_cases = 1000, most_states = 16
+   !> Most cases in one file, lines of one in the copy of its namelist, and most states of a case.
+   integer, parameter :: most_cases = 1000, lines_of_case = 60, most_states = 16
 
    !> A case as the namelist gives it; all nondimensional.
    type :: case_settings_type

@@ -3,7 +3,7 @@
 !> samples.
 module measure_files
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use cases_input, only: case_settings_type, most_cases, open_cases
+   use cases_input, only: case_settings_type, lines_of_case, most_cases, open_cases
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
    use measured_case, only: case_type
@@ -57,7 +57,7 @@ contains
       namelist /settings/ cases, measure
 
       allocate (cases(most_cases))
-      call file%open(path)
+      call file%open(path, lines_of_case*most_cases)
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       ! gfortran cannot write a namelist with an array of no elements that have derived types
       cases = cases(:max(1, count(cases%name /= "")))

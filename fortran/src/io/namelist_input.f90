@@ -17,8 +17,8 @@ module namelist_input
    integer, parameter :: word_length = 256
    !> Length of a word in a list.
    integer, parameter :: element_length = 32
-   !> Length and number of lines that hold the longest namelist: 1000 cases.
-   integer, parameter :: line_length = 1024, most_lines = 60000
+   !> Length and usual number of lines that hold a namelist with all its keys.
+   integer, parameter :: line_length = 1024, usual_lines = 2000
    !> In place of a path: the keys of the group are written, and the program ends.
    character(len=*), parameter :: help = "--help"
    !> The group.
@@ -45,12 +45,18 @@ module namelist_input
 contains
 
    !> Open a namelist file for reading the group.
-   subroutine open_file(self, path)
+   subroutine open_file(self, path, lines)
       class(namelist_file_type), intent(out) :: self
       character(len=*), intent(in) :: path
+      !> Number of lines of its copy, if it may have more than usual
+      integer, intent(in), optional :: lines
 
       self%path = path
-      allocate (self%copy(most_lines))
+      if (present(lines)) then
+         allocate (self%copy(lines))
+      else
+         allocate (self%copy(usual_lines))
+      end if
       if (path == help) then
          open (newunit=self%unit, status="scratch", action="readwrite", iostat=self%status, &
                iomsg=self%reason)

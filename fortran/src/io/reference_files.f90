@@ -2,7 +2,7 @@
 !> What the program `reference` reads and writes: cases and how their references are computed;
 !> tables of text with 20 digits, more than a number in double precision holds.
 module reference_files
-   use cases_input, only: case_settings_type, most_cases, open_cases
+   use cases_input, only: case_settings_type, lines_of_case, most_cases, open_cases
    use dde_errors, only: error_type, text
    use dde_kinds, only: int64, wp
    use measured_case, only: case_type
@@ -59,7 +59,7 @@ contains
       namelist /settings/ cases, reference
 
       allocate (cases(most_cases))
-      call file%open(path)
+      call file%open(path, lines_of_case*most_cases)
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       ! gfortran cannot write a namelist with an array of no elements that have derived types
       cases = cases(:max(1, count(cases%name /= "")))

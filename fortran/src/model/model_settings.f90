@@ -68,10 +68,10 @@ contains
       integer :: block, i, number
 
       if (allocated(error)) return
-      if (path_of_model(trim(self%name)) == "") then
+      if (path_of_model(trim(self%name), place) == "") then
          call check_choice(error, place, "model", self%name, list_models(""))
       else
-         call open_model(trim(self%name), model, error)
+         call open_model(trim(self%name), model, error, place)
       end if
       if (allocated(error)) return
       if (present(at_rest)) then
