@@ -6,7 +6,7 @@ module exponents_command
    use exponents_files, only: exponents_settings_type, read_exponents, write_exponents
    use lyapunov_spectrum, only: growth_settings_type, growth_type, measure_growth
    use progress, only: progress_type
-   use rest, only: comes_to_rest
+   use rest, only: judge_flow
    use scene_input, only: scene_type
    implicit none (type, external)
    private
@@ -24,25 +24,22 @@ contains
       type(progress_type) :: report
       type(scene_type) :: scene
       integer :: i
-      logical :: at_rest, driven
+      logical :: neutral
 
       call read_exponents(namelist_path, scene, settings, error)
       if (allocated(error)) return
       options = settings%options_of_runs(scene%options())
       allocate (measured(size(options)))
-      call comes_to_rest(scene%problem, scene%t_transient, settings%t_end, options(1), at_rest, &
-                         error)
+      call judge_flow(scene%problem, scene%t_transient, settings%t_end, options(1), neutral, error)
       if (allocated(error)) return
       report = progress_type("exponents of "//trim(scene%name), parts=size(options))
-      ! at rest, and where time is in the equations, no exponent is that of the flow
-      driven = scene%problem%sizes%driven
       do i = 1, size(options)
          call report%begin_part(i)
          call measure_growth(scene%problem, &
                              growth_settings_type(settings%count, scene%t_transient, &
                                                   settings%t_end, settings%t_turning, &
                                                   settings%interval, settings%batches, &
-                                                  across_flow=.not. (at_rest .or. driven)), &
+                                                  across_flow=neutral), &
                              options(i), measured(i), error, progress=report)
          if (allocated(error)) return
       end do

@@ -112,7 +112,7 @@ contains
       attractor%line_share = not_measured
       attractor%reason = no_class_by_exponents
       if (attractor%by_exponents == undecided .and. .not. last) return
-      if (attractor%by_exponents == fixed_point .and. is_at_rest(attractor%motion)) then
+      if (is_at_rest(attractor%motion) .and. attractor%by_exponents /= chaos) then
          call settle(attractor)
          return
       end if

@@ -19,7 +19,7 @@ module attractors
    use motion_path, only: follow_path
    use observed_motion, only: observed_motion_type
    use natural_units, only: in_own_units
-   use rest, only: exponents_at_rest, settles
+   use rest, only: exponents_at_rest, faster, settles, trend_of
    use section_motion, only: drifts
    use tangent_vectors, only: undisturbed_part
    implicit none (type, external)
@@ -34,6 +34,9 @@ module attractors
    !> How close the line that is kept of a path is to it, as a share of its extent: one pixel in a
    !> plot of 250 pixels, and of 500 for a cycle.
    real(wp), parameter :: closeness_of_path = 1.0_wp/250.0_wp, closeness_of_cycle = 1.0_wp/500.0_wp
+
+   !> A motion that grows to so many times its size in one observation is without bound.
+   real(wp), parameter :: without_bound = 1.0e6_wp
 
    !> A model whose attractor is looked for.
    type :: search_type
@@ -225,6 +228,15 @@ contains
          end if
          call judge(search%settings, measured, flow, last, attractor, error)
          if (allocated(error)) return
+         if (attractor%class == cycle_motion) then
+            associate (signal => attractor%motion%signal())
+               if (trend_of(reshape(signal, [1, size(signal)]), search%options) == faster) then
+                  attractor%class = undecided
+                  attractor%reason = not_stationary
+                  if (abs(signal(size(signal))) > without_bound*abs(signal(1))) return
+               end if
+            end associate
+         end if
          if (last .and. exponents < search%most_exponents(most_with_zeros) &
              .and. all(without_sign(attractor%exponents, search%settings%zero_level))) then
             exponents = search%most_exponents(most_with_zeros)

@@ -65,9 +65,9 @@ module cycle_branches
       type(special_point_type), allocatable :: points(:)
    end type cycles_type
 
-   !> A start from which no branch was followed.
+   !> A start from which no branch was followed, or a special point that was not found.
    type :: left_out_type
-      !> 'hopf', 'trajectory' or 'period_doubling'
+      !> 'hopf', 'trajectory', 'period_doubling' or 'special point'
       character(len=16) :: origin = ""
       !> Parameter along the line
       real(wp) :: at = 0.0_wp
@@ -136,10 +136,14 @@ contains
          if (present(progress)) call progress%advance(i - 1, size(hopf) + size(settings%starts))
          if (is_end(settings, found, hopf(i))) cycle
          call orbit_at_hopf_point(how%family, hopf(i)%numbers, hopf(i)%omega, first_amplitude, &
-                                  basis, settings%intervals, orbit, tangent, error)
-         if (allocated(error)) return
-         call append(1, "hopf", hopf(i)%numbers(settings%line%along), tangent)
-         if (allocated(error)) return
+                                  basis, settings%intervals, orbit, tangent, failure)
+         associate (place => hopf(i)%numbers(settings%line%along))
+            if (allocated(failure)) then
+               call leave_out("hopf", place, failure%message)
+            else
+               call append(1, "hopf", place, tangent)
+            end if
+         end associate
       end do
       do i = 1, size(settings%starts)
          if (present(progress)) then
@@ -157,7 +161,6 @@ contains
             do direction = -1, 1, 2
                branches = size(found)
                call append(direction, "trajectory", settings%starts(i))
-               if (allocated(error)) return
                if (size(found) == branches) exit
                if (found(size(found))%branch%ending == "closed") exit
             end do
@@ -167,11 +170,15 @@ contains
          here = found(i)%points
          do j = 1, size(here)
             if (here(j)%kind /= period_doubling) cycle
-            call orbit_of_double_period(how%family, here(j), first_amplitude, orbit, tangent, error)
-            if (allocated(error)) return
-            call append(1, "period_doubling", here(j)%orbit%parameters(settings%line%along), &
-                        tangent)
-            if (allocated(error)) return
+            associate (place => here(j)%orbit%parameters(settings%line%along))
+               call orbit_of_double_period(how%family, here(j), first_amplitude, orbit, tangent, &
+                                           failure)
+               if (allocated(failure)) then
+                  call leave_out("period_doubling", place, failure%message)
+               else
+                  call append(1, "period_doubling", place, tangent)
+               end if
+            end associate
          end do
       end do
 
@@ -186,6 +193,9 @@ contains
          real(wp), intent(in) :: place
          type(orbit_change_type), intent(in), optional :: tangent
          type(cycles_type), allocatable :: longer(:)
+         type(error_type), allocatable :: reasons(:)
+         integer, allocatable :: missed(:)
+         integer :: k
 
          allocate (longer(size(found) + 1))
          longer(:size(found)) = found
@@ -196,7 +206,11 @@ contains
                call leave_out(origin, place, failure%message)
                return
             end if
-            call find_special_points(how, last%branch, last%points, error)
+            call find_special_points(how, last%branch, last%points, missed, reasons)
+            do k = 1, size(missed)
+               call leave_out("special point", last%branch%orbits(missed(k))%parameters( &
+                                               settings%line%along), reasons(k)%message)
+            end do
          end associate
          call move_alloc(longer, found)
       end subroutine append

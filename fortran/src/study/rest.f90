@@ -11,7 +11,7 @@ module rest
    use model_roots, only: find_rightmost
    implicit none (type, external)
    private
-   public :: comes_to_rest, exponents_at_rest, settles
+   public :: exponents_at_rest, faster, judge_flow, settles, trend_of
 
    !> A motion approaches rest if, in the second half of the observation, the component of the
    !> signal differs from its value at rest by at most `small`, or by at most `near` and at most
@@ -19,26 +19,30 @@ module rest
    real(wp), parameter :: small = 1.0e-3_wp, near = 0.2_wp, shrunk = 0.8_wp
    !> Samples of a motion that may come to rest: of all blocks, and at least of each.
    integer, parameter :: samples_of_rest = 10000, least_samples = 500
-   !> Parts of the time in which it becomes slower, to this share at the end, by a slope so many
-   !> times its standard error; changes within so many tolerances are noise.
+   !> Parts of the time in which a motion becomes slower or faster; the least logarithm of the change,
+   !> and the least slope in units of its standard error; changes within so many tolerances are
+   !> noise.
    integer, parameter :: parts = 10
-   real(wp), parameter :: decayed = 0.95_wp, clear = 10.0_wp, above_noise = 100.0_wp
+   real(wp), parameter :: least_change = 0.05_wp, clear = 10.0_wp, above_noise = 100.0_wp
+   enum, bind(c)
+      enumerator :: slower = -1, steady, faster
+   end enum
    !> A history with slopes below this share of its states is at rest.
    real(wp), parameter :: rounding = 100.0_wp*epsilon(1.0_wp)
 
 contains
 
-   !> Whether a motion from the model's own past comes to rest, at the state of the definition or at
-   !> another: from part to part of a time it becomes slower.
-   subroutine comes_to_rest(model, t_begin, t_end, options, rest, error)
+   !> Whether small disturbances along the flow neither decay nor grow: not where a motion from the
+   !> model's own past comes to rest, at the state of the definition or at another, or grows.
+   subroutine judge_flow(model, t_begin, t_end, options, neutral, error)
       !> The model and its past
       class(model_type), intent(in) :: model
       !> Time from which it is looked at, and time up to which
       real(wp), intent(in) :: t_begin, t_end
       !> Method and tolerances
       type(integration_options), intent(in) :: options
-      !> Whether it comes to rest
-      logical, intent(out) :: rest
+      !> Whether the exponent of the flow is 0
+      logical, intent(out) :: neutral
       !> The run began at rest, which rounding may leave, or ended before its time
       type(error_type), allocatable, intent(out) :: error
       type(integration_result) :: outcome
@@ -46,10 +50,10 @@ contains
       real(wp) :: slope(model%n)
       integer :: i, last
 
-      rest = .false.
+      neutral = .false.
+      if (model%sizes%driven) return
       call model%rhs(0.0_wp, model%past, model%past(model%component), slope)
-      if (all(abs(slope)*options%unit_of_time <= rounding*abs(model%past)) &
-          .and. .not. model%sizes%driven) then
+      if (all(abs(slope)*options%unit_of_time <= rounding*abs(model%past))) then
          call raise(error, "exponents: the history is a state at rest, of which they are the real " &
                     //"parts of roots; expected another history")
          return
@@ -62,13 +66,13 @@ contains
                               [(t_begin + (t_end - t_begin)*i/last, i=1, last - 1)])
       call integrate(model, 0.0_wp, t_end, options, outcome, error, sampler=samples)
       if (allocated(error)) return
-      rest = slows_down(samples%values, options)
-   end subroutine comes_to_rest
+      neutral = trend_of(samples%values, options) == steady
+   end subroutine judge_flow
 
-   !> Whether changes from sample to sample end below the tolerance, or decay: a line through the
-   !> logarithms of the largest ones in parts of the time falls, by far more than these scatter. A
-   !> motion that approaches a cycle may do so, too.
-   pure logical function slows_down(values, options) result(value)
+   !> Whether changes from sample to sample decay or end below the tolerance, whether they grow, or
+   !> neither: a line through the logarithms of the largest ones in parts of the time falls or rises
+   !> by far more than these scatter. It may fall on the approach to a cycle, too.
+   pure integer function trend_of(values, options) result(trend)
       !> Samples, shape (components, samples)
       real(wp), intent(in) :: values(:, :)
       !> Their tolerances
@@ -89,15 +93,17 @@ contains
             if (change(parts) > noise) fastest = max(fastest, change/maxval(change))
          end associate
       end do
-      value = all(fastest <= 0.0_wp)
-      if (value .or. any(fastest <= 0.0_wp)) return
+      trend = merge(slower, steady, all(fastest <= 0.0_wp))
+      if (any(fastest <= 0.0_wp)) return
       x = [(part - 0.5_wp*(parts + 1), part=1, parts)]
       fastest = log(fastest)
       slope = dot_product(x, fastest)/dot_product(x, x)
       line = sum(fastest)/parts + slope*x
-      value = (parts - 1)*slope < log(decayed) .and. &
-              -slope*norm2(x) > clear*norm2(fastest - line)/sqrt(real(parts - 2, wp))
-   end function slows_down
+      if ((parts - 1)*abs(slope) > least_change .and. &
+          abs(slope)*norm2(x) > clear*norm2(fastest - line)/sqrt(real(parts - 2, wp))) then
+         trend = merge(faster, slower, slope > 0.0_wp)
+      end if
+   end function trend_of
 
    !> Whether differences from rest stay small or decay; rest is the attractor if it is stable, too.
    pure logical function settles(differences, model) result(value)

@@ -7,7 +7,7 @@ module orbit_runs
    use dde, only: continuation_type, dde_problem_type, event_table, integrate, integration_result
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
-   use expectations, only: expect_success
+   use expectations, only: expect, expect_success
    use floquet_multipliers, only: find_multipliers, multipliers_type
    use mctc_env_testing, only: error_type
    use model_family, only: fixed_model
@@ -153,14 +153,15 @@ contains
       type(special_point_type), allocatable, intent(out) :: special(:)
       type(error_type), allocatable, intent(inout) :: error
       type(orbit_change_type), intent(in), optional :: tangent
-      type(failure_type), allocatable :: failure
+      type(failure_type), allocatable :: failure, reasons(:)
+      integer, allocatable :: missed(:)
 
       if (allocated(error)) return
       call follow_branch(settings, orbit, direction, branch, failure, tangent)
       call expect_success(error, failure)
       if (allocated(error)) return
-      call find_special_points(settings, branch, special, failure)
-      call expect_success(error, failure)
+      call find_special_points(settings, branch, special, missed, reasons)
+      call expect(error, size(missed) == 0, "all special points found")
    end subroutine branch_from
 
    !> The branch from a Hopf point.

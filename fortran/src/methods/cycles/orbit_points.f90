@@ -46,26 +46,30 @@ module orbit_points
 
 contains
 
-   !> All special points on a branch.
-   subroutine find_special_points(settings, branch, points, error)
+   !> Special points on a branch.
+   subroutine find_special_points(settings, branch, points, missed, reasons)
       !> How the branch was followed
       type(follow_settings_type), intent(in) :: settings
       !> The branch
       type(branch_type), intent(in) :: branch
       !> The points, in the order of the branch
       type(special_point_type), allocatable, intent(out) :: points(:)
-      !> A point was not found
-      type(error_type), allocatable, intent(out) :: error
+      !> Orbits after which multipliers change so that a point is there that was not found, and why
+      integer, allocatable, intent(out) :: missed(:)
+      type(error_type), allocatable, intent(out) :: reasons(:)
+      type(error_type), allocatable :: error
       integer :: i
 
-      allocate (points(0))
+      allocate (points(0), missed(0), reasons(0))
       do i = 1, size(branch%orbits) - 1
          call search_between(settings, branch%orbits(i), branch%orbits(i + 1), &
                              [sign(1.0_wp, branch%tangents(i)%parameters(1)), &
                               sign(1.0_wp, branch%tangents(i + 1)%parameters(1))], &
                              branch%multipliers(i), branch%multipliers(i + 1), most_halvings, &
                              points, error)
-         if (allocated(error)) return
+         if (.not. allocated(error)) cycle
+         missed = [missed, i]
+         reasons = [reasons, error]
       end do
    end subroutine find_special_points
 
