@@ -262,6 +262,16 @@ def smoke_config() -> dict:
 
 
 @pytest.fixture
+def styled() -> Iterator[None]:
+    """The style of all figures; none is left open for the next test."""
+    from scripts.drawing.style import STYLE, plt  # most tests draw nothing
+
+    with plt.style.context(STYLE):
+        yield
+    plt.close("all")
+
+
+@pytest.fixture
 def project(tmp_path) -> Project:
     """A fresh copy in which nothing was built."""
     return copy_of_project(tmp_path / "project")

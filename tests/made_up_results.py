@@ -76,6 +76,12 @@ def stability_row(scene: str = "mine", **given) -> dict:
     }
 
 
+def with_changes(*cells: str | float) -> Results:
+    """Results of scenes a, b, ... whose stability changes at these delays."""
+    scenes = zip("abc", cells, strict=False)
+    return Results(linear_stability=[stability_row(a, tau_of_changes=one) for a, one in scenes])
+
+
 def attractor_row(met: str, scene: str = "mine", history: int = 1, **given) -> dict:
     return {
         "scene": scene,

@@ -10,14 +10,9 @@ from made_up_results import of_other_model, trajectory
 from matplotlib import pyplot as plt
 
 from scripts.drawing import trajectories
-from scripts.drawing.style import METADATA, STYLE, break_titles, logged, save
+from scripts.drawing.style import METADATA, break_titles, logged, save
 
-
-@pytest.fixture(autouse=True)
-def _closed_figures():
-    """No test leaves a figure open for the next one."""
-    yield
-    plt.close("all")
+pytestmark = pytest.mark.usefixtures("styled")
 
 
 def test_dense_oscillations_are_drawn_as_their_envelope():
@@ -79,16 +74,15 @@ def test_saved_figures_have_the_same_bytes_each_time(tmp_path):
 
 def test_long_titles_are_broken_on_the_page():
     """Between words; formulas stay whole, and look as before."""
-    with plt.style.context(STYLE):
-        figure, panels = plt.subplots(1, 2)
-        formula = r"$\lambda = -0.01997 \pm 0.6527\,i$"
-        title = f"a scene {'with a long name ' * 5}and {formula}"
-        panels[0].set_title(title)
-        figure.suptitle(title + title)
-        panels[1].set_title(formula)
-        (whole,) = panels[1].findobj(lambda part: getattr(part, "get_text", str)() == formula)
-        before = whole.get_window_extent().width
-        break_titles(figure)
-        assert_on_page(figure)
-        assert whole.get_window_extent().width == before
-        assert formula.replace(" ", "") in figure.get_suptitle()
+    figure, panels = plt.subplots(1, 2)
+    formula = r"$\lambda = -0.01997 \pm 0.6527\,i$"
+    title = f"a scene {'with a long name ' * 5}and {formula}"
+    panels[0].set_title(title)
+    figure.suptitle(title + title)
+    panels[1].set_title(formula)
+    (whole,) = panels[1].findobj(lambda part: getattr(part, "get_text", str)() == formula)
+    before = whole.get_window_extent().width
+    break_titles(figure)
+    assert_on_page(figure)
+    assert whole.get_window_extent().width == before
+    assert formula.replace(" ", "") in figure.get_suptitle()

@@ -1,4 +1,4 @@
-"""The solver outside this project: installed, found, and built by projects of others."""
+"""The solver outside this project: installed, found, and built by a project of others."""
 
 import os
 import platform
@@ -10,9 +10,10 @@ from pathlib import Path
 import pytest
 
 PACKAGE = Path(__file__).parent.parent / "fortran" / "dde"
-OUTSIDE = Path(__file__).parent / "outside_projects"
+OUTSIDE = Path(__file__).parent / "outside_project"
+"""Built by CMake, by fpm, and by a compiler alone."""
 TOLERANCE = 1e-9
-"""Of the outside projects: the default of the solver."""
+"""Of the outside project: the default of the solver."""
 
 
 def run(*command, **settings) -> str:
@@ -58,7 +59,7 @@ def installed(tmp_path_factory) -> Path:
 def test_cmake_finds_it(installed, tmp_path):
     """In a project whose modules and targets have names that this project has, too."""
     where = [f"-DCMAKE_PREFIX_PATH={installed}"]
-    run("cmake", *where, "-S", OUTSIDE / "by_cmake", "-B", tmp_path)
+    run("cmake", *where, "-S", OUTSIDE, "-B", tmp_path)
     run("cmake", "--build", tmp_path)
     assert "100% tests passed" in run("ctest", "--test-dir", tmp_path)
     assert largest_error(run(tmp_path / "tester")) < 100 * TOLERANCE
@@ -84,7 +85,7 @@ def test_bounds_are_checked_where_the_manual_says(installed, tmp_path):
 
 def test_pkg_config_finds_it(installed, tmp_path):
     """Flags for a compiler without a build system."""
-    sources = [OUTSIDE / "by_cmake" / f"{name}.f90" for name in ("kinds", "errors", "tester")]
+    sources = [OUTSIDE / f"{name}.f90" for name in ("src/kinds", "src/errors", "app/main")]
     words = " ".join(f'"{path}"' for path in sources)
     run("sh", "-c", f"gfortran {words} -o mine {compiler_flags(installed)}", cwd=tmp_path)
     assert largest_error(run(tmp_path / "mine")) < 100 * TOLERANCE
@@ -93,7 +94,7 @@ def test_pkg_config_finds_it(installed, tmp_path):
 def test_fpm_builds_it(tmp_path):
     """From a copy of its folder alone."""
     copy_of_package(tmp_path / "dde")
-    shutil.copytree(OUTSIDE / "by_fpm", tmp_path / "mine")
+    shutil.copytree(OUTSIDE, tmp_path / "mine")
     printed = run("fpm", "run", cwd=tmp_path / "mine")
     assert largest_error(printed) < 100 * TOLERANCE
     assert "1.060954363" in run("fpm", "run", "--example", "--all", cwd=tmp_path / "dde")

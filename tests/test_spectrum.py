@@ -1,7 +1,6 @@
 """The spectrum program: against SciPy's Welch, and what its file says of known signals.
 
-Peaks, their labels and verdicts are shown by the suites spectrum, spectral_peaks, base_frequencies
-and spectrum_verdict.
+Peaks, their labels and verdicts are shown by the suite spectral_lines.
 """
 
 import numpy as np

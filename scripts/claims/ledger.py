@@ -4,13 +4,7 @@ import json
 from pathlib import Path
 
 from scripts.claims import claims_without_test  # noqa: F401  (it declares claims)
-from scripts.claims.claims_results import (
-    ANSWERS,
-    NOT_TESTABLE,
-    Finding,
-    Results,
-    read_results,
-)
+from scripts.claims.claims_results import ANSWERS, NOT_TESTABLE, Finding, Results, read_results
 from scripts.claims.declare import OURS, TESTS, Names, Test, declared_claims
 from scripts.config.check_config import in_words, validator_for
 from scripts.files import marked_words

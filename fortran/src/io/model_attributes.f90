@@ -1,7 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Models, their parameters and histories in files.
 module model_attributes
-   use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
    use model_description, only: description_type
    use model_history, only: history_type, signal_name

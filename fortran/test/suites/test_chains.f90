@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Chains of blocks: their modes are blocks with other parameters, and so are disturbances of blocks
-!> that move alike.
+!> Chains of blocks: their order, their modes, and disturbances of blocks that move alike. The suite
+!> generated_models shows that a mode is a block with other parameters.
 module test_chains
-   use block_builder, only: block_at, build_block, paper_law
+   use block_builder, only: build_block, paper_law
    use dde_kinds, only: wp
    use expectations, only: expect_close
    use mctc_env_testing, only: check, error_type, new_unittest, unittest_type
@@ -25,7 +25,6 @@ contains
 
       testsuite = [new_unittest("order of blocks", test_order), &
                    new_unittest("second differences of modes", test_modes), &
-                   new_unittest("linear part of modes", test_linear_part), &
                    new_unittest("disturbances of blocks that move alike", test_disturbances)]
    end subroutine collect_chains
 
@@ -114,44 +113,6 @@ contains
          end select
       end associate
    end function mode_shape
-
-   !> Each mode of the linear equations about rest is one block at gamma sqrt(s) and xi s.
-   subroutine test_linear_part(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(model_type) :: blocks, one
-      real(wp), allocatable :: band(:, :), dy(:), rows(:, :), z(:)
-      real(wp) :: by_y(3, 3), by_z(3, 1), d(3), s
-      integer :: first, i, j, k, last, m, n
-
-      do k = 1, size(chain_ends)
-         do i = 2, size(lengths)
-            n = lengths(i)
-            blocks = chain(n, chain_ends(k), kappa)
-            allocate (band(1 + blocks%lower + blocks%upper, 3*n), rows(3, n), dy(3*n))
-            z = [(0.0_wp, j=1, n)]
-            call blocks%jacobian(0.0_wp, [(0.0_wp, j=1, 3*n)], z, band, rows)
-            do m = merge(1, 0, chain_ends(k) == "plate"), n - 1
-               s = 1.0_wp + kappa*mode_eigenvalue(m, n, chain_ends(k))
-               one = block_at([7.0_wp, 0.7_wp, 0.5_wp*s, 0.8_wp*sqrt(s)])
-               call one%jacobian(0.0_wp, [0.0_wp, 0.0_wp, 0.0_wp], [0.0_wp], by_y, by_z)
-               d = uniform(m + 1, 3, -1.0_wp, 1.0_wp)
-               associate (mode => mode_shape(m, n, chain_ends(k)))
-                  dy = 0.0_wp
-                  do j = 1, 3*n
-                     first = max(1, j - blocks%upper)
-                     last = min(3*n, j + blocks%lower)
-                     dy(first:last) = dy(first:last) + d(1 + modulo(j - 1, 3))*mode((j + 2)/3) &
-                        *band(1 + blocks%upper + first - j:1 + blocks%upper + last - j, j)
-                  end do
-                  call expect_close(error, dy, [(mode(j)*matmul(by_y, d), j=1, n)], 1.0e-12_wp, &
-                                    trim(chain_ends(k)))
-                  call expect_close(error, [rows], [(by_z(:, 1), j=1, n)], 1.0e-13_wp, "delayed")
-               end associate
-            end do
-            deallocate (band, rows, dy)
-         end do
-      end do
-   end subroutine test_linear_part
 
    !> Along the motion of blocks that move alike, a disturbance of a mode is that of one block.
    subroutine test_disturbances(error)

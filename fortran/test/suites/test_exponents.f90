@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Lyapunov exponents against characteristic roots and published values;
-!> averages of growth and the dimension against values by hand.
+!> Lyapunov exponents against characteristic roots; averages of growth and the dimension against
+!> values by hand. Published values: python/gallery/mackey_glass.py.
 module test_exponents
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use block_builder, only: build_block
@@ -14,7 +14,6 @@ module test_exponents
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use model_problem, only: model_type
    use model_roots, only: find_rightmost
-   use published_problems, only: mackey_glass
    use pseudo_random, only: uniform
    use solving, only: at_tolerance
    use test_problems, only: linear, wille_baker
@@ -36,7 +35,6 @@ contains
       testsuite = [new_unittest("roots of a linear equation", test_linear), &
                    new_unittest("roots with two delays", test_two_delays), &
                    new_unittest("roots at rest", test_rest), &
-                   new_unittest("mackey-glass", test_mackey_glass), &
                    new_unittest("exponents across the flow", test_across), &
                    new_unittest("averages", test_averages), &
                    new_unittest("errors of averages", test_errors), &
@@ -162,34 +160,6 @@ contains
                              "steps over those at 0.8, tau = "//text(tau(j)))
       end do
    end subroutine test_rest
-
-   !> The equation of Mackey and Glass at tau = 17 and 23: the well-resolved values of the
-   !> literature, with bounds as wide as their spread.
-   subroutine test_mackey_glass(error)
-      type(error_type), allocatable, intent(out) :: error
-      real(wp), parameter :: tau(2) = [17.0_wp, 23.0_wp]
-      real(wp), parameter :: known(4, 2) = reshape( &
-         [0.00575_wp, 0.0_wp, -0.039_wp, -0.053_wp, &
-          0.0096_wp, 0.0_wp, -0.012_wp, -0.034_wp], [4, 2])
-      real(wp), parameter :: spread(4, 2) = reshape( &
-         [0.00175_wp, 5.0e-4_wp, 0.003_wp, 0.004_wp, &
-          0.002_wp, 5.0e-4_wp, 0.003_wp, 0.003_wp], [4, 2])
-      type(exponent_type), allocatable :: exponents(:)
-      integer :: i, j
-
-      do j = 1, size(tau)
-         call solve( &
-            mackey_glass(lag=tau(j:j)), &
-            growth_settings_type(exponents=4, t_begin=1000.0_wp, t_end=25000.0_wp, &
-                                 t_turning=700.0_wp, interval=20.0_wp, blocks=4), &
-            at_tolerance(1.0e-6_wp, "taylor"), exponents, error)
-         if (allocated(error)) return
-         do i = 1, 4
-            call expect_close(error, exponents(i)%value, known(i, j), spread(i, j), &
-                              "exponent "//text(i)//" at tau = "//text(tau(j)))
-         end do
-      end do
-   end subroutine test_mackey_glass
 
    !> The paper's cycle of figure 5a, and the torus at a longer delay.
    subroutine test_across(error)

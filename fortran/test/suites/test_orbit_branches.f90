@@ -1,14 +1,13 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Branches of periodic orbits and their special points, against published values, simulations on
-!> both sides, and other meshes.
+!> Branches of periodic orbits and their special points, against simulations on both sides and other
+!> meshes. Published values: python/gallery/neurons.py.
 module test_orbit_branches
    use block_builder, only: block_at, build_block, by_epsilon, by_tau, index_of_ln_v
    use branch_ends, only: follow_settings_type
    use dde, only: continuation_type, dde_problem_type
-   use dde_errors, only: failure_type => error_type, text
+   use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
-   use known_models, only: known_model, neurons
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use model_family, only: family_type
    use model_library, only: open_model
@@ -36,7 +35,6 @@ contains
                    new_unittest("a torus point of the block", test_torus), &
                    new_unittest("a period doubling and its branch", test_doubling), &
                    new_unittest("ends of a branch", test_ends), &
-                   new_unittest("neurons up to a homoclinic orbit", test_neurons), &
                    new_unittest("nearest resonances", test_resonances)]
    end subroutine collect_orbit_branches
 
@@ -250,57 +248,6 @@ contains
       if (allocated(error)) return
       call expect(error, branch%ending == "orbits" .and. size(branch%orbits) == 3, "three orbits")
    end subroutine test_ends
-
-   !> Neurons, "demo1" of DDE-BIFTOOL 3.1.1: the branch from the Hopf point at a21 = 0.8071232250
-   !> turns once and goes on to a double homoclinic orbit at a21 = 2.3459 to 2.3460: there is the
-   !> limit of a21 at long periods. A small orbit has the period 8.0354 at a21 = 0.8072.
-   subroutine test_neurons(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(follow_settings_type) :: settings
-      type(branch_type) :: branch
-      type(special_point_type), allocatable :: special(:)
-      real(wp), parameter :: hopf(2) = [0.8071232250_wp, 1.5_wp]
-      real(wp) :: a21(3)
-      integer :: i
-
-      settings%family = family_type(known_model(neurons, hopf), [1], [1.0_wp])
-      settings%window(:, 1) = [0.0_wp, 5.0_wp]
-      settings%longest_step = 1.5_wp
-      settings%longest_period = 120.0_wp
-      settings%refinement%accuracy = 1.0e-4_wp
-      call branch_from_hopf(settings, hopf, 0.7819651621_wp, 0.01_wp, branch, special, error)
-      if (allocated(error)) return
-      call expect(error, branch%ending == "period", "a long period")
-      ! a21 rounds to 0.8072 and the period to 8.0354 at the same amplitude
-      do i = 1, size(branch%orbits) - 1
-         associate (a => branch%orbits(i), b => branch%orbits(i + 1))
-            if (b%parameters(1) < 0.8072_wp) cycle
-            call expect_close(error, a%period + (b%period - a%period) &
-                              *(0.8072_wp - a%parameters(1))/(b%parameters(1) - a%parameters(1)), &
-                              8.0354_wp, 3.0e-4_wp, "period at a21 = 0.8072")
-            exit
-         end associate
-      end do
-      a21 = [(parameter_at(branch, 90.0_wp + 10.0_wp*i), i=1, 3)]
-      call expect_close(error, a21(3) - (a21(3) - a21(2))**2/(a21(3) - 2.0_wp*a21(2) + a21(1)), &
-                        2.34595_wp, 1.0e-4_wp, "a21 of the homoclinic orbit")
-      call expect(error, count(special%kind == fold) == 1, "one fold, not " &
-                  //text(count(special%kind == fold)))
-   end subroutine test_neurons
-
-   !> The first parameter on a branch at a period, by linear interpolation after it was last
-   !> shorter.
-   pure real(wp) function parameter_at(branch, period) result(value)
-      type(branch_type), intent(in) :: branch
-      real(wp), intent(in) :: period
-      integer :: i
-
-      i = findloc(branch%orbits%period < period, .true., dim=1, back=.true.)
-      associate (a => branch%orbits(i), b => branch%orbits(i + 1))
-         value = a%parameters(1) + (b%parameters(1) - a%parameters(1)) &
-                 *(period - a%period)/(b%period - a%period)
-      end associate
-   end function parameter_at
 
    !> The golden mean has the fractions of Fibonacci numbers.
    subroutine test_resonances(error)

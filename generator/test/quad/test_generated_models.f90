@@ -139,15 +139,13 @@ contains
       call expect(error, all(ieee_is_nan(model%steady_state())), "no steady state")
    end subroutine test_rest
 
-   !> All forms, and the published Hopf point with its first Lyapunov coefficient.
+   !> All forms, and the published Hopf point. python/gallery/neurons.py has its first Lyapunov
+   !> coefficient.
    subroutine test_neurons(error)
       type(error_type), allocatable, intent(out) :: error
       type(model_type) :: neurons
       type(characteristic_type) :: c
-      real(wp), parameter :: omega = 0.7819651621_wp
-      complex(wp), parameter :: s = (0.0_wp, omega)
-      complex(wp) :: delta(2, 2), none(2), p(2), q(2)
-      integer :: j
+      complex(wp), parameter :: s = (0.0_wp, 0.7819651621_wp)
 
       call open_there(error, "made_neuron", neurons)
       if (allocated(error)) return
@@ -160,37 +158,6 @@ contains
       c = characteristic_of(neurons)
       call expect_close(error, abs(c%value(s)), 0.0_wp, 1.0e-9_wp, &
                         "characteristic function at the Hopf point")
-      none = 0.0_wp
-      do j = 1, 2
-         q = merge(1.0_wp, 0.0_wp, [1, 2] == j)
-         delta(:, j) = s*q - neurons%derivative(reshape(history_of(q, q), [2, 5, 1]))
-      end do
-      q = [-delta(1, 2), delta(1, 1)]
-      q = q/sqrt(sum(abs(q)**2))
-      p = [-delta(2, 1), delta(1, 1)]
-      p = p/sum(p*(q - neurons%derivative(reshape(history_of(none, q, -neurons%lag), [2, 5, 1]))))
-      ! forms of order 2 are 0
-      associate (phi => history_of(q, q))
-         q = neurons%derivative(reshape([phi, phi, conjg(phi)], [2, 5, 3]))
-      end associate
-      call expect_close(error, 0.5_wp*real(sum(p*q))/omega, -0.39615712_wp, 1.0e-8_wp, &
-                        "first Lyapunov coefficient")
-
-   contains
-
-      !> A present state, and what is exp(s t) before, times factors.
-      pure function history_of(now, before, factor) result(history)
-         complex(wp), intent(in) :: now(2), before(2)
-         real(wp), intent(in), optional :: factor(4)
-         complex(wp) :: history(2, 5)
-         integer :: k
-
-         history(:, 1) = now
-         do k = 1, 4
-            history(:, 1 + k) = before*exp(-s*neurons%lag(k))
-            if (present(factor)) history(:, 1 + k) = history(:, 1 + k)*factor(k)
-         end do
-      end function history_of
    end subroutine test_neurons
 
    !> Whole runs of models written by hand; that of the enzyme has no series.

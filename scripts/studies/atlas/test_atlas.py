@@ -11,7 +11,6 @@ import pytest
 import xarray as xr
 from figure_contents import title_of, words_in
 from made_up_results import LINES, attractor_row
-from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.collections import PatchCollection, QuadMesh
 from matplotlib.colors import to_rgba
@@ -19,7 +18,6 @@ from matplotlib.figure import Figure
 
 from conftest import Programs
 from scripts.drawing import class_map
-from scripts.drawing.style import STYLE
 from scripts.files.tsv import read_table, write_table
 from scripts.namelists.laws import PAPER
 from scripts.namelists.write_namelist import write_namelist
@@ -28,6 +26,8 @@ from scripts.studies.atlas import play_data
 from scripts.studies.atlas.plan import groups, inputs, part_of
 from scripts.tables import attractor_tables
 from scripts.tables.motion_rows import COLOURS
+
+pytestmark = pytest.mark.usefixtures("styled")
 
 
 def test_table_holds_all_points_of_each_plane(smoke, smoke_config):
@@ -89,7 +89,6 @@ def test_points_not_computed_reach_table_figure_and_page(programs, tiny):
     known = np.array([row["class"] != "undecided" for row in rows])
     exponents = figure.axes[1].collections[0].get_array().filled(np.nan).ravel()
     assert np.isfinite(exponents[known]).all()
-    plt.close(figure)
     (plane,) = play_data.list_planes((row, None, 0.0) for row in rows)
     in_order = sorted(rows, key=lambda row: (row["tau"], row["epsilon"]))
     assert list(plane["words"]) == [i for i, row in enumerate(in_order) if row not in taken]
@@ -139,14 +138,6 @@ def test_first_lines_of_a_small_atlas_are_not_too_far_apart(
     own_config["atlas"] |= {**counts, "parts": 1, "refinements": 2}
     points = groups(own_config, "fault", "1")["points"]
     assert points["refinements"] == refinements
-
-
-@pytest.fixture(autouse=True)
-def _style():
-    """That of all figures, and none is left open."""
-    with plt.style.context(STYLE):
-        yield
-    plt.close("all")
 
 
 def a_row(met: str, epsilon: float, tau: float = 7.0, xi: float = 0.5, **given) -> dict:

@@ -1,13 +1,7 @@
 """Roots of (5), and what motions do where one is unstable."""
 
 import pytest
-from made_up_results import (
-    NO,
-    YES,
-    Results,
-    attractor_row,
-    hopf_curve,
-)
+from made_up_results import NO, YES, Results, attractor_row, hopf_curve
 
 from scripts.studies.atlas.claims import roots_decide
 from scripts.tables.roots_of_5 import unstable_roots

@@ -3,14 +3,7 @@
 import math
 
 import pytest
-from made_up_results import (
-    NO,
-    PARTLY,
-    YES,
-    Results,
-    attractor_row,
-    stability_row,
-)
+from made_up_results import NO, PARTLY, YES, Results, attractor_row, stability_row
 
 from scripts.studies.attractors.claims import attractor_class, positive_exponent
 

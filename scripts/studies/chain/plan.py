@@ -23,10 +23,7 @@ def measured_chains(config: dict) -> dict[str, list[str]]:
     return {kind: paths_of_scenes(kind, names) for kind in ("trajectories", "exponents")}
 
 
-FIGURE = {
-    "category": "Chains",
-    "variables": ("v",),
-}
+FIGURE = {"category": "Chains", "variables": ("v",)}
 STUDY = Study(
     reads=("exponents", "linear_stability", "scenes"),
     tables=(

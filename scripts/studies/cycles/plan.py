@@ -22,10 +22,7 @@ def groups(config: dict, cycle_line: str) -> dict[str, dict]:
         how |= {"curves_along": list(curves), "curves_windows": [*chain(*curves.values())]}
     # a namelist has no empty lists
     own = {key: value for key, value in line.items() if key != "curves" and value != []}
-    return {
-        "cycles": with_model(config, {**how, **own}),
-        "histories": histories_group([history]),
-    }
+    return {"cycles": with_model(config, {**how, **own}), "histories": histories_group([history])}
 
 
 def cycles_of_lines(config: dict) -> list[str]:

@@ -19,20 +19,20 @@ from made_up_results import (
     stability_row,
     torus_point,
 )
-from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from scripts.claims import ledger  # noqa: F401  (it loads the tests of all studies)
 from scripts.drawing.special_points import STYLES
-from scripts.drawing.style import STYLE
 from scripts.namelists.laws import PAPER
 from scripts.studies.cycles import figure as cycles
 from scripts.studies.cycles.branches import branch_of, cycles_there
 from scripts.studies.cycles.claims import second_hopf, torus_of_scene
 from scripts.studies.cycles.plan import sweeps_on_lines
 from scripts.studies.cycles.table import COLUMNS, rows_of, sweeps_over
+
+pytestmark = pytest.mark.usefixtures("styled")
 
 
 def sweep(*motions: tuple[str, float], run: str = "up", **given) -> list[dict]:
@@ -211,14 +211,6 @@ def test_second_hopf(met, tau, given, verdict):
 
 
 STABLE, ONE, TWO, MANY = (style["color"] for style in cycles.LINES)
-
-
-@pytest.fixture(autouse=True)
-def _style():
-    """That of all figures, and none is left open."""
-    with plt.style.context(STYLE):
-        yield
-    plt.close("all")
 
 
 @pytest.fixture

@@ -2,12 +2,4 @@
 
 from scripts.plans.declare import MAIN, Figure, Study
 
-STUDY = Study(
-    figures=(
-        Figure(
-            "figure_1",
-            category=MAIN,
-            place=10,
-        ),
-    )
-)
+STUDY = Study(figures=(Figure("figure_1", category=MAIN, place=10),))

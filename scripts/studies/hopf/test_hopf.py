@@ -18,7 +18,7 @@ from made_up_results import (
     changed,
     hopf_curve,
     on_plane,
-    stability_row,
+    with_changes,
 )
 from matplotlib import pyplot as plt
 
@@ -152,14 +152,6 @@ def test_table_of_the_workflow(smoke):
 
 FIRST = np.arange(12) < 3
 """Three of the points of a curve."""
-
-
-def with_changes(*cells: str | float) -> Results:
-    """Results of scenes a, b, ... whose stability changes at these delays."""
-    rows = [
-        stability_row(name, tau_of_changes=cell) for name, cell in zip("abc", cells, strict=False)
-    ]
-    return Results(linear_stability=rows)
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from characteristic_equation import residual
-from made_up_results import NO, YES, Results, stability_row
+from made_up_results import NO, YES, with_changes
 
 from scripts.claims.claims_results import changes
 from scripts.files.tsv import read_table
@@ -88,14 +88,6 @@ def test_bound_too_far_is_refused(programs, good_inputs):
     assert run.returncode == 1
     assert "a bound nearer to 0 expected" in run.stderr
     assert programs.left_behind() == []
-
-
-def with_changes(*cells: str | float) -> Results:
-    """Results of scenes a, b, ... whose stability changes at these delays."""
-    rows = [
-        stability_row(name, tau_of_changes=cell) for name, cell in zip("abc", cells, strict=False)
-    ]
-    return Results(linear_stability=rows)
 
 
 def test_changes_of_a_cell():

@@ -5,11 +5,12 @@ import pytest
 import xarray as xr
 from figure_contents import points_in
 from made_up_results import NO, PARTLY, YES, Results, attractor_row, spectrum
-from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 
 from scripts.studies.paper_scenes import portraits, spectra
 from scripts.studies.paper_scenes.claims import single_peak, spectrum_class
+
+pytestmark = pytest.mark.usefixtures("styled")
 
 
 @pytest.mark.parametrize(
@@ -41,16 +42,7 @@ def test_scene_without_spectrum_is_an_error():
         single_peak(Results(spectra={"mine": spectrum()}), scene="other")
 
 
-@pytest.fixture(autouse=True)
-def _closed_figures():
-    """No test leaves a figure open for the next one."""
-    yield
-    plt.close("all")
-
-
 BASE, HARMONIC, OTHER = (0.1, 9.0, 0, 1, 0), (0.2, 5.0, 1, 2, 0), (0.27, 1.0, 4, 0, 0)
-
-
 SECOND = (0.35, 4.0, 2, 0, 1)
 
 

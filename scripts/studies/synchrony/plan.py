@@ -23,12 +23,5 @@ def inputs(config: dict) -> dict:
 STUDY = Study(
     reads=("scenes",),
     runs=(Run("synchrony_runs", "synchrony", "synchrony/{scene}.nc", groups, **LONG_RUN),),
-    figures=(
-        Figure(
-            "synchrony",
-            category="Chains",
-            place=420,
-            inputs=inputs,
-        ),
-    ),
+    figures=(Figure("synchrony", category="Chains", place=420, inputs=inputs),),
 )

@@ -1,1 +1,0 @@
-../../by_cmake/tester.f90

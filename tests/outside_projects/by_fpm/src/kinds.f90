@@ -1,1 +1,0 @@
-../../by_cmake/kinds.f90
