@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A model with constant delays: its equations, parameters, and what can be computed of it."""
 
+import copy
 import ctypes
 from collections.abc import Mapping
 from functools import cached_property
@@ -167,51 +168,25 @@ class Model:
         LIBRARY.dk_delays(self.handle, address(numbers), address(lags), ctypes.byref(count))
         return lags[: count.value].copy()
 
-    def integrate(self, history=None, t_end=None, **options) -> "runs.Solution":
-        """A run as plain arrays; the arguments are those of `run`."""
-        return runs.integrate(self, history, t_end, **options)
+    integrate = runs.integrate
+    section = runs.section
+    scan = scans.scan
+    exponents = methods.exponents
+    attractor = methods.attractor
+    roots = methods.roots
+    hopf = methods.hopf
+    cycle = methods.cycle
 
-    def run(self, history=None, t_end=None, **options):
-        """A run as an xarray.Dataset; `runs.integrate` explains the arguments."""
-        return runs.integrate(self, history, t_end, **options).to_dataset()
-
-    def section(self, history, t_end, event, **options):
-        """The points at which a run passes a level; `runs.section` explains them."""
-        return runs.section(self, history, t_end, event, **options)
-
-    def scan(self, measure="maxima", **options):
-        """What is measured of runs over arrays of parameters; `scans.scan` explains it."""
-        return scans.scan(self, measure, **options)
-
-    def exponents(self, history, count=4, **options):
-        """Lyapunov exponents; `methods.exponents` explains them."""
-        return methods.exponents(self, history, count, **options)
-
-    def attractor(self, history, **options):
-        """The class of a motion; `methods.attractor` explains it."""
-        return methods.attractor(self, history, **options)
-
-    def roots(self, bound=-1.0, **options):
-        """Characteristic roots at rest; `methods.roots` explains them."""
-        return methods.roots(self, bound, **options)
-
-    def hopf(self, along, window, **options):
-        """Hopf curves in a plane; `methods.hopf` explains them."""
-        return methods.hopf(self, along, window, **options)
-
-    def cycle(self, start, along, window, **options):
-        """Branches of cycles; `methods.cycle` explains them."""
-        return methods.cycle(self, start, along, window, **options)
+    def run(self, *arguments, **options):
+        """A run as an xarray.Dataset; the arguments are those of `integrate`."""
+        return self.integrate(*arguments, **options).to_dataset()
 
     def resting(self, near: Mapping | None) -> "Model":
         """The model with a state at rest, looked for near a guess unless it has one."""
         if near is None:
             return self
-        other = object.__new__(type(self))
-        other.__dict__.update(self.__dict__)
-        other.__dict__.pop("path", None)
-        other.__dict__.pop("handle", None)
         guess = {key: number_of(f"near {key}", value) for key, value in near.items()}
+        other = copy.copy(self)
         other.definition = {**self.definition, "steady_state": {"near": guess}}
         return other
 
