@@ -37,15 +37,6 @@ def test_events_of_a_run(sine):
     np.testing.assert_allclose(found.event_y, [1, -1, 1], atol=1e-7)
 
 
-def test_hopf_counts_one_real_root():
-    """Of s = a + b exp(-s) one root is real and unstable where a + b > 0, and no pair is here."""
-    linear = dk.Model({"y": "a*y + b*y(t - 1)"}, {"a": 0, "b": 0}, steady_state={"y": 0})
-    found = linear.hopf(("a", "b"), ((-3, 3), (0, 4)), cells=10)
-    assert found.sizes["point"] == 0
-    unstable = found.map_abscissa + found.map_ordinate > 0
-    assert (found.map_unstable_roots == unstable.transpose(*found.map_unstable_roots.dims)).all()
-
-
 @pytest.mark.parametrize(
     ("method", "option", "value"),
     [
@@ -66,10 +57,6 @@ def test_numbers_that_no_memory_holds_are_refused(sine, method, option, value):
         arguments = (("lag", "gain"), ((0.1, 2), (0.1, 2)))
     with pytest.raises(dk.DelaykitError, match=rf"{option}(:| =) {value}.*; expected "):
         getattr(sine, method)(*arguments, **given, **{option: value})
-
-
-def test_no_root_above_a_bound_is_no_root(sine):
-    assert sine.roots(10, near={"y": 0}).size == 0
 
 
 def test_pictures(mackey_glass, sine):

@@ -11,12 +11,15 @@ import sys
 import textwrap
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 import delaykit as dk
 import numpy as np
 import pytest
 
 from conftest import MACKEY_GLASS, NUMBERS
+
+METHODS = ("auto", "bs5", "dop853", "taylor", "radau5", "radau13")
 
 
 def test_published_values(mackey_glass):
@@ -25,7 +28,7 @@ def test_published_values(mackey_glass):
     np.testing.assert_allclose(run.y[0], [1.06095436, 1.18671810], rtol=1e-8)
 
 
-@pytest.mark.parametrize("method", ["auto", "bs5", "dop853", "taylor", "radau5", "radau13"])
+@pytest.mark.parametrize("method", METHODS)
 def test_a_history_that_is_a_function(sine, method):
     t = np.linspace(0, 20, 41)
     run = sine.integrate(math.sin, 20, t_eval=t, method=method, rtol=1e-10, atol=1e-10)
@@ -110,7 +113,6 @@ def test_an_exponential_of_a_state():
     np.testing.assert_allclose(run.v[-1], 0.5, atol=1e-9)
 
 
-METHODS = ("auto", "bs5", "dop853", "taylor", "radau5", "radau13")
 SATURATED = {
     "1/(1 + exp(c(t - 1)))": lambda c: float(c < 0),
     "exp(2*c(t - 1))/(1 + exp(c(t - 1)))**2": lambda c: float(c > 0),
@@ -230,18 +232,9 @@ def test_what_was_reached_before_an_error():
 
 
 def test_other_processes_and_threads(mackey_glass):
-    expected = mackey_glass.integrate(1.2, 50, t_eval=[50]).y
-    found = []
-    threads = [
-        threading.Thread(
-            target=lambda: found.append(mackey_glass.integrate(1.2, 50, t_eval=[50]).y)
-        )
-        for _ in range(4)
-    ]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
+    expected = at_fifty(mackey_glass)
+    with ThreadPoolExecutor(4) as pool:
+        found = [*pool.map(at_fifty, [mackey_glass] * 4)]
     for way in ("fork", "spawn"):
         with multiprocessing.get_context(way).Pool(1) as pool:
             found.append(pool.apply(pickle.loads(pickle.dumps(at_fifty)), (mackey_glass,)))
