@@ -6,6 +6,7 @@ This pays where v' needs fewer convolutions than the recurrence of the exponenti
 v' is linear, and w' = v'/v takes one.
 """
 
+from collections import defaultdict
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -103,7 +104,7 @@ def flow_with(model: Model, integrated: dict[str, str]) -> Flow:
 def conditions_of(model: Model, equations: dict, names: dict) -> list[dict[str, set[str]]]:
     """Conditions under which equations have no value, with their states; one dict for each depth of
     nesting."""
-    found: dict[sympy.Expr, tuple[int, str, set[str]]] = {}
+    levels: defaultdict[int, dict[str, set[str]]] = defaultdict(dict)
 
     def visit(one: sympy.Expr, state: str) -> int:
         depth = max([visit(argument, state) for argument in one.args], default=0)
@@ -120,21 +121,14 @@ def conditions_of(model: Model, equations: dict, names: dict) -> list[dict[str, 
             text = f".not. abs({text_of(one.base, names)}) > 0.0_wp"
         if text is None or not one.free_symbols & model.variables:
             return depth
-        found.setdefault(one, (depth, text, set()))[2].add(state)
+        levels[depth].setdefault(text, set()).add(state)
         return depth + 1
 
     for state, equation in equations.items():
         visit(model.plain(equation), state)
-    outer = {
-        window_condition(names[model.symbol(state)], window): {state}
-        for state, window in model.domain.items()
-    }
-    levels: list[dict[str, set[str]]] = [outer]
-    for depth, text, states in found.values():
-        while len(levels) <= depth + 1:
-            levels.append({})
-        levels[depth + 1].setdefault(text, set()).update(states)
-    return [level for level in levels if level]
+    for state, window in model.domain.items():
+        levels[-1][window_condition(names[model.symbol(state)], window)] = {state}
+    return [levels[depth] for depth in sorted(levels)]
 
 
 def window_condition(name: str, window: tuple[float, float]) -> str:
@@ -147,21 +141,20 @@ def refusals(
     model: Model,
     equations: dict[str, sympy.Expr],
     names: dict,
-    result: str,
-    *,
+    *results: str,
     of: Callable[[str], str] | None = None,
     in_lanes: bool = False,
 ) -> list[str]:
     """Statements that end a procedure with no number where an equation has no value.
 
-    With `of` only the elements of these equations are no numbers, else the whole result.
+    With `of` only the elements of these equations are no numbers, else all of the results.
     """
     lines = []
     for level in conditions_of(model, equations, names):
         conditions = [f"any({one})" for one in level] if in_lanes else level
-        marked = [f"   {result} = ieee_value(1.0_wp, ieee_quiet_nan)"]
+        marked = [f"   {result} = ieee_value(1.0_wp, ieee_quiet_nan)" for result in results]
         if of:
-            marked = [f"   {result} = 0.0_wp"] + [
+            marked = [f"   {result} = 0.0_wp" for result in results] + [
                 f"   if ({condition}) {of(state)} = ieee_value(1.0_wp, ieee_quiet_nan)"
                 for condition, states in level.items()
                 for state in sorted(states)
