@@ -61,6 +61,18 @@ def with_model(config) -> dict:
     return config
 
 
+def refusal(config: dict, path: tuple[str, ...], value) -> str:
+    """Place, what was met, and what is expected, where a value is put at a place."""
+    *place, key = path
+    section = config
+    for step in place:
+        section = section.setdefault(step, {})
+    section[key] = copy.deepcopy(value)
+    with pytest.raises(ConfigError, match="config") as refused:
+        checked(config)
+    return str(refused.value)
+
+
 def test_default_of_a_parameter_reaches_the_program(with_law):
     groups = scene_groups(checked(with_law), "torus")
     model = groups["scene"]["model"]
@@ -117,15 +129,7 @@ def test_model_of_a_user_reaches_the_program(with_model):
     ],
 )
 def test_wrong_model_is_refused(with_model, path, value, line):
-    """Place, what was met, and what is expected."""
-    *place, key = path
-    section = with_model
-    for step in place:
-        section = section.setdefault(step, {})
-    section[key] = copy.deepcopy(value)
-    with pytest.raises(ConfigError, match="config") as refused:
-        checked(with_model)
-    assert line in str(refused.value)
+    assert line in refusal(with_model, path, value)
 
 
 @pytest.mark.parametrize(("section", "name"), [("routes", "lines"), ("cycles", "lines")])
@@ -134,10 +138,8 @@ def test_line_of_a_model_has_its_own_history(with_model, section, name):
     del line["tau"]
     if section == "cycles":
         del line["count"]
-    with_model[section][name]["mine"] = line
-    with pytest.raises(ConfigError) as refused:
-        checked(with_model)
-    assert f"config {section} lines mine: key ['history'] is missing: y of" in str(refused.value)
+    words = f"config {section} lines mine: key ['history'] is missing: y of"
+    assert words in refusal(with_model, (section, name, "mine"), line)
 
 
 def test_law_without_inertia_has_one_parameter_more(with_law):
@@ -273,15 +275,7 @@ def test_wrong_axis_is_refused(with_law, axis):
     ],
 )
 def test_wrong_law_is_refused(with_law, path, value, line):
-    """Place, what was met, and what is expected."""
-    *place, key = path
-    section = with_law
-    for step in place:
-        section = section[step]
-    section[key] = copy.deepcopy(value)
-    with pytest.raises(ConfigError, match="config") as refused:
-        checked(with_law)
-    assert line in str(refused.value)
+    assert line in refusal(with_law, path, value)
 
 
 def test_results_say_which_law_they_have(programs, filled_config):
