@@ -12,6 +12,7 @@ the sums in registers.
 """
 
 from dataclasses import dataclass, field
+from functools import partial
 
 from .address import Address
 from .definition import Model
@@ -190,13 +191,7 @@ def base_series(model: Model, wanted: list[Node], flow: Flow, constants: Constan
     lines = [
         line
         for name in auxiliaries
-        for line in exponential_lines(
-            model,
-            name,
-            lambda order, state: at.state("y", order, state=state),
-            lambda order, name=name: at.kept(f"{name}_series", order),
-            constants,
-        )
+        for line in exponential_lines(at, name, "y", partial(at.kept, f"{name}_series"), constants)
     ]
     reals = ["by_unit"] * any(integral_of(model, name) for name in auxiliaries)
     kept = [f"{name}_series" for name in [*auxiliaries, *(node.name for node in wanted)]]

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import sympy
 
+from .address import Address
 from .definition import LARGEST_EXPONENT, TIME, Model
 from .fortran import indented, text_of, within
 from .graph import Graph, Node, convolutions
@@ -178,26 +179,27 @@ def integral_of(model: Model, auxiliary: str) -> tuple[str, sympy.Expr] | None:
 
 
 def exponential_lines(
-    model: Model,
-    auxiliary: str,
-    state: Callable[[str, str], str],
-    series: Callable[[str], str],
-    constants: Constants,
+    at: Address, auxiliary: str, states: str, series: Callable[[str], str], constants: Constants
 ) -> list[str]:
-    """Statements that compute the series of v = exp(w) from those of the states.
+    """Statements that compute the series of v = exp(w) from those of the states, in an array.
 
-    Where x' = c v + constant they are those of x, but for the last, by v' = v w'. `state` has the
-    text of a coefficient of a state by its order and name, `series` that of v by the order.
+    Where x' = c v + constant they are those of x, but for the last, by v' = v w'. `series` has the
+    text of a coefficient of v by the order.
     """
+    model = at.model
     w = model.auxiliary[auxiliary]
+
+    def state(order: str, name: str = w) -> str:
+        return at.state(states, order, state=name)
+
     window = model.domain.get(w, (0, LARGEST_EXPONENT))
     largest = text_of(sympy.Rational(str(window[1])))
     found = integral_of(model, auxiliary)
-    lines = [f"{series('0')} = exp(min({state('0', w)}, {largest}))"]
+    lines = [f"{series('0')} = exp(min({state('0')}, {largest}))"]
     sums = [
         f"{series('i')} = 0.0_wp",
         "do j = 1, i",
-        f"   {series('i')} = {series('i')} + j*{state('j', w)}*{series('i - j')}",
+        f"   {series('i')} = {series('i')} + j*{state('j')}*{series('i - j')}",
         "end do",
         f"{series('i')} = reciprocal(i)*{series('i')}",
     ]

@@ -55,11 +55,7 @@ class Series:
         v, rate = self.balance.auxiliary, self.at.kept("rate_before", lane, "i - 1")
         return [
             *exponential_lines(
-                self.model,
-                v,
-                lambda order, state: self.at.state("y", order, state=state),
-                lambda order: f"{v}_series({order})",
-                self.constants,
+                self.at, v, "y", lambda order: f"{v}_series({order})", self.constants
             ),
             "do i = 1, degree",
             f"   {rate} = i*{v}_series(i)",
