@@ -107,14 +107,8 @@ def of_one_block(series: Series) -> Procedure:
 
     def given(order: str, end: str) -> list[str]:
         """Statements that set delayed states and time."""
-        lines = []
-        for number, one in enumerate(model.delayed, 1):
-            name = f"{one.symbol.name}{end}"
-            if one.symbol.name in inputs:
-                value = at.delayed("z", order, number=number)
-                lines += [f"{name} = {one.state}{end}", f"if (place_{number} > 0) {name} = {value}"]
         time = "time_0 = t" if order == "0" else "time = merge(unit, 0.0_wp, k == 1)"
-        return [*lines, *[time] * ("time" in inputs)]
+        return [*at.fetched(inputs, order, end=end), *[time] * ("time" in inputs)]
 
     texts = {name: recurrences.rate_text(node) for name, node in series.rates.items()}
     start = {name: recurrences.rate_text(node, first=True) for name, node in series.rates.items()}

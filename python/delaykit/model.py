@@ -5,6 +5,7 @@ import copy
 import ctypes
 from collections.abc import Mapping
 from functools import cached_property
+from operator import ge, gt
 from pathlib import Path
 
 import numpy as np
@@ -135,19 +136,16 @@ class Model:
 
     def checked(self, values: Mapping) -> dict[str, float]:
         """Values of parameters; raise ModelError for a name or a number that cannot be."""
-        return {key: self.checked_value(key, value) for key, value in values.items()}
-
-    def checked_value(self, key: str, value) -> float:
-        """One of them."""
-        check_name("parameter", key, self.definition["parameters"])
-        number = number_of(f"parameter {key}", value)
-        entry = self.definition["parameters"][key]
-        if "above" in entry and not number > entry["above"]:
-            raise ModelError(f"parameter {key}: {number!r}; expected a number > {entry['above']}")
-        if "at_least" in entry and not number >= entry["at_least"]:
-            low = entry["at_least"]
-            raise ModelError(f"parameter {key}: {number!r}; expected a number >= {low}")
-        return number
+        numbers = {}
+        for key, value in values.items():
+            check_name("parameter", key, self.definition["parameters"])
+            number = numbers[key] = number_of(f"parameter {key}", value)
+            entry = self.definition["parameters"][key]
+            for bound, sign, holds in (("above", ">", gt), ("at_least", ">=", ge)):
+                if bound in entry and not holds(number, entry[bound]):
+                    expected = f"a number {sign} {entry[bound]}"
+                    raise ModelError(f"parameter {key}: {number!r}; expected {expected}")
+        return numbers
 
     def numbers(self, values: Mapping | None = None) -> np.ndarray:
         """All parameters in the order of the definition, some with other values."""
