@@ -29,14 +29,6 @@ def test_a_section_of_a_sine(sine):
     np.testing.assert_allclose(found.y, 0.5, atol=1e-9)
 
 
-def test_events_of_a_run(sine):
-    """Minima and maxima of sin t in the order of time."""
-    found = sine.run(math.sin, 10, events=["y' = 0 falling", "y' = 0 rising"])
-    np.testing.assert_allclose(found.event_t, math.pi * np.array([0.5, 1.5, 2.5]), atol=1e-6)
-    assert found.event_number.values.tolist() == [0, 1, 0]
-    np.testing.assert_allclose(found.event_y, [1, -1, 1], atol=1e-7)
-
-
 @pytest.mark.parametrize(
     ("method", "option", "value"),
     [

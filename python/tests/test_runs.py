@@ -96,10 +96,16 @@ def test_a_jump_at_the_start_and_doses():
 
 
 def test_events(sine):
-    run = sine.integrate(math.sin, 12, events=["y' = 0 falling", dk.Event("y", 0.5, 1)])
+    watched = ["y' = 0 falling", dk.Event("y", 0.5, 1), "y' = 0 rising"]
+    run = sine.integrate(math.sin, 12, events=watched)
     np.testing.assert_allclose(run.t_events[0], [math.pi / 2, 5 * math.pi / 2], atol=1e-6)
     np.testing.assert_allclose(run.y_events[0][:, 0], [1, 1], atol=1e-7)
     np.testing.assert_allclose(run.t_events[1] % (2 * math.pi), math.pi / 6, atol=1e-6)
+    # in the order of time
+    found = run.to_dataset()
+    np.testing.assert_allclose(found.event_t, np.sort(np.concatenate(run.t_events)))
+    assert found.event_number.values.tolist() == [1, 0, 2] * 2
+    np.testing.assert_allclose(found.event_y, [0.5, 1, -1] * 2, atol=1e-7)
     ended = sine.integrate(math.sin, 12, events="y = 0.5 rising stop")
     assert ended.status == 1
     np.testing.assert_allclose(ended.t[-1], math.pi / 6, atol=1e-7)
@@ -168,7 +174,7 @@ def test_a_ring_of_blocks():
     np.testing.assert_allclose(np.roll(run.y, 1, axis=0), moved.y, atol=1e-8)
 
 
-def test_a_dataset(mackey_glass, tmp_path):
+def test_a_dataset(mackey_glass):
     run = mackey_glass.run({"y": 1.2}, 50)
     assert run.t[0] == 0
     assert run.t[-1] == 50
