@@ -61,9 +61,9 @@ def with_model(config) -> dict:
     return config
 
 
-def refusal(config: dict, path: tuple[str, ...], value) -> str:
+def refusal(config: dict, path: str, value) -> str:
     """Place, what was met, and what is expected, where a value is put at a place."""
-    *place, key = path
+    *place, key = path.split()
     section = config
     for step in place:
         section = section.setdefault(step, {})
@@ -97,32 +97,24 @@ def test_model_of_a_user_reaches_the_program(with_model):
 @pytest.mark.parametrize(
     ("path", "value", "line"),
     [
-        (("scenes", "mg", "model"), "glass", "scene 'mg': model = 'glass'; expected one of: mack"),
-        (("scenes", "mg", "law"), "mine", "scene 'mg': law = 'mine'; expected none beside model ="),
-        (("scenes", "mg", "beta"), 0, "scene 'mg': beta = 0; expected beta, nondimensional, a fin"),
-        (("scenes", "mg", "tau"), -1, "scene 'mg': tau = -1; expected delay, nondimensional, a f"),
-        (("scenes", "mg", "xi"), 1.0, "scene 'mg': xi is no parameter of the model mackey_glass;"),
-        (("scenes", "mg", "history"), {}, "scene 'mg' history: key ['y'] is missing"),
+        ("scenes mg model", "glass", "scene 'mg': model = 'glass'; expected one of: mack"),
+        ("scenes mg law", "mine", "scene 'mg': law = 'mine'; expected none beside model ="),
+        ("scenes mg beta", 0, "scene 'mg': beta = 0; expected beta, nondimensional, a fin"),
+        ("scenes mg tau", -1, "scene 'mg': tau = -1; expected delay, nondimensional, a f"),
+        ("scenes mg xi", 1.0, "scene 'mg': xi is no parameter of the model mackey_glass;"),
+        ("scenes mg history", {}, "scene 'mg' history: key ['y'] is missing"),
+        ("scenes mg history", {"y": 1, "v": 1}, "scene 'mg' history: unknown key ['v']; al"),
+        ("scenes mg variables", ["u"], "scene 'mg': variables = ['u']; expected some of: y"),
+        ("scenes mg attractors", {"histories": 2}, "scene 'mg' attractors: histories = 2;"),
+        ("synchrony scenes", ["mg"], "config synchrony scenes: 'mg' has the law mackey_glass"),
+        ("atlas planes mg abscissa", "tau", "config atlas planes mg: "),
+        ("atlas planes mg n", 1.0, "config atlas planes mg: n = 1.0; expected no value"),
+        ("models mackey_glass equations", {"y": "-z"}, "config models mackey_glass: equat"),
+        ("models mackey_glass states", {}, "config models mackey_glass: states = {}; exp"),
+        ("models slip_cut_off", MACKEY_GLASS, "config models slip_cut_off: the project has a"),
+        ("laws mackey_glass", MINE, "config models mackey_glass: a law has this name"),
         (
-            ("scenes", "mg", "history"),
-            {"y": 1, "v": 1},
-            "scene 'mg' history: unknown key ['v']; al",
-        ),
-        (
-            ("scenes", "mg", "variables"),
-            ["u"],
-            "scene 'mg': variables = ['u']; expected some of: y",
-        ),
-        (("scenes", "mg", "attractors"), {"histories": 2}, "scene 'mg' attractors: histories = 2;"),
-        (("synchrony", "scenes"), ["mg"], "config synchrony scenes: 'mg' has the law mackey_glass"),
-        (("atlas", "planes", "mg", "abscissa"), "tau", "config atlas planes mg: "),
-        (("atlas", "planes", "mg", "n"), 1.0, "config atlas planes mg: n = 1.0; expected no value"),
-        (("models", "mackey_glass", "equations"), {"y": "-z"}, "config models mackey_glass: equat"),
-        (("models", "mackey_glass", "states"), {}, "config models mackey_glass: states = {}; exp"),
-        (("models", "slip_cut_off"), MACKEY_GLASS, "config models slip_cut_off: the project has a"),
-        (("laws", "mackey_glass"), MINE, "config models mackey_glass: a law has this name"),
-        (
-            ("models", "mackey_glass", "parameters"),
+            "models mackey_glass parameters",
             {"t_end": {}},
             "config models mackey_glass: parameters t_end: keys of all that has a model",
         ),
@@ -139,7 +131,7 @@ def test_line_of_a_model_has_its_own_history(with_model, section, name):
     if section == "cycles":
         del line["count"]
     words = f"config {section} lines mine: key ['history'] is missing: y of"
-    assert words in refusal(with_model, (section, name, "mine"), line)
+    assert words in refusal(with_model, f"{section} {name} mine", line)
 
 
 def test_law_without_inertia_has_one_parameter_more(with_law):
@@ -225,53 +217,33 @@ def test_wrong_axis_is_refused(with_law, axis):
 @pytest.mark.parametrize(
     ("path", "value", "line"),
     [
+        ("scenes torus law", "yours", "scene 'torus': law = 'yours'; expected one of:"),
+        ("scenes torus speed", 0, "scene 'torus': speed = 0; expected speed, nondim"),
         (
-            ("scenes", "torus", "law"),
-            "yours",
-            "scene 'torus': law = 'yours'; expected one of:",
-        ),
-        (("scenes", "torus", "speed"), 0, "scene 'torus': speed = 0; expected speed, nondim"),
-        (
-            ("scenes", "chaos", "speed"),
+            "scenes chaos speed",
             1,
             "scene 'chaos': speed is no parameter of the law slip_delayed_logarithm; it has none",
         ),
         (
-            ("scenes", "torus", "law"),
+            "scenes torus law",
             "quasistatic_mine",
             "scene 'torus': key ['zeta'] is missing: a parameter of the law quasistatic_mine",
         ),
+        ("laws mine evolution", "1 - theta", "config laws mine: equation of theta at the steady"),
         (
-            ("laws", "mine", "evolution"),
-            "1 - theta",
-            "config laws mine: equation of theta at the steady",
-        ),
-        (
-            ("laws", "mine", "evolution"),
+            "laws mine evolution",
             "-max(v, 1)",
             "config laws mine: definition of evolution: 'max(v, 1)'",
         ),
+        ("laws slip_cut_off", MINE, "config laws slip_cut_off: the project has a law of this name"),
+        ("laws quasistatic_a", MINE, "config laws quasistatic_a: quasistatic_NAME is the law NAME"),
         (
-            ("laws", "slip_cut_off"),
-            MINE,
-            "config laws slip_cut_off: the project has a law of this name",
-        ),
-        (
-            ("laws", "quasistatic_a"),
-            MINE,
-            "config laws quasistatic_a: quasistatic_NAME is the law NAME",
-        ),
-        (
-            ("laws", "mine", "parameters"),
+            "laws mine parameters",
             {"tau": {}, "speed": {"default": 1.0}},
             "config laws mine: parameters tau: keys of all that has a model have these names",
         ),
-        (
-            ("laws", "mine", "parameters"),
-            {"t_end": {}},
-            "config laws mine: parameters t_end: keys of",
-        ),
-        (("laws", "mine", "colour"), 1, "config laws mine: unknown key ['colour']"),
+        ("laws mine parameters", {"t_end": {}}, "config laws mine: parameters t_end: keys of"),
+        ("laws mine colour", 1, "config laws mine: unknown key ['colour']"),
     ],
 )
 def test_wrong_law_is_refused(with_law, path, value, line):
