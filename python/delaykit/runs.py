@@ -131,10 +131,9 @@ def integrate(
         request.times, request.time_count = address(times), len(times)
     events = [Event.read(one) for one in ([events] if isinstance(events, str | Event) else events)]
     watched = own.events(events)
-    if events:
-        for name, array in watched.items():
-            setattr(request, f"event_{name}", address(array))
-        request.event_count = len(events)
+    for name, array in watched.items():
+        setattr(request, f"event_{name}", address(array))
+    request.event_count = len(events)
     if dosed := own.doses(doses, past.end[0], t_end):
         changes = np.array(dosed)
         request.doses, request.dose_count = address(changes), len(changes)
@@ -169,20 +168,16 @@ def solution_of(own: Arguments, found: Results, events: list[Event], before) -> 
     model, t = own.model, found.values("t")
     y = own.by_block(found.values("y").reshape(len(t), own.n)).T
     counts = dict(zip(COUNTS, found.values("counts").astype(int).tolist(), strict=False))
-    t_events, y_events = [], []
-    if events:
-        which = found.values("event_which", np.int32)
-        times = found.values("event_time")
-        states = own.by_block(found.values("event_y").reshape(len(times), own.n))
-        t_events = [times[which == 1 + i] for i in range(len(events))]
-        y_events = [states[which == 1 + i] for i in range(len(events))]
+    which = found.values("event_which", np.int32)
+    times = found.values("event_time")
+    states = own.by_block(found.values("event_y").reshape(len(times), own.n))
     return Solution(
         model=model,
         numbers=own.numbers,
         t=t,
         y=y,
-        t_events=t_events,
-        y_events=y_events,
+        t_events=[times[which == 1 + i] for i in range(len(events))],
+        y_events=[states[which == 1 + i] for i in range(len(events))],
         status=counts.pop("status", -1),
         counts=counts,
         pieces=pieces_of(own, found, before),
