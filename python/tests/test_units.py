@@ -23,6 +23,12 @@ def at_rest(s, q):
     return SINE.with_parameters(a=-2, b=1.5, q=q, s=s, tau=5 * s).resting({"x": q / 8})
 
 
+def roots(s, q):
+    found = at_rest(s, q).roots(-0.5 / s)
+    assert found.size == 40
+    return s * found
+
+
 def hopf(s, q):
     curves = at_rest(s, q).hopf(("a", "tau"), ((-3, 0.5), (s / 4, 10 * s)), cells=10)
     kinds = curves.special_kind == "generalised_hopf"
@@ -74,14 +80,14 @@ CALLS = {
     "exponents": (lambda s, q: sine(s, q).exponents(0.5 * q).value * s, 0.1),
     **{f"attractor, a = {a}": (partial(attractor, a=a), 0.1) for a in (0.5, 4, 6)},
     "without delay": (without_delay, 1e-3),
-    "roots": (lambda s, q: s * at_rest(s, q).roots(-0.5 / s), 1e-7),
+    "roots": (roots, 1e-7),
     "Hopf curves": (hopf, 1e-7),
     "cycles of Hopf points": (partial(cycles, start=None, window=(2, 6)), 1e-7),
     "cycles of a motion": (partial(cycles, start=0.5, window=(-4, -3)), 1e-7),
 }
 """What is computed, free of units, and how far other units than powers of two may change it."""
 ROUNDED = {"Hopf curves": 1e-12}
-"""And these, where logarithms of omega are in lengths along curves."""
+"""How far powers of two may: logarithms of omega are in lengths along curves."""
 POWERS = [(2.0**-30, 1), (2.0**30, 1), (1, 2.0**-30), (1, 2.0**30), (2.0**-30, 2.0**30)]
 OTHERS = [(3600, 1e-4), (60, 1e6), (1e-3, 1), (1e9, 1e-9)]
 expected = cache(lambda name: CALLS[name][0](1, 1))
