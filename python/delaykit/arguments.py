@@ -99,9 +99,8 @@ class Arguments:
             rows.append((level, 1 + component, one.direction, one.terminal, one.of_slope))
         names = ("level", "component", "direction", "terminal", "of_slope")
         columns = np.reshape(np.array(rows, float), (-1, 5)).T
-        kinds = {"level": np.float64}
         return {
-            name: column.astype(kinds.get(name, np.int32))
+            name: column.astype(np.float64 if name == "level" else np.int32)
             for name, column in zip(names, columns, strict=True)
         }
 

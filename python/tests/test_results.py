@@ -4,11 +4,8 @@
 import math
 
 import delaykit as dk
-import matplotlib
 import numpy as np
 import pytest
-
-matplotlib.use("agg")
 
 
 def test_a_spectrum_of_a_sine(sine):
@@ -69,7 +66,6 @@ def test_pictures(mackey_glass, sine):
         assert axes.get_xlabel()
     with pytest.raises(dk.ModelError, match="plot: expected results of"):
         dk.plot(mackey_glass.run(1.2, 1))
-    matplotlib.pyplot.close("all")
 
 
 def test_where_equations_saturate():
