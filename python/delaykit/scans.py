@@ -28,7 +28,7 @@ def extrema(model, sign: int, options: dict) -> np.ndarray:
     left_out = options.pop("t_transient", None)
     if options.get("t_end") is None:
         own = Arguments(model, options.get("parameters"))
-        past = begin(own, options["history"], 0.0, None, (), np.ones(own.n), None).pieces.past
+        past = begin(own, options["history"], 0.0, None, (), np.ones(own.n), None).past
         options["t_end"] = UNITS_OF_RUN * own.unit_of_time(past)
     if left_out is None:
         left_out = SHARE_LEFT_OUT * options["t_end"]
