@@ -144,9 +144,8 @@ def test_line_of_a_model_has_its_own_history(with_model, section, name):
     del line["tau"]
     if section == "cycles":
         del line["count"]
-    assert (
-        "key ['history'] is missing: y of" in refusals(with_model, (section, name, "mine"), line)[0]
-    )
+    words = refusals(with_model, (section, name, "mine"), line)
+    assert "key ['history'] is missing: y of" in words[0]
 
 
 def test_law_without_inertia_has_one_parameter_more(with_law):
