@@ -33,6 +33,16 @@ class Address:
         before = "(block - 1)*self%delays + " if self.in_chain else ""
         return element(array, *index, f"{before}place_{number}", rest)
 
+    def fetched(self, inputs, *index: str, end: str = "") -> list[str]:
+        """Statements that set delayed states among inputs: without its delay one is present."""
+        lines = []
+        for number, one in enumerate(self.model.delayed, 1):
+            if (name := one.symbol.name) in inputs:
+                lines.append(f"{name}{end} = {one.state}{end}")
+                value = self.delayed("z", *index, number=number)
+                lines.append(f"if (place_{number} > 0) {name}{end} = {value}")
+        return lines
+
     def kept(self, array: str, *index: str) -> str:
         """What a block keeps of its own."""
         return element(array, *index, "slot" if self.in_chain else "")

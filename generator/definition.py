@@ -254,11 +254,8 @@ class _Reader:
             model.auxiliary[str(key)] = found[1]
         self.open: list[str] = []
         if set(values["equations"]) != set(model.states):
-            self.refuse(
-                "equations",
-                ", ".join(values["equations"]),
-                f"one for each of {', '.join(model.states)}",
-            )
+            listed = ", ".join(values["equations"])
+            self.refuse("equations", listed, f"one for each of {', '.join(model.states)}")
         for state in model.states:
             model.texts[state] = self.line(f"equation of {state}", values["equations"][state])
             model.equations[state] = self.expression(f"equation of {state}", model.texts[state])
@@ -510,9 +507,8 @@ class _Expression:
             return self.second_difference(node, args)
         if name not in FUNCTIONS or len(args) != 1:
             expected = f"one of {', '.join(FUNCTIONS)} of one argument, or STATE(t - delay)"
-            self.refuse(
-                node, f"{expected}: other functions are not analytic or have no series here"
-            )
+            expected += ": other functions are not analytic or have no series here"
+            self.refuse(node, expected)
         argument = self.value(args[0])
         for auxiliary, state in model.auxiliary.items():
             of, value = model.symbol(state), model.symbol(auxiliary)

@@ -12,6 +12,7 @@ the sums in registers.
 """
 
 from dataclasses import dataclass, field
+from functools import partial
 
 from .address import Address
 from .definition import Model
@@ -190,13 +191,7 @@ def base_series(model: Model, wanted: list[Node], flow: Flow, constants: Constan
     lines = [
         line
         for name in auxiliaries
-        for line in exponential_lines(
-            model,
-            name,
-            lambda order, state: at.state("y", order, state=state),
-            lambda order, name=name: at.kept(f"{name}_series", order),
-            constants,
-        )
+        for line in exponential_lines(at, name, "y", partial(at.kept, f"{name}_series"), constants)
     ]
     reals = ["by_unit"] * any(integral_of(model, name) for name in auxiliaries)
     kept = [f"{name}_series" for name in [*auxiliaries, *(node.name for node in wanted)]]
@@ -207,8 +202,8 @@ def base_series(model: Model, wanted: list[Node], flow: Flow, constants: Constan
     nodes = in_order(rest, given)
     recurrences = Recurrences([one for one in nodes if one not in given], rest, constants, k="i")
     inputs = {node.name for node in nodes if node.kind == "input" or node in given}
-    delayed = [(i, one) for i, one in enumerate(model.delayed, 1) if one.symbol.name in inputs]
-    inputs |= {one.state for _, one in delayed}
+    delayed = [one for one in model.delayed if one.symbol.name in inputs]
+    inputs |= {one.state for one in delayed}
     wanted_differences = any(one.name in inputs for one in model.differences.values())
     inputs |= set(model.differences) if wanted_differences else set()
 
@@ -220,12 +215,8 @@ def base_series(model: Model, wanted: list[Node], flow: Flow, constants: Constan
             found.append(("time", "t" if order == "0" else "merge(unit, 0.0_wp, i == 1)"))
         reals.extend(f"{name}{end}" for name, _ in found)
         statements = [f"{name}{end} = {text}" for name, text in found]
-        for number, one in delayed:
-            name = f"{one.symbol.name}{end}"
-            reals.append(name)
-            value = at.delayed("z", order, number=number)
-            statements.append(f"{name} = {one.state}{end}")
-            statements.append(f"if (place_{number} > 0) {name} = {value}")
+        reals.extend(f"{one.symbol.name}{end}" for one in delayed)
+        statements += at.fetched(inputs, order, end=end)
         if wanted_differences:
             reals.extend(f"{one.name}{end}" for one in model.differences.values())
             statements += at.differences(lambda column: f"y({order}, {column})", end)

@@ -31,17 +31,16 @@ def exponents_of(model: Model) -> list[str]:
         # beyond the bounds of `within`, too
         whole = sympy.expand_func(equation.replace(within, lambda one, _: one))
         for one in sympy.preorder_traversal(whole.xreplace(exponentials)):
-            exponent = sympy.S.Zero
+            exponent, names = sympy.S.Zero, {}
             if one.func in (sympy.exp, sympy.sinh, sympy.cosh):
                 exponent = one.args[0]
             elif one.func is sympy.tanh:
                 exponent = 2 * one.args[0]
             elif one.is_Pow and not (one.exp.is_number and abs(one.exp) <= LARGEST_ALGEBRAIC):
                 exponent = one.exp * sympy.log(one.base)
+                names = {sympy.log(one.base): logarithm_of(one)}
             if exponent.free_symbols & model.variables and not {exponent, -exponent} & {*found}:
-                found[exponent] = text_of(exponent)
-                if one.is_Pow and one.base is not sympy.E:
-                    found[exponent] = text_of(exponent, {sympy.log(one.base): logarithm_of(one)})
+                found[exponent] = text_of(exponent, names)
     return list(found.values())
 
 

@@ -6,11 +6,13 @@ This pays where v' needs fewer convolutions than the recurrence of the exponenti
 v' is linear, and w' = v'/v takes one.
 """
 
+from collections import defaultdict
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import sympy
 
+from .address import Address
 from .definition import LARGEST_EXPONENT, TIME, Model
 from .fortran import indented, text_of, within
 from .graph import Graph, Node, convolutions
@@ -103,7 +105,7 @@ def flow_with(model: Model, integrated: dict[str, str]) -> Flow:
 def conditions_of(model: Model, equations: dict, names: dict) -> list[dict[str, set[str]]]:
     """Conditions under which equations have no value, with their states; one dict for each depth of
     nesting."""
-    found: dict[sympy.Expr, tuple[int, str, set[str]]] = {}
+    levels: defaultdict[int, dict[str, set[str]]] = defaultdict(dict)
 
     def visit(one: sympy.Expr, state: str) -> int:
         depth = max([visit(argument, state) for argument in one.args], default=0)
@@ -120,21 +122,14 @@ def conditions_of(model: Model, equations: dict, names: dict) -> list[dict[str, 
             text = f".not. abs({text_of(one.base, names)}) > 0.0_wp"
         if text is None or not one.free_symbols & model.variables:
             return depth
-        found.setdefault(one, (depth, text, set()))[2].add(state)
+        levels[depth].setdefault(text, set()).add(state)
         return depth + 1
 
     for state, equation in equations.items():
         visit(model.plain(equation), state)
-    outer = {
-        window_condition(names[model.symbol(state)], window): {state}
-        for state, window in model.domain.items()
-    }
-    levels: list[dict[str, set[str]]] = [outer]
-    for depth, text, states in found.values():
-        while len(levels) <= depth + 1:
-            levels.append({})
-        levels[depth + 1].setdefault(text, set()).update(states)
-    return [level for level in levels if level]
+    for state, window in model.domain.items():
+        levels[-1][window_condition(names[model.symbol(state)], window)] = {state}
+    return [levels[depth] for depth in sorted(levels)]
 
 
 def window_condition(name: str, window: tuple[float, float]) -> str:
@@ -147,21 +142,20 @@ def refusals(
     model: Model,
     equations: dict[str, sympy.Expr],
     names: dict,
-    result: str,
-    *,
+    *results: str,
     of: Callable[[str], str] | None = None,
     in_lanes: bool = False,
 ) -> list[str]:
     """Statements that end a procedure with no number where an equation has no value.
 
-    With `of` only the elements of these equations are no numbers, else the whole result.
+    With `of` only the elements of these equations are no numbers, else all of the results.
     """
     lines = []
     for level in conditions_of(model, equations, names):
         conditions = [f"any({one})" for one in level] if in_lanes else level
-        marked = [f"   {result} = ieee_value(1.0_wp, ieee_quiet_nan)"]
+        marked = [f"   {result} = ieee_value(1.0_wp, ieee_quiet_nan)" for result in results]
         if of:
-            marked = [f"   {result} = 0.0_wp"] + [
+            marked = [f"   {result} = 0.0_wp" for result in results] + [
                 f"   if ({condition}) {of(state)} = ieee_value(1.0_wp, ieee_quiet_nan)"
                 for condition, states in level.items()
                 for state in sorted(states)
@@ -185,26 +179,27 @@ def integral_of(model: Model, auxiliary: str) -> tuple[str, sympy.Expr] | None:
 
 
 def exponential_lines(
-    model: Model,
-    auxiliary: str,
-    state: Callable[[str, str], str],
-    series: Callable[[str], str],
-    constants: Constants,
+    at: Address, auxiliary: str, states: str, series: Callable[[str], str], constants: Constants
 ) -> list[str]:
-    """Statements that compute the series of v = exp(w) from those of the states.
+    """Statements that compute the series of v = exp(w) from those of the states, in an array.
 
-    Where x' = c v + constant they are those of x, but for the last, by v' = v w'. `state` has the
-    text of a coefficient of a state by its order and name, `series` that of v by the order.
+    Where x' = c v + constant they are those of x, but for the last, by v' = v w'. `series` has the
+    text of a coefficient of v by the order.
     """
+    model = at.model
     w = model.auxiliary[auxiliary]
+
+    def state(order: str, name: str = w) -> str:
+        return at.state(states, order, state=name)
+
     window = model.domain.get(w, (0, LARGEST_EXPONENT))
     largest = text_of(sympy.Rational(str(window[1])))
     found = integral_of(model, auxiliary)
-    lines = [f"{series('0')} = exp(min({state('0', w)}, {largest}))"]
+    lines = [f"{series('0')} = exp(min({state('0')}, {largest}))"]
     sums = [
         f"{series('i')} = 0.0_wp",
         "do j = 1, i",
-        f"   {series('i')} = {series('i')} + j*{state('j', w)}*{series('i - j')}",
+        f"   {series('i')} = {series('i')} + j*{state('j')}*{series('i - j')}",
         "end do",
         f"{series('i')} = reciprocal(i)*{series('i')}",
     ]

@@ -7,23 +7,11 @@ import sympy
 from sympy.codegen.cfunctions import expm1, log1p
 
 FUNCTIONS = {
-    "exp": sympy.exp,
-    "expm1": expm1,
-    "log": sympy.log,
-    "log1p": log1p,
-    "sqrt": sympy.sqrt,
-    "sin": sympy.sin,
-    "cos": sympy.cos,
-    "tan": sympy.tan,
-    "sinh": sympy.sinh,
-    "cosh": sympy.cosh,
-    "tanh": sympy.tanh,
-    "asin": sympy.asin,
-    "acos": sympy.acos,
-    "atan": sympy.atan,
-    "asinh": sympy.asinh,
-    "acosh": sympy.acosh,
-    "atanh": sympy.atanh,
+    **{"exp": sympy.exp, "expm1": expm1, "log": sympy.log, "log1p": log1p, "sqrt": sympy.sqrt},
+    **{"sin": sympy.sin, "cos": sympy.cos, "tan": sympy.tan},
+    **{"sinh": sympy.sinh, "cosh": sympy.cosh, "tanh": sympy.tanh},
+    **{"asin": sympy.asin, "acos": sympy.acos, "atan": sympy.atan},
+    **{"asinh": sympy.asinh, "acosh": sympy.acosh, "atanh": sympy.atanh},
 }
 """The functions that an expression may have, by their names in definitions and in Fortran: all are
 analytic, and have series by a recurrence."""

@@ -21,32 +21,25 @@ def of_all_blocks(
     at = Address(model)
     guarded = model.equations if guarded is None else guarded
     states = [*at.start(), *(f"{name} = {at.state('y', state=name)}" for name in model.states)]
-    for number, one in enumerate(model.delayed, 1):
-        name, value = one.symbol.name, at.delayed("z", number=number)
-        states += [f"{name} = {one.state}", f"if (place_{number} > 0) {name} = {value}"]
+    delayed = [one.symbol.name for one in model.delayed]
+    results = ["by_y", "by_z"] if result == "by_y" else [result]
     of = (lambda state: at.state(result, state=state)) if result == "dydt" else None
     inside = [
         *states,
+        *at.fetched(delayed),
         *at.differences(lambda column: f"y({column})"),
-        *refusals(model, guarded, guard_names(model), result, of=of),
+        *refusals(model, guarded, guard_names(model), *results, of=of),
         *(f"{name} = exp({state})" for name, state in model.auxiliary.items()),
         *lines,
     ]
-    # without a value there are no derivatives by delayed states either
-    if result == "by_y":
-        inside = [
-            part
-            for line in inside
-            for part in (["   by_z = by_y(1, 1)", line] if line == "   return" else [line])
-        ]
     if at.in_chain:
         inside = ["do block = 1, self%blocks", *indented(inside), "end do"]
-    before = ["by_y = 0.0_wp", "by_z = 0.0_wp"] if result == "by_y" else []
-    symbols = [*(one.symbol for one in model.delayed), *model.differences.values()]
+    before = [f"{one} = 0.0_wp" for one in results] if result == "by_y" else []
+    differences = [symbol.name for symbol in model.differences.values()]
     reals = [*names_of_parameters(model), *model.states, *model.auxiliary, *names]
     return Procedure(
         {
-            "real(wp)": [*reals, *(symbol.name for symbol in symbols)],
+            "real(wp)": [*reals, *delayed, *differences],
             "integer": [*at.place_names(), *["at", "block"] * at.in_chain],
         },
         [*fetch_parameters(model), *at.places(), *before, *inside],

@@ -55,11 +55,7 @@ class Series:
         v, rate = self.balance.auxiliary, self.at.kept("rate_before", lane, "i - 1")
         return [
             *exponential_lines(
-                self.model,
-                v,
-                lambda order, state: self.at.state("y", order, state=state),
-                lambda order: f"{v}_series({order})",
-                self.constants,
+                self.at, v, "y", lambda order: f"{v}_series({order})", self.constants
             ),
             "do i = 1, degree",
             f"   {rate} = i*{v}_series(i)",
@@ -111,14 +107,8 @@ def of_one_block(series: Series) -> Procedure:
 
     def given(order: str, end: str) -> list[str]:
         """Statements that set delayed states and time."""
-        lines = []
-        for number, one in enumerate(model.delayed, 1):
-            name = f"{one.symbol.name}{end}"
-            if one.symbol.name in inputs:
-                value = at.delayed("z", order, number=number)
-                lines += [f"{name} = {one.state}{end}", f"if (place_{number} > 0) {name} = {value}"]
         time = "time_0 = t" if order == "0" else "time = merge(unit, 0.0_wp, k == 1)"
-        return [*lines, *[time] * ("time" in inputs)]
+        return [*at.fetched(inputs, order, end=end), *[time] * ("time" in inputs)]
 
     texts = {name: recurrences.rate_text(node) for name, node in series.rates.items()}
     start = {name: recurrences.rate_text(node, first=True) for name, node in series.rates.items()}

@@ -5,6 +5,8 @@ Blocks of a chain are computed one at a time: block i is at order k when the fro
 i + k reach, where neighbours are up to `reach` places apart.
 """
 
+from functools import partial
+
 from .address import Address
 from .definition import Model
 from .disturbances import Disturbances, base_series, lane_inputs
@@ -110,13 +112,9 @@ class Tangents:
         balance, at = self.balance, self.at
         if not balance:
             return []
-        return exponential_lines(
-            self.model,
-            balance.auxiliary,
-            lambda order, state: at.state("before", order, state=state),
-            lambda order: at.kept(f"{balance.auxiliary}_before", order),
-            self.constants,
-        )
+        v = balance.auxiliary
+        series = partial(at.kept, f"{v}_before")
+        return exponential_lines(at, v, "before", series, self.constants)
 
     def inverses(self) -> list[str]:
         """Statements that set inverses of coefficients 0 of integrated auxiliaries."""

@@ -24,10 +24,15 @@ LONG_NAMES = {"tau": [1.0], "epsilon": [0.5], "xi": [1.0], "gamma": [1.0, 1e4], 
 MANY = [float(i) for i in range(1000)]
 
 
-def put(config: dict, path: Place, value) -> None:
-    for key in path[:-1]:
+def section_of(config: dict, path: Place) -> dict:
+    """The section at a place."""
+    for key in path:
         config = config[key]
-    config[path[-1]] = value
+    return config
+
+
+def put(config: dict, path: Place, value) -> None:
+    section_of(config, path[:-1])[path[-1]] = value
 
 
 def numbers_in(value, path: Place = ()) -> Iterator[Place]:
@@ -215,10 +220,7 @@ def test_unknown_keys_are_refused(whole):
     sections = [path for path in sections if not beside & {*path[-1:], *path[-2:-1]}]
     sections = [path for path in sections if path[:2] != ("friction_laws", "planes")]
     for path in sections:
-        section = whole
-        for key in path:
-            section = section[key]
-        section["colour"] = 1
+        put(whole, (*path, "colour"), 1)
     lines = refuse(whole)
     assert len(sections) > 30
     for path in sections:
@@ -245,10 +247,7 @@ def test_unknown_key_may_be_misspelt(config, key, hint):
     ],
 )
 def test_missing_key_is_named_once(config, path):
-    section = config
-    for key in path[:-1]:
-        section = section[key]
-    del section[path[-1]]
+    del section_of(config, path[:-1])[path[-1]]
     assert refuse(config) == [f"{place_of(path[:-1])}: key ['{path[-1]}'] is missing"]
 
 
@@ -261,9 +260,7 @@ def test_section_that_is_no_mapping_is_refused(config, path, value):
 @pytest.mark.parametrize("path", [("scenes",), ("routes", "lines")])
 def test_name_that_makes_no_file_name_is_refused(config, path):
     """Snakemake takes a name that ends with 20 equal parts for an endless recursion."""
-    section = config
-    for key in path:
-        section = section[key]
+    section = section_of(config, path)
     first = next(iter(section.values()))
     for name in ("a" * 19, "torus" + "_1" * 19, "a" * 40 + "b"):
         section[name] = copy.deepcopy(first)

@@ -52,6 +52,11 @@ class Shape(ctypes.Structure):
     ]
 
 
+def of_a(text: str) -> dict[str, str]:
+    """Equations with this one of a."""
+    return {"a": text, "w": "-a"}
+
+
 def block(law: str = PAPER) -> dict:
     return overlaid(read(BLOCK), built_in()[law])
 
@@ -73,34 +78,31 @@ def block(law: str = PAPER) -> dict:
         ({"parameters": {"p": {"most": 1}}}, r"parameter p: .*; expected keys of above, at_least"),
         ({"parameters": {"p": {"above": "0"}}}, r"above of parameter p: '0'; expected a number"),
         ({"auxiliary": {"v": "w**2"}}, r"auxiliary v: 'w\*\*2'; expected exp\(STATE\)"),
-        ({"definitions": {"b": "c", "c": "b"}, "of_a": "b"}, r"definition: 'b > c > b'"),
-        ({"of_a": "a +"}, r"equation of a: 'a \+'; expected an expression such as"),
-        ({"of_a": "b"}, r"equation of a: 'b'; expected one of rate_of, a, w, v"),
+        ({"definitions": {"b": "c", "c": "b"}, "equations": of_a("b")}, r"definition: 'b > c > b'"),
+        ("a +", r"equation of a: 'a \+'; expected an expression such as"),
+        ("b", r"equation of a: 'b'; expected one of rate_of, a, w, v"),
+        ("abs(a)", r"equation of a: 'abs\(a\)'; expected one of exp, expm1, log, .*not analytic"),
+        ("exp(a, 2)", r"'exp\(a, 2\)'; expected one of exp"),
+        ("a**w", r"'a\*\*w'; expected a power with a constant exponent"),
+        ("a*9**9**9", r"'9\*\*9\*\*9'; expected an exponent of size <= 256"),
+        ("a*((9**64)**64)**64", r"'\(9\*\*64\)\*\*64'; expected a power below exp"),
+        ("a*1e999999999", r"'1e999999999'; expected a number from 1e-308 to 1e308"),
+        ("a*1e-999999999", r"'1e-999999999'; expected a number from"),
+        ("a % 2", r"'a % 2'; expected \+ - \* / \*\*"),
+        ("a if w else v", r"'a if w else v'; expected numbers, names"),
         (
-            {"of_a": "abs(a)"},
-            r"equation of a: 'abs\(a\)'; expected one of exp, expm1, log, .*not analytic",
-        ),
-        ({"of_a": "exp(a, 2)"}, r"'exp\(a, 2\)'; expected one of exp"),
-        ({"of_a": "a**w"}, r"'a\*\*w'; expected a power with a constant exponent"),
-        ({"of_a": "a*9**9**9"}, r"'9\*\*9\*\*9'; expected an exponent of size <= 256"),
-        ({"of_a": "a*((9**64)**64)**64"}, r"'\(9\*\*64\)\*\*64'; expected a power below exp"),
-        ({"of_a": "a*1e999999999"}, r"'1e999999999'; expected a number from 1e-308 to 1e308"),
-        ({"of_a": "a*1e-999999999"}, r"'1e-999999999'; expected a number from"),
-        ({"of_a": "a % 2"}, r"'a % 2'; expected \+ - \* / \*\*"),
-        ({"of_a": "a if w else v"}, r"'a if w else v'; expected numbers, names"),
-        (
-            {"of_a": "lambda**a", "parameters": {"lambda": {}}},
+            {"equations": of_a("lambda**a"), "parameters": {"lambda": {}}},
             r"'lambda\*\*a'; expected a power with a constant exponent",
         ),
-        ({"of_a": "a(t - w)"}, r"'a\(t - w\)'; expected a\(t - DELAY\) with a delay >= 0"),
-        ({"of_a": "a(t + 1)"}, r"'a\(t \+ 1\)'; expected a\(t - DELAY\)"),
-        ({"of_a": "a(t + rate_of)"}, r"'a\(t \+ rate_of\)'; expected a\(t - DELAY\)"),
-        ({"of_a": "a(t - rate_of/2 + rate_of)"}, r"expected a\(t - DELAY\) with a delay >= 0"),
-        ({"of_a": "a/0"}, r"equation of a: 'a/0'; expected an expression that is finite"),
-        ({"of_a": "sqrt(a**2)"}, r"'sqrt\(a\*\*2\)'; expected an expression that is real and ana"),
-        ({"of_a": "a + asin(2)"}, r"'a \+ asin\(2\)'; expected an expression that is real"),
-        ({"of_a": "a*acosh(0)"}, r"'a\*acosh\(0\)'; expected an expression that is real"),
-        ({"of_a": "v"}, r"equation of a at the steady state: 'v = 1'; expected 0"),
+        ("a(t - w)", r"'a\(t - w\)'; expected a\(t - DELAY\) with a delay >= 0"),
+        ("a(t + 1)", r"'a\(t \+ 1\)'; expected a\(t - DELAY\)"),
+        ("a(t + rate_of)", r"'a\(t \+ rate_of\)'; expected a\(t - DELAY\)"),
+        ("a(t - rate_of/2 + rate_of)", r"expected a\(t - DELAY\) with a delay >= 0"),
+        ("a/0", r"equation of a: 'a/0'; expected an expression that is finite"),
+        ("sqrt(a**2)", r"'sqrt\(a\*\*2\)'; expected an expression that is real and ana"),
+        ("a + asin(2)", r"'a \+ asin\(2\)'; expected an expression that is real"),
+        ("a*acosh(0)", r"'a\*acosh\(0\)'; expected an expression that is real"),
+        ("v", r"equation of a at the steady state: 'v = 1'; expected 0"),
         ({"steady_state": {"a": 0}}, r"steady_state: 'a'; expected a value for each state"),
         ({"steady_state": {"near": {"a": 0}}}, r"steady_state: 'a'; expected a value for each st"),
         (
@@ -109,25 +111,22 @@ def block(law: str = PAPER) -> dict:
         ),
         ({"steady_state": {"near": {"a": 0, "w": 0}, "a": 0}}, r"'near, a'; expected near alone"),
         (
-            {"steady_state": {"near": {"a": 0, "w": 0}}, "of_a": "sin(t) - a"},
+            {"steady_state": {"near": {"a": 0, "w": 0}}, "equations": of_a("sin(t) - a")},
             r"equation of a with a steady state: 'sin\(t\) - a'; expected no t",
         ),
-        ({"of_a": "w/a"}, r"equation of a at the steady state: 'w/a = nan'; expected 0"),
+        ("w/a", r"equation of a at the steady state: 'w/a = nan'; expected 0"),
         ({"fast": "b"}, r"fast: 'b'; expected one of the states a, w"),
         ({"domain": {"b": [0, 1]}}, r"domain of b: \[0, 1\]; expected a state with its least"),
-        ({"of_a": "__import__('os')"}, r"__import__\(.*; expected one of exp"),
-        ({"of_a": "a.real"}, r"'a.real'; expected numbers, names"),
+        ("__import__('os')", r"__import__\(.*; expected one of exp"),
+        ("a.real", r"'a.real'; expected numbers, names"),
     ],
 )
 def test_definition_is_refused_in_words(changes, words):
-    """Place, what was met, and what is expected."""
-    changes = dict(changes)
-    of_a = changes.pop("of_a", None)
-    values = {**DECAY, **changes}
-    if of_a:
-        values["equations"] = {"a": of_a, "w": "-a"}
+    """Place, what was met, and what is expected; a text is the equation of a."""
+    if isinstance(changes, str):
+        changes = {"equations": of_a(changes)}
     with pytest.raises(ModelError, match=words):
-        read_model(values)
+        read_model({**DECAY, **changes})
 
 
 def test_steady_state_is_tested_by_numbers():

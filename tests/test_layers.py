@@ -133,16 +133,8 @@ def test_generator_and_methods_know_no_block():
 
 
 NO_SOURCES = (
-    ".ipynb",
-    ".json",
-    ".lock",
-    ".md",
-    ".png",
-    ".tsv",
-    ".typed",
-    "LICENSE",
-    "packages.txt",
-    "ts.in",
+    *(".ipynb", ".json", ".lock", ".md", ".png", ".tsv", ".typed"),
+    *("LICENSE", "packages.txt", "ts.in"),
 )
 """Ends of names of data and documents."""
 

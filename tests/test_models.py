@@ -62,6 +62,19 @@ def with_model(config) -> dict:
     return config
 
 
+def refusals(config: dict, path: tuple[str, ...], value) -> list[str]:
+    """What is said of a value at a place of the configuration."""
+    *place, key = path
+    section = config
+    for step in place:
+        section = section.setdefault(step, {})
+    section[key] = copy.deepcopy(value)
+    with pytest.raises(ConfigError, match="config") as refused:
+        checked(config)
+    lines = str(refused.value).splitlines()
+    return [line for line in lines if line.startswith(place_of(place))]
+
+
 def test_default_of_a_parameter_reaches_the_program(with_law):
     groups = scene_groups(checked(with_law), "torus")
     model = groups["scene"]["model"]
@@ -122,15 +135,7 @@ WRONG = [
 @pytest.mark.parametrize(("path", "value", "words"), WRONG)
 def test_wrong_law_or_model_is_refused(with_model, path, value, words):
     """Place, what was met, and what is expected."""
-    *place, key = path
-    section = with_model
-    for step in place:
-        section = section.setdefault(step, {})
-    section[key] = copy.deepcopy(value)
-    with pytest.raises(ConfigError) as refused:
-        checked(with_model)
-    lines = str(refused.value).splitlines()
-    assert [line for line in lines if line.startswith(place_of(place)) and words in line], lines
+    assert words in "".join(refusals(with_model, path, value))
 
 
 @pytest.mark.parametrize(("section", "name"), [("routes", "lines"), ("cycles", "lines")])
@@ -139,10 +144,8 @@ def test_line_of_a_model_has_its_own_history(with_model, section, name):
     del line["tau"]
     if section == "cycles":
         del line["count"]
-    with_model[section][name]["mine"] = line
-    with pytest.raises(ConfigError) as refused:
-        checked(with_model)
-    assert f"config {section} lines mine: key ['history'] is missing: y of" in str(refused.value)
+    words = refusals(with_model, (section, name, "mine"), line)
+    assert "key ['history'] is missing: y of" in words[0]
 
 
 def test_law_without_inertia_has_one_parameter_more(with_law):

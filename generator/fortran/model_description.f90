@@ -98,7 +98,6 @@ contains
       procedure(describe_line), pointer, intent(in) :: lines
       character(len=line_length) :: words(9)
       integer :: equation, number, pair(2), parameter, place
-      real(wp) :: bound
 
       allocate (description%states(0), description%meanings(0), description%auxiliaries(0))
       allocate (description%sizes%couplings(2, 0))
@@ -111,8 +110,7 @@ contains
          case ("sizes")
             associate (sizes => description%sizes)
                read (words(2:8), *) sizes%parameters, sizes%equations, sizes%states, &
-                  sizes%delayed, sizes%terms, sizes%exponentials, &
-                  sizes%delayed_exponents
+                  sizes%delayed, sizes%terms, sizes%exponentials, sizes%delayed_exponents
                allocate (description%parameters(sizes%parameters), &
                          description%equations(sizes%equations))
             end associate
@@ -144,11 +142,9 @@ contains
             read (words(3), *) place
             description%auxiliaries = [description%auxiliaries, auxiliary_type(words(2), place)]
          case ("above")
-            read (words(2), *) bound
-            description%parameters(parameter)%above = bound
+            read (words(2), *) description%parameters(parameter)%above
          case ("at_least")
-            read (words(2), *) bound
-            description%parameters(parameter)%at_least = bound
+            read (words(2), *) description%parameters(parameter)%at_least
          case default
             ! no other line is written
          end select

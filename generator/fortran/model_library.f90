@@ -201,9 +201,7 @@ contains
       call c_f_procpointer(procedure_of(library, "series"), code%series)
       call c_f_procpointer(procedure_of(library, "tangent_series"), code%tangent_series)
       call c_f_procpointer(procedure_of(library, "delayed"), code%delayed)
-      if (has(library, "exponents")) then
-         call c_f_procpointer(procedure_of(library, "exponents"), code%exponents)
-      end if
+      call c_f_procpointer(procedure_of(library, "exponents"), code%exponents)
       if (has(library, "relaxation_rate")) then
          call c_f_procpointer(procedure_of(library, "relaxation_rate"), code%relaxation_rate)
          call c_f_procpointer(procedure_of(library, "slow_series"), code%slow_series)

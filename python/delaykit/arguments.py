@@ -6,7 +6,7 @@ import math
 import re
 import sys
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import replace
 
 import numpy as np
 
@@ -31,16 +31,6 @@ def number_of(what: str, value) -> float:
     if not math.isfinite(number):
         raise ModelError(f"{what}: {number!r}; expected a finite number")
     return number
-
-
-@dataclass
-class Start:
-    """Where a run begins."""
-
-    pieces: Pieces
-    """What was before"""
-    state: np.ndarray | None = None
-    """The state there, where it is not that of a constant past"""
 
 
 class Arguments:
@@ -107,10 +97,10 @@ class Arguments:
             if one.direction not in (-1, 0, 1):
                 raise ModelError(f"direction: {one.direction!r}; expected -1, 0 or 1")
             rows.append((level, 1 + component, one.direction, one.terminal, one.of_slope))
-        columns = list(zip(*rows, strict=True)) or [()] * 5
         names = ("level", "component", "direction", "terminal", "of_slope")
+        columns = np.reshape(np.array(rows, float), (-1, 5)).T
         return {
-            name: np.array(column, np.float64 if name == "level" else np.int32)
+            name: column.astype(np.float64 if name == "level" else np.int32)
             for name, column in zip(names, columns, strict=True)
         }
 
@@ -208,46 +198,44 @@ class Arguments:
 
     def unit_of_time(self, past: np.ndarray) -> float:
         """The unit of times that are not given, of a model with constant states before."""
-        request, _ = self.request(Start(Pieces.none(0.0, past, past)), 0.0)
+        request, _ = self.request(Pieces.none(0.0, past, past), 0.0)
         return LIBRARY.dk_unit_of_time(self.model.handle, ctypes.byref(request))
 
-    def request(self, start: Start, t_end: float) -> tuple[Request, list]:
+    def request(self, pieces: Pieces, t_end: float) -> tuple[Request, list]:
         """A request with all that is not an option, and what must live as long as it."""
         request = Request()
-        request.parameters, request.past = address(self.numbers), address(start.pieces.past)
-        request.t_start, request.t_start_rest = start.pieces.end
+        request.parameters, request.past = address(self.numbers), address(pieces.past)
+        request.t_start, request.t_start_rest = pieces.end
         request.t_end = t_end
         request.blocks = self.model.blocks
         request.ends = 1 + ENDS.index(self.model.ends)
-        kept: list = [start]
-        if start.state is not None:
-            structure, arrays = start.pieces.structure()
+        kept: list = [pieces]
+        if not pieces.is_constant:
+            structure, arrays = pieces.structure()
             kept += [structure, arrays]
-            request.state, request.history = address(start.state), ctypes.addressof(structure)
+            request.state, request.history = address(pieces.state), ctypes.addressof(structure)
         return request, kept
 
 
-def begin(own: Arguments, history, t_start: float, initial, breaks, rtol, atol) -> Start:
-    """Where a run begins: after constant states, after functions of time, or after a run."""
+def begin(own: Arguments, history, t_start: float, initial, breaks, rtol, atol) -> Pieces:
+    """What was before a run: constant states, functions of time, or a run."""
     delays = own.model.delays_of(own.numbers)
-    start = Start(getattr(history, "pieces", None))
-    if start.pieces is None:
+    pieces = getattr(history, "pieces", None)
+    if pieces is None:
         given = own.over_time(own.by_name("history", history))
         reads = any(callable(value) for value in given.values())
         if reads and len(delays) and max(delays) > 0:
-            start.pieces = fit(
+            pieces = fit(
                 lambda t: own.values("history", given, t),
                 t_start - max(delays), t_start, breaks, rtol, 0.0 if atol is None else atol,
             ).with_kink(0)  # fmt: skip
-            start.state = start.pieces.state
         else:
             # without delays a function is read once
             past = own.values("history", given, t_start if reads else None)
-            start.pieces = Pieces.none(t_start, past, None if reads else past)
+            pieces = Pieces.none(t_start, past, None if reads else past)
     else:
-        start.pieces.check_reach(delays)
-        start.state = start.pieces.state
+        pieces.check_reach(delays)
     if initial is not None:
-        start.state = own.values("initial", own.by_name("initial", initial))
-        start.pieces = start.pieces.with_kink(-1)
-    return start
+        state = own.values("initial", own.by_name("initial", initial))
+        pieces = replace(pieces.with_kink(-1), state=state)
+    return pieces

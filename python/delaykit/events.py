@@ -30,13 +30,11 @@ class Event:
             return text
         found = WRITTEN.match(str(text))
         try:
-            level = float(found[3]) if found else None
-        except ValueError:
-            level = None
-        if level is None:
+            level = float(found[3])
+        except (TypeError, ValueError):
             raise ModelError(
                 f"event {text!r}; expected STATE = NUMBER or STATE' = NUMBER, then rising or "
                 "falling, then stop where it ends the run"
-            )
+            ) from None
         direction = {"rising": 1, "falling": -1, None: 0}[found[4]]
         return cls(found[1], level, direction, found[2] == "'", found[5] == "stop")

@@ -18,10 +18,6 @@ SHARE = 0.1
 MOST_PIECES = 4096
 ROUNDING = 4
 """How far a time may be off, in units of the spacing of times."""
-NODES = np.array(
-    [(1 - math.cos(math.pi * (k + 0.5) / (DEGREE + 1))) / 2 for k in range(DEGREE + 1)]
-)
-"""Where a function is read in each piece: Chebyshev points of 0..1 ..."""
 
 
 def leja(points: np.ndarray) -> np.ndarray:
@@ -33,7 +29,8 @@ def leja(points: np.ndarray) -> np.ndarray:
     return np.array(order)
 
 
-NODES = leja(NODES)
+NODES = leja((1 - np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))) / 2)
+"""Where a function is read in each piece: Chebyshev points of 0..1 ..."""
 TESTS = np.linspace(0.02, 0.98, 2 * DEGREE + 1)
 """... and where the polynomial is compared with it."""
 
@@ -88,6 +85,12 @@ class Pieces:
         """States before the origin as the library takes them, also where it reads none of them."""
         return self.state if self.before is None else self.before
 
+    @property
+    def is_constant(self) -> bool:
+        """Whether the states before go on, without a jump."""
+        has_none = not len(self.length) and not len(self.passages)
+        return has_none and np.array_equal(self.past, self.state)
+
     def check_reach(self, delays: np.ndarray) -> None:
         """Raise ModelError if a delay reaches beyond what is known."""
         begin, end = self.origin.sum(), self.end.sum()
@@ -134,10 +137,7 @@ class Pieces:
             return np.where((t < self.end[0])[:, None], self.past, self.state)
         piece = np.clip(np.searchsorted(self.start[:, 0], t, side="right") - 1, 0, None)
         share = (t - self.start[piece, 0] - self.start[piece, 1]) / self.length[piece]
-        value = self.coefficients[piece, :, -1]
-        for k in range(self.nodes.shape[1] - 1, -1, -1):
-            factor = (share - self.nodes[piece, k])[:, None]
-            value = self.coefficients[piece, :, k] + factor * value
+        value = newton_value(self.coefficients[piece], self.nodes[piece], share)
         if self.before is not None:
             value[t < self.origin[0]] = self.before
         return value
@@ -163,7 +163,7 @@ def fit(
         values = np.array([function(left + (right - left) * x) for x in NODES])
         coefficients = newton(values)
         read = np.array([function(left + (right - left) * x) for x in TESTS])
-        fitted = np.array([newton_value(coefficients, x) for x in TESTS])
+        fitted = newton_value(coefficients[None], NODES[None, :DEGREE], TESTS)
         if not np.isfinite(values).all() or not np.isfinite(read).all():
             raise ModelError(f"the history is not finite between t = {left} and {right}")
         size = np.maximum(size, np.abs(read).max(axis=0))
@@ -185,7 +185,7 @@ def fit(
         length=length,
         valid_for=length,
         nodes=np.tile(NODES[:DEGREE], (len(done), 1)),
-        coefficients=np.array([coefficients.T for _, _, coefficients in done]),
+        coefficients=np.array([coefficients for _, _, coefficients in done]),
         kinks=np.column_stack([inner, np.zeros_like(inner)]),
         passages=np.full(len(inner), -1),
         generation=np.zeros(len(inner)),
@@ -196,16 +196,16 @@ def fit(
 
 
 def newton(values: np.ndarray) -> np.ndarray:
-    """Newton coefficients of values at NODES, shape (1 + degree, states)."""
-    table = values.astype(float)
+    """Newton coefficients of values at NODES, shape (states, 1 + degree)."""
+    table = values.T.astype(float)
     for k in range(1, len(NODES)):
-        table[k:] = (table[k:] - table[k - 1 : -1]) / (NODES[k:] - NODES[: len(NODES) - k])[:, None]
+        table[:, k:] = (table[:, k:] - table[:, k - 1 : -1]) / (NODES[k:] - NODES[:-k])
     return table
 
 
-def newton_value(coefficients: np.ndarray, x: float) -> np.ndarray:
-    """Their polynomial at a place in 0..1."""
-    value = coefficients[-1]
-    for k in range(DEGREE - 1, -1, -1):
-        value = coefficients[k] + (x - NODES[k]) * value
+def newton_value(coefficients: np.ndarray, nodes: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """Polynomials at a place each, or one at all places, shape (places, states)."""
+    value = coefficients[..., -1]
+    for k in range(nodes.shape[1] - 1, -1, -1):
+        value = coefficients[..., k] + (x - nodes[:, k])[:, None] * value
     return value

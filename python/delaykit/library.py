@@ -41,15 +41,8 @@ class Request(ctypes.Structure):
     """dk_request: what is wanted of a run."""
 
     _fields_ = structure(
-        *(
-            "parameters:p",
-            "past:p",
-            "state:p",
-            "t_start:r",
-            "t_start_rest:r",
-            "t_end:r",
-            "method:s",
-        ),
+        *("parameters:p", "past:p", "state:p", "t_start:r", "t_start_rest:r", "t_end:r"),
+        "method:s",
         *("rtol:p", "atol:p", "first_step:r", "max_step:r", "max_steps:l", "max_bytes:r"),
         *("times:p", "breaks:p", "doses:p", "event_level:p", "event_component:p"),
         *("event_direction:p", "event_terminal:p", "event_of_slope:p", "share:r"),

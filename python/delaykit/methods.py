@@ -116,9 +116,7 @@ def histories_group(own: Arguments, history) -> dict:
         values = history.y[..., -1].reshape(own.model.blocks, -1)
     elif isinstance(history, xr.Dataset):
         last = history.isel(t=-1)
-        values = (
-            np.array([last[state].values for state in own.states]).reshape(len(own.states), -1).T
-        )
+        values = np.transpose([np.atleast_1d(last[state].values) for state in own.states])
     else:
         given = own.by_name("history", history)
         if any(callable(one) or isinstance(one, tuple) for one in given.values()):
@@ -135,20 +133,16 @@ def is_run(start) -> bool:
 def mean_of(model, run) -> dict[str, float]:
     """The mean of each state over a run, about which it moves."""
     data = run if isinstance(run, xr.Dataset) else run.to_dataset()
-    spans = np.diff(data.t.values)
-    return {
-        state: float(
-            np.sum(0.5 * (data[state].values[1:] + data[state].values[:-1]) * spans) / spans.sum()
-        )
-        for state in model.states
-    }
+    span = float(data.t[-1] - data.t[0])
+    return {state: float(data[state].integrate("t")) / span for state in model.states}
 
 
 def in_units(own: Arguments, histories: Mapping, given: Mapping) -> dict:
-    """Times and rates, those that are None in units of the model."""
+    """Options with times and rates in units of the model where they are None."""
     past = np.reshape(histories["values"], (len(own.states), -1)).T
     unit = own.unit_of_time(own.by_place(past))
-    known = {key: TIMES[key] * unit if key in TIMES else RATES[key] / unit for key in given}
+    known = {key: time * unit for key, time in TIMES.items()}
+    known |= {key: rate / unit for key, rate in RATES.items()}
     return {key: known[key] if value is None else value for key, value in given.items()}
 
 
@@ -181,12 +175,9 @@ def exponents(
     """
     own = Arguments(model, parameters)
     histories = histories_group(own, history)
-    known = in_units(
-        own,
-        histories,
-        {"t_transient": t_transient, "t_observed": None, "t_turning": t_turning}
-        | {"interval": interval, "zero_level": zero_level, "longest_bar": longest_bar},
-    )
+    times = {"t_transient": t_transient, "t_observed": None, "t_turning": t_turning}
+    levels = {"interval": interval, "zero_level": zero_level, "longest_bar": longest_bar}
+    known = in_units(own, histories, times | levels)
     t_transient, t_observed = known.pop("t_transient"), known.pop("t_observed")
     t_end = t_transient + t_observed if t_end is None else t_end
     groups = {
@@ -235,11 +226,9 @@ def attractor(
     for key in observation:
         check_name("option", key, OBSERVATION)
     histories = histories_group(own, history)
-    observation = {**OBSERVATION, **observation, "t_transient": t_transient}
-    observation |= {"t_observed": t_observed, "t_turning": t_turning}
-    known = {key: value for key, value in observation.items() if key in {**TIMES, **RATES}}
+    times = {"t_transient": t_transient, "t_observed": t_observed, "t_turning": t_turning}
     groups = {
-        "observation": observation | in_units(own, histories, known),
+        "observation": in_units(own, histories, OBSERVATION | observation | times),
         "points": {
             **{"name": model.definition["name"], "model": model_group(own), "kept": kept},
             **{"refinements": 0, "sweep": "none"},

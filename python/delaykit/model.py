@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A model with constant delays: its equations, parameters, and what can be computed of it."""
 
+import copy
 import ctypes
 from collections.abc import Mapping
 from functools import cached_property
+from operator import ge, gt
 from pathlib import Path
 
 import numpy as np
@@ -134,19 +136,16 @@ class Model:
 
     def checked(self, values: Mapping) -> dict[str, float]:
         """Values of parameters; raise ModelError for a name or a number that cannot be."""
-        return {key: self.checked_value(key, value) for key, value in values.items()}
-
-    def checked_value(self, key: str, value) -> float:
-        """One of them."""
-        check_name("parameter", key, self.definition["parameters"])
-        number = number_of(f"parameter {key}", value)
-        entry = self.definition["parameters"][key]
-        if "above" in entry and not number > entry["above"]:
-            raise ModelError(f"parameter {key}: {number!r}; expected a number > {entry['above']}")
-        if "at_least" in entry and not number >= entry["at_least"]:
-            low = entry["at_least"]
-            raise ModelError(f"parameter {key}: {number!r}; expected a number >= {low}")
-        return number
+        numbers = {}
+        for key, value in values.items():
+            check_name("parameter", key, self.definition["parameters"])
+            number = numbers[key] = number_of(f"parameter {key}", value)
+            entry = self.definition["parameters"][key]
+            for bound, sign, holds in (("above", ">", gt), ("at_least", ">=", ge)):
+                if bound in entry and not holds(number, entry[bound]):
+                    expected = f"a number {sign} {entry[bound]}"
+                    raise ModelError(f"parameter {key}: {number!r}; expected {expected}")
+        return numbers
 
     def numbers(self, values: Mapping | None = None) -> np.ndarray:
         """All parameters in the order of the definition, some with other values."""
@@ -167,51 +166,25 @@ class Model:
         LIBRARY.dk_delays(self.handle, address(numbers), address(lags), ctypes.byref(count))
         return lags[: count.value].copy()
 
-    def integrate(self, history=None, t_end=None, **options) -> "runs.Solution":
-        """A run as plain arrays; the arguments are those of `run`."""
-        return runs.integrate(self, history, t_end, **options)
+    integrate = runs.integrate
+    section = runs.section
+    scan = scans.scan
+    exponents = methods.exponents
+    attractor = methods.attractor
+    roots = methods.roots
+    hopf = methods.hopf
+    cycle = methods.cycle
 
-    def run(self, history=None, t_end=None, **options):
-        """A run as an xarray.Dataset; `runs.integrate` explains the arguments."""
-        return runs.integrate(self, history, t_end, **options).to_dataset()
-
-    def section(self, history, t_end, event, **options):
-        """The points at which a run passes a level; `runs.section` explains them."""
-        return runs.section(self, history, t_end, event, **options)
-
-    def scan(self, measure="maxima", **options):
-        """What is measured of runs over arrays of parameters; `scans.scan` explains it."""
-        return scans.scan(self, measure, **options)
-
-    def exponents(self, history, count=4, **options):
-        """Lyapunov exponents; `methods.exponents` explains them."""
-        return methods.exponents(self, history, count, **options)
-
-    def attractor(self, history, **options):
-        """The class of a motion; `methods.attractor` explains it."""
-        return methods.attractor(self, history, **options)
-
-    def roots(self, bound=-1.0, **options):
-        """Characteristic roots at rest; `methods.roots` explains them."""
-        return methods.roots(self, bound, **options)
-
-    def hopf(self, along, window, **options):
-        """Hopf curves in a plane; `methods.hopf` explains them."""
-        return methods.hopf(self, along, window, **options)
-
-    def cycle(self, start, along, window, **options):
-        """Branches of cycles; `methods.cycle` explains them."""
-        return methods.cycle(self, start, along, window, **options)
+    def run(self, *arguments, **options):
+        """A run as an xarray.Dataset; the arguments are those of `integrate`."""
+        return self.integrate(*arguments, **options).to_dataset()
 
     def resting(self, near: Mapping | None) -> "Model":
         """The model with a state at rest, looked for near a guess unless it has one."""
         if near is None:
             return self
-        other = object.__new__(type(self))
-        other.__dict__.update(self.__dict__)
-        other.__dict__.pop("path", None)
-        other.__dict__.pop("handle", None)
         guess = {key: number_of(f"near {key}", value) for key, value in near.items()}
+        other = copy.copy(self)
         other.definition = {**self.definition, "steady_state": {"near": guess}}
         return other
 

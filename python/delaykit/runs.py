@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from delaykit.arguments import HUGE, Arguments, Start, begin, number_of
+from delaykit.arguments import HUGE, Arguments, begin, number_of
 from delaykit.errors import ModelError, RunError, check_name
 from delaykit.events import Event
 from delaykit.history import Pieces
@@ -108,8 +108,8 @@ def integrate(
     rtol = own.tolerance("rtol", rtol)
     atol = None if atol is None else own.tolerance("atol", atol)
     breaks = own.array("breaks", breaks)
-    start = begin(own, history, own.number("t_start", t_start), initial, breaks, rtol, atol)
-    request, kept = own.request(start, t_end)
+    past = begin(own, history, own.number("t_start", t_start), initial, breaks, rtol, atol)
+    request, kept = own.request(past, t_end)
     check_name("method", method, METHODS)
     request.method = method.encode()
     request.rtol, request.atol = address(rtol), address(atol)
@@ -127,25 +127,23 @@ def integrate(
     request.breaks, request.break_count = address(breaks), len(breaks)
     request.time_count = -1
     if t_eval is not None:
-        times = own.times(t_eval, start.pieces.end[0])
+        times = own.times(t_eval, past.end[0])
         request.times, request.time_count = address(times), len(times)
     events = [Event.read(one) for one in ([events] if isinstance(events, str | Event) else events)]
     watched = own.events(events)
-    if events:
-        for name, array in watched.items():
-            setattr(request, f"event_{name}", address(array))
-        request.event_count = len(events)
-    if dosed := own.doses(doses, start.pieces.end[0], t_end):
+    for name, array in watched.items():
+        setattr(request, f"event_{name}", address(array))
+    request.event_count = len(events)
+    if dosed := own.doses(doses, past.end[0], t_end):
         changes = np.array(dosed)
         request.doses, request.dose_count = address(changes), len(changes)
-    handle = model.handle
     try:
-        found = call(LIBRARY.dk_integrate, handle, ctypes.byref(request))
+        found = call(LIBRARY.dk_integrate, model.handle, ctypes.byref(request))
     except RunError as problem:
         problem.args = (own.in_names(str(problem)),)
-        problem.partial = solution_of(own, problem.partial, events, start)
+        problem.partial = solution_of(own, problem.partial, events, past.before)
         raise
-    solution = solution_of(own, found, events, start)
+    solution = solution_of(own, found, events, past.before)
     solution.options = {"method": method, "rtol": rtol.tolist()}
     if atol is not None:
         solution.options["atol"] = atol.tolist()
@@ -165,28 +163,24 @@ def section(model, history, t_end, event, *, t_transient=0.0, **options):
     return dataset_of_passages(run, number_of("t_transient", t_transient))
 
 
-def solution_of(own: Arguments, found: Results, events: list[Event], start: Start) -> Solution:
+def solution_of(own: Arguments, found: Results, events: list[Event], before) -> Solution:
     """The arrays of results of the library."""
     model, t = own.model, found.values("t")
     y = own.by_block(found.values("y").reshape(len(t), own.n)).T
     counts = dict(zip(COUNTS, found.values("counts").astype(int).tolist(), strict=False))
-    t_events, y_events = [], []
-    if events:
-        which = found.values("event_which", np.int32)
-        times = found.values("event_time")
-        states = own.by_block(found.values("event_y").reshape(len(times), own.n))
-        t_events = [times[which == 1 + i] for i in range(len(events))]
-        y_events = [states[which == 1 + i] for i in range(len(events))]
+    which = found.values("event_which", np.int32)
+    times = found.values("event_time")
+    states = own.by_block(found.values("event_y").reshape(len(times), own.n))
     return Solution(
         model=model,
         numbers=own.numbers,
         t=t,
         y=y,
-        t_events=t_events,
-        y_events=y_events,
+        t_events=[times[which == 1 + i] for i in range(len(events))],
+        y_events=[states[which == 1 + i] for i in range(len(events))],
         status=counts.pop("status", -1),
         counts=counts,
-        pieces=pieces_of(own, found, start.pieces.before),
+        pieces=pieces_of(own, found, before),
     )
 
 

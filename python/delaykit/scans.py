@@ -26,7 +26,7 @@ def set_end(model, options: dict) -> None:
     """The end of a run where it is not given."""
     if options.get("t_end") is None:
         own = Arguments(model, options.get("parameters"))
-        past = begin(own, options["history"], 0.0, None, (), np.ones(own.n), None).pieces.past
+        past = begin(own, options["history"], 0.0, None, (), np.ones(own.n), None).past
         options["t_end"] = UNITS_OF_RUN * own.unit_of_time(past)
 
 

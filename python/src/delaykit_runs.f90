@@ -170,8 +170,9 @@ contains
       type(event_table) :: watcher
       type(integration_options) :: options
       type(integration_result) :: outcome, total
-      type(steps_sampler) :: followed
-      type(table_sampler) :: table
+      class(sampler_type), pointer :: sampler
+      type(steps_sampler), target :: followed
+      type(table_sampler), target :: table
       real(wp), pointer :: doses(:, :)
       real(wp) :: from, to
       integer :: k
@@ -186,8 +187,10 @@ contains
          followed%share_of_step = request%share
          followed%next = request%t_start(1)
          allocate (followed%time(64), followed%values(model%n, 64))
+         sampler => followed
       else
          table = table_sampler([(k, k=1, model%n)], reals_at(request%times, request%time_count))
+         sampler => table
       end if
       watcher = event_table(integers_at(request%event_component, request%event_count), &
                             reals_at(request%event_level, request%event_count), &
@@ -198,14 +201,10 @@ contains
       do k = 1, request%dose_count + 1
          to = request%t_end
          if (k <= request%dose_count) to = doses(1, k)
-         if (follows .and. request%event_count > 0) then
-            call integrate(model, from, to, options, outcome, error, followed, watcher, now)
-         else if (follows) then
-            call integrate(model, from, to, options, outcome, error, followed, continuation=now)
-         else if (request%event_count > 0) then
-            call integrate(model, from, to, options, outcome, error, table, watcher, now)
+         if (request%event_count > 0) then
+            call integrate(model, from, to, options, outcome, error, sampler, watcher, now)
          else
-            call integrate(model, from, to, options, outcome, error, table, continuation=now)
+            call integrate(model, from, to, options, outcome, error, sampler, continuation=now)
          end if
          call add(outcome, total)
          if (allocated(error) .or. outcome%reason == event_met) exit

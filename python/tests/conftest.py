@@ -2,7 +2,11 @@
 """What tests of the package share."""
 
 import delaykit as dk
+import matplotlib
 import pytest
+from matplotlib import pyplot
+
+matplotlib.use("agg")
 
 MACKEY_GLASS = "beta*y(t - tau)/(1 + y(t - tau)**n) - rate*y"
 NUMBERS = {"beta": 0.2, "n": 10, "rate": 0.1, "tau": 17}
@@ -14,6 +18,12 @@ def cache(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("DELAYKIT_CACHE", str(tmp_path_factory.mktemp("cache")))
         yield
+
+
+@pytest.fixture(autouse=True)
+def _closed_figures():
+    yield
+    pyplot.close("all")
 
 
 @pytest.fixture(scope="session")

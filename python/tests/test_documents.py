@@ -4,7 +4,6 @@
 import re
 from pathlib import Path
 
-import matplotlib
 import numpy as np
 import pytest
 
@@ -12,8 +11,7 @@ HOUSE = Path(__file__).parents[2]
 
 
 @pytest.fixture(autouse=True)
-def _pictures(monkeypatch, tmp_path):
-    matplotlib.use("agg")
+def _beside_the_solver(monkeypatch, tmp_path):
     (tmp_path / "fortran").symlink_to(HOUSE / "fortran")
     monkeypatch.chdir(tmp_path)
 
@@ -23,7 +21,6 @@ def program_of(document: str, language: str) -> dict:
     text = (HOUSE / document).read_text(encoding="utf-8")
     found: dict = {}
     exec("".join(re.findall(rf"^```{language}\n(.*?)^```", text, re.DOTALL | re.MULTILINE)), found)
-    matplotlib.pyplot.close("all")
     return found
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib import pyplot
 
 FOLDER = Path(__file__).resolve().parents[1]
 FILES = sorted(FOLDER.glob("gallery/*.py"))
@@ -24,19 +25,8 @@ def test_published_numbers(path):
     assert len(path.read_text().splitlines()) <= 41
 
 
-@pytest.fixture
-def pyplot():
-    """Matplotlib without a screen."""
-    matplotlib = pytest.importorskip("matplotlib")
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
-
-    yield pyplot
-    pyplot.close("all")
-
-
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
-def test_a_picture(path, pyplot):
+def test_a_picture(path):
     runpy.run_path(str(path))["plot"]()
     drawn = pyplot.gca()
     assert drawn.lines or drawn.collections
@@ -48,7 +38,7 @@ def test_a_file_runs_by_itself():
     assert "y1(5): 19.175; published: 19.175 within 1e-07" in output
 
 
-def test_the_notebook(pyplot):
+def test_the_notebook():
     cells = json.loads((FOLDER / "ten_minutes.ipynb").read_text())["cells"]
     names, drawn = {}, 0
     for cell in cells:

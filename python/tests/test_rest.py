@@ -1,44 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Roots and Hopf points at rest: in any unit, and where there is no rest or a root is 0."""
+"""Roots and Hopf points where there is no state at rest, or a root is 0 or on a bound."""
 
-import faulthandler
 from math import atan2, cos, nan, pi, sqrt
 
 import delaykit as dk
 import numpy as np
 import pytest
-
-
-@pytest.fixture(autouse=True)
-def bounded():
-    """A loop without end ends the process of the test."""
-    faulthandler.dump_traceback_later(120, exit=True)
-    yield
-    faulthandler.cancel_dump_traceback_later()
-
-
-def at_rest(s: float, q: float):
-    """Roots and Hopf curves of a model with s for the unit of time and q for that of x."""
-    equation = "(-x + a*q*sin(x(t - tau)/q) + 1.5*x**2/q)/s"
-    model = dk.Model({"x": equation}, {"a": -2, "s": s, "q": q, "tau": 5 * s})
-    curves = model.hopf(("a", "tau"), ((-3, 0.5), (s / 4, 10 * s)), near={"x": q / 8}, cells=10)
-    numbers = [s * curves.omega, curves.a, curves.tau / s, q**2 * curves.l1]
-    numbers += [curves.special_a, s * curves.special_omega_1, q**4 * curves.special_l2]
-    words = [*curves.special_kind.values.tolist(), curves.map_unstable_roots.values.tolist()]
-    return s * model.roots(-0.5 / s, near={"x": q / 8}), np.concatenate(numbers), words
-
-
-@pytest.mark.parametrize("q", [2.0**-30, 1.0, 2.0**30])
-@pytest.mark.parametrize("s", [2.0**-30, 2.0**-17, 2.0**20, 2.0**30])
-def test_units_of_roots(s, q):
-    """Powers of 2 change no bit of a root; ln(omega) in lengths along curves rounds otherwise."""
-    roots, numbers, words = at_rest(s, q)
-    known_roots, known_numbers, known_words = at_rest(1.0, 1.0)
-    assert roots.size == 40
-    np.testing.assert_array_equal(roots, known_roots)
-    np.testing.assert_allclose(numbers, known_numbers, rtol=1e-12, atol=1e-14)  # l1 passes 0
-    assert words == known_words
-    assert "generalised_hopf" in words
 
 
 def model_of(texts: str) -> dk.Model:
@@ -85,6 +52,8 @@ def of_tanh(a, b):
             *("a*sin(y(t - b) - x); a*sin(x(t - b) - y)", 0.25, ((-3, 3), (0.1, 4))),
             lambda a, b: (int(a < 0) + int(a * b < -1), 0),
         ),
+        # one real root without a pair
+        ("a*x + b*x(t - 1)", 0, ((-3, 3), (0, 4.1)), lambda a, b: (int(a + b > 0), 0)),
     ],
 )
 @pytest.mark.filterwarnings("ignore:invalid value")
@@ -117,5 +86,7 @@ def test_lines_in_which_roots_cannot_be_counted_everywhere(text, window, hopf, l
     np.testing.assert_array_equal(found.get("left_out_a", []), left_out)
 
 
-def test_a_root_on_the_bound_is_not_above():
-    assert model_of("-x + (a - 1)*x(t - 1)").roots(-1, near={"x": 0}).size == 0
+@pytest.mark.parametrize("bound", [-1, 10])
+def test_no_root_is_above_a_bound(bound):
+    """One is on the first, and no other."""
+    assert model_of("-x + (a - 1)*x(t - 1)").roots(bound, near={"x": 0}).size == 0

@@ -4,11 +4,8 @@
 import math
 
 import delaykit as dk
-import matplotlib
 import numpy as np
 import pytest
-
-matplotlib.use("agg")
 
 
 def test_a_spectrum_of_a_sine(sine):
@@ -27,23 +24,6 @@ def test_a_section_of_a_sine(sine):
     np.testing.assert_allclose(found.t[0], math.pi / 6 + 4 * math.pi, atol=1e-6)
     np.testing.assert_allclose(found.time_between[1:], 2 * math.pi, atol=1e-6)
     np.testing.assert_allclose(found.y, 0.5, atol=1e-9)
-
-
-def test_events_of_a_run(sine):
-    """Minima and maxima of sin t in the order of time."""
-    found = sine.run(math.sin, 10, events=["y' = 0 falling", "y' = 0 rising"])
-    np.testing.assert_allclose(found.event_t, math.pi * np.array([0.5, 1.5, 2.5]), atol=1e-6)
-    assert found.event_number.values.tolist() == [0, 1, 0]
-    np.testing.assert_allclose(found.event_y, [1, -1, 1], atol=1e-7)
-
-
-def test_hopf_counts_one_real_root():
-    """Of s = a + b exp(-s) one root is real and unstable where a + b > 0, and no pair is here."""
-    linear = dk.Model({"y": "a*y + b*y(t - 1)"}, {"a": 0, "b": 0}, steady_state={"y": 0})
-    found = linear.hopf(("a", "b"), ((-3, 3), (0, 4)), cells=10)
-    assert found.sizes["point"] == 0
-    unstable = found.map_abscissa + found.map_ordinate > 0
-    assert (found.map_unstable_roots == unstable.transpose(*found.map_unstable_roots.dims)).all()
 
 
 @pytest.mark.parametrize(
@@ -68,10 +48,6 @@ def test_numbers_that_no_memory_holds_are_refused(sine, method, option, value):
         getattr(sine, method)(*arguments, **given, **{option: value})
 
 
-def test_no_root_above_a_bound_is_no_root(sine):
-    assert sine.roots(10, near={"y": 0}).size == 0
-
-
 def test_pictures(mackey_glass, sine):
     results = {
         "Lyapunov exponent, average up to a time": mackey_glass.exponents(1.2, t_end=4000),
@@ -90,7 +66,6 @@ def test_pictures(mackey_glass, sine):
         assert axes.get_xlabel()
     with pytest.raises(dk.ModelError, match="plot: expected results of"):
         dk.plot(mackey_glass.run(1.2, 1))
-    matplotlib.pyplot.close("all")
 
 
 def test_where_equations_saturate():

@@ -11,12 +11,15 @@ import sys
 import textwrap
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 import delaykit as dk
 import numpy as np
 import pytest
 
 from conftest import MACKEY_GLASS, NUMBERS
+
+METHODS = ("auto", "bs5", "dop853", "taylor", "radau5", "radau13")
 
 
 def test_published_values(mackey_glass):
@@ -25,7 +28,7 @@ def test_published_values(mackey_glass):
     np.testing.assert_allclose(run.y[0], [1.06095436, 1.18671810], rtol=1e-8)
 
 
-@pytest.mark.parametrize("method", ["auto", "bs5", "dop853", "taylor", "radau5", "radau13"])
+@pytest.mark.parametrize("method", METHODS)
 def test_a_history_that_is_a_function(sine, method):
     t = np.linspace(0, 20, 41)
     run = sine.integrate(math.sin, 20, t_eval=t, method=method, rtol=1e-10, atol=1e-10)
@@ -93,10 +96,16 @@ def test_a_jump_at_the_start_and_doses():
 
 
 def test_events(sine):
-    run = sine.integrate(math.sin, 12, events=["y' = 0 falling", dk.Event("y", 0.5, 1)])
+    watched = ["y' = 0 falling", dk.Event("y", 0.5, 1), "y' = 0 rising"]
+    run = sine.integrate(math.sin, 12, events=watched)
     np.testing.assert_allclose(run.t_events[0], [math.pi / 2, 5 * math.pi / 2], atol=1e-6)
     np.testing.assert_allclose(run.y_events[0][:, 0], [1, 1], atol=1e-7)
     np.testing.assert_allclose(run.t_events[1] % (2 * math.pi), math.pi / 6, atol=1e-6)
+    # in the order of time
+    found = run.to_dataset()
+    np.testing.assert_allclose(found.event_t, np.sort(np.concatenate(run.t_events)))
+    assert found.event_number.values.tolist() == [1, 0, 2] * 2
+    np.testing.assert_allclose(found.event_y, [0.5, 1, -1] * 2, atol=1e-7)
     ended = sine.integrate(math.sin, 12, events="y = 0.5 rising stop")
     assert ended.status == 1
     np.testing.assert_allclose(ended.t[-1], math.pi / 6, atol=1e-7)
@@ -110,7 +119,6 @@ def test_an_exponential_of_a_state():
     np.testing.assert_allclose(run.v[-1], 0.5, atol=1e-9)
 
 
-METHODS = ("auto", "bs5", "dop853", "taylor", "radau5", "radau13")
 SATURATED = {
     "1/(1 + exp(c(t - 1)))": lambda c: float(c < 0),
     "exp(2*c(t - 1))/(1 + exp(c(t - 1)))**2": lambda c: float(c > 0),
@@ -166,7 +174,7 @@ def test_a_ring_of_blocks():
     np.testing.assert_allclose(np.roll(run.y, 1, axis=0), moved.y, atol=1e-8)
 
 
-def test_a_dataset(mackey_glass, tmp_path):
+def test_a_dataset(mackey_glass):
     run = mackey_glass.run({"y": 1.2}, 50)
     assert run.t[0] == 0
     assert run.t[-1] == 50
@@ -230,18 +238,9 @@ def test_what_was_reached_before_an_error():
 
 
 def test_other_processes_and_threads(mackey_glass):
-    expected = mackey_glass.integrate(1.2, 50, t_eval=[50]).y
-    found = []
-    threads = [
-        threading.Thread(
-            target=lambda: found.append(mackey_glass.integrate(1.2, 50, t_eval=[50]).y)
-        )
-        for _ in range(4)
-    ]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
+    expected = at_fifty(mackey_glass)
+    with ThreadPoolExecutor(4) as pool:
+        found = [*pool.map(at_fifty, [mackey_glass] * 4)]
     for way in ("fork", "spawn"):
         with multiprocessing.get_context(way).Pool(1) as pool:
             found.append(pool.apply(pickle.loads(pickle.dumps(at_fifty)), (mackey_glass,)))

@@ -6,14 +6,12 @@ import math
 import delaykit as dk
 import numpy as np
 import pytest
-from switches import METHODS, driven, feedback
-
-PROBLEMS = [*driven(), *feedback()]
+from switches import METHODS, PROBLEMS
 
 
 @pytest.mark.parametrize("method", METHODS)
 def test_thirty_switches(method):
-    """Against quadrature and SciPy; 30 tolerances, times the condition, is the bound."""
+    """Against SciPy; 30 tolerances, times the condition, is the bound."""
     errors = {
         (problem.name, tolerance): problem.error(method, tolerance)
         for problem in PROBLEMS
