@@ -168,7 +168,7 @@ contains
       tangent = tangent_problem_type(problem, settings%vectors())
       call start_vectors(tangent, approach, measured%continuation)
       call orthonormalise(tangent, vector_size, settings%across_flow, &
-                          measured%continuation, norm, share)
+                          measured%continuation, norm, share, options)
       ! no solution of the variational equations yet: a kink
       measured%continuation%rate = [approach%rate, (0.0_wp, i=1, tangent%n - problem%n)]
       ! as many in each block
@@ -293,7 +293,7 @@ contains
       measured%implicit_steps = measured%implicit_steps + outcome%implicit_steps
       slope = measured%continuation%slope
       call orthonormalise(tangent, vector_size, settings%across_flow, &
-                          measured%continuation, norm, share)
+                          measured%continuation, norm, share, options)
       if (share > lost) then
          measured%least_share = min(measured%least_share, share)
          growth = log(norm/vector_size)
@@ -303,7 +303,7 @@ contains
          ! noise need not be orthogonal to the others, nor of this size
          measured%continuation%slope = slope
          call orthonormalise(tangent, vector_size, settings%across_flow, &
-                             measured%continuation, norm, share)
+                             measured%continuation, norm, share, options)
          if (present(observer)) call observer%keep_interval()
       else if (outcome%accepted <= 1 .and. .not. settings%bounds) then
          ! lost within a step

@@ -7,7 +7,7 @@
 !> c the delayed components and L_c the longest delay of each. Exponents do not depend on the inner
 !> product, so that Gauss's rule of three nodes on each kept step serves as integral.
 module tangent_vectors
-   use dde, only: continuation_type, dde_problem_type, elapsed, instant
+   use dde, only: continuation_type, dde_problem_type, elapsed, instant, integration_options
    use dde_kinds, only: wp
    use tangent_problem, only: tangent_problem_type
    implicit none (type, external)
@@ -128,7 +128,8 @@ contains
    !> Schmidt's procedure done twice. If the flow is given a place, it is the first vector, and the
    !> others become orthogonal to it, too. State and past of a vector take part alike, so that the
    !> new ones are solutions as well.
-   pure subroutine orthonormalise(problem, size_after, across_flow, continuation, norm, share)
+   pure subroutine orthonormalise(problem, size_after, across_flow, continuation, norm, share, &
+                                  options)
       !> The problem with its tangent vectors
       type(tangent_problem_type), intent(in) :: problem
       !> Norm that the vectors get
@@ -141,15 +142,23 @@ contains
       real(wp), intent(out) :: norm(:)
       !> Least share that such a part had of its vector
       real(wp), intent(out) :: share
+      !> Units of the flow, on which the rounding of norms depends
+      type(integration_options), intent(in), optional :: options
       !> Values of a vector, one column each; the flow is column 0
       real(wp), allocatable :: column(:, :)
       !> The new vectors in terms of the flow and the old ones
       real(wp) :: combination(0:size(norm), 0:size(norm))
       !> Time derivatives of the undisturbed past: Newton coefficients over the same nodes
       real(wp), allocatable :: flow(:, :, :)
-      real(wp) :: whole
+      real(wp) :: flow_unit, whole
       integer :: first, i, j, k, kept, pass, steps
 
+      flow_unit = 1.0_wp
+      if (present(options)) then
+         if (allocated(options%each_absolute)) then
+            flow_unit = maxval(options%each_absolute)/options%unit_of_time
+         end if
+      end if
       associate (n => problem%base%n, m => problem%vectors, now => continuation)
          kept = size(now%kept)/(m + 1)
          steps = size(now%step_length)
@@ -164,7 +173,7 @@ contains
                end do
             end do
             column(:, 0) = [state_weight*now%slope(:n), &
-                          past_values(problem%base, now, kept, flow)]
+                          past_values(problem%base, now, kept, flow)]/flow_unit
          end if
          do j = 1, m
             column(:, j) = [state_weight*now%y(j*n + 1:(j + 1)*n), &
@@ -192,6 +201,7 @@ contains
                share = min(share, left/max(whole, tiny(1.0_wp)))
             end associate
          end do
+         combination(0, :) = combination(0, :)/flow_unit
          call combine(size_after*combination, across_flow, n, m, flow, now)
          ! the solution and its past changed alike: no kink
          deallocate (now%slope, now%rate)
