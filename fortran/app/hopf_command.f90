@@ -32,13 +32,12 @@ contains
       grid = [0.0_wp, middles([0.0_wp, 1.0_wp], settings%cells), 1.0_wp]
       roots = plane%unstable_roots(grid, grid)
       if (all(roots < 0)) call check_rest(plane%model, error)
-      if (stop_requested /= 0) call raise(error, "Hopf curves: interrupted")
       if (allocated(error)) return
       call trace_curves(plane, grid, grid, roots, points, error)
       if (allocated(error)) return
-      call judge_points(plane, points, error)
-      if (allocated(error)) return
+      call judge_points(plane, points)
       call find_hopf_points(plane, points, special, error)
+      if (stop_requested /= 0) call raise(error, "Hopf curves: interrupted")
       if (allocated(error)) return
       call write_curves(output_path, settings, plane, points, special, &
                         roots(2:settings%cells + 1, 2:settings%cells + 1), error)

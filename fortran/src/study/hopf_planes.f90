@@ -140,16 +140,13 @@ contains
       !> Places of columns and lines in units of the window
       real(wp), intent(in) :: x(:), y(:)
       integer :: roots(size(x), size(y))
-      type(model_type) :: model
       integer :: i, j
 
-      model = self%model
       roots = no_count
       do j = 1, size(y)
          do i = 1, size(x)
             if (stop_requested /= 0) return
-            call model%put(self%numbers_at([x(i), y(j)]))
-            roots(i, j) = roots_right_of(characteristic_of(model), 0.0_wp)
+            roots(i, j) = roots_right_of(self%function_at([x(i), y(j)]), 0.0_wp)
          end do
       end do
    end function unstable_roots

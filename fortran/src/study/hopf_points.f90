@@ -5,14 +5,14 @@ module hopf_points
    use characteristic_function, only: characteristic_of, characteristic_type
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde, only: stop_requested
-   use dde_errors, only: error_type, raise
+   use dde_errors, only: error_type
    use dde_kinds, only: wp
    use hopf_curves, only: curve_point_type
    use hopf_planes, only: axis_point_type, chord_of, curve_plane_type, side, turn
    use hopf_unfoldings, only: unfold_double_hopf, unfold_generalised_hopf, unfolding_type
    use model_problem, only: model_type
    use normal_form, only: first_lyapunov_coefficient
-   use root_counts, only: roots_beside
+   use root_counts, only: roots_right_of
    use sign_change, only: sign_change_type
    implicit none (type, external)
    private
@@ -54,23 +54,21 @@ contains
 
    !> First Lyapunov coefficients, not a number where 0 or 2 i omega is a root, too, and numbers of
    !> unstable roots of points on curves.
-   subroutine judge_points(plane, points, error)
+   subroutine judge_points(plane, points)
       type(curve_plane_type), intent(in) :: plane
       type(curve_point_type), intent(inout) :: points(:)
-      !> Interrupted
-      type(error_type), allocatable, intent(out) :: error
       type(error_type), allocatable :: singular
       type(model_type) :: model
       integer :: i
 
       do i = 1, size(points)
-         if (stop_requested /= 0) call raise(error, "Hopf curves: interrupted")
-         if (allocated(error)) return
+         if (stop_requested /= 0) return
          model = plane%model_at(points(i)%numbers)
          associate (point => points(i))
             call first_lyapunov_coefficient(model, point%at%omega, point%l1, singular)
             if (allocated(singular)) point%l1 = ieee_value(point%l1, ieee_quiet_nan)
-            point%unstable_roots = roots_beside(characteristic_of(model), [point%at%omega])
+            point%unstable_roots = roots_right_of(characteristic_of(model), 0.0_wp, &
+                                                 [point%at%omega])
          end associate
       end do
    end subroutine judge_points
@@ -253,18 +251,19 @@ contains
       point%numbers = plane%numbers_at(at%place)
       model = plane%model_at(point%numbers)
       c = characteristic_of(model)
-      point%unstable_roots = roots_beside(c, omega)
+      point%unstable_roots = roots_right_of(c, 0.0_wp, omega)
       point%branch(:size(omega)) = nint(omega*maxval(c%delay)/turn)
+      point%omega(:size(omega)) = omega
       do i = 1, size(omega)
-         point%omega(i) = omega(i)
-         if (.not. allocated(singular)) then
-            call first_lyapunov_coefficient(model, omega(i), point%l1(i), singular)
-         end if
+         call first_lyapunov_coefficient(model, omega(i), point%l1(i), singular)
+         if (allocated(singular)) exit
       end do
-      if (.not. allocated(singular) .and. kind == "generalised_hopf") then
-         call unfold_generalised_hopf(plane, at, direction, point%unfolding, singular)
-      else if (.not. allocated(singular) .and. kind == "double_hopf") then
-         call unfold_double_hopf(plane, point%numbers, point%omega, point%unfolding, singular)
+      if (.not. allocated(singular)) then
+         if (kind == "generalised_hopf") then
+            call unfold_generalised_hopf(plane, at, direction, point%unfolding, singular)
+         else if (kind == "double_hopf") then
+            call unfold_double_hopf(plane, point%numbers, point%omega, point%unfolding, singular)
+         end if
       end if
       if (allocated(singular)) then
          point%kind = "without_normal_form"

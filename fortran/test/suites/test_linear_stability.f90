@@ -16,7 +16,7 @@ module test_linear_stability
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use model_roots, only: find_model_roots
    use normal_form, only: first_lyapunov_coefficient
-   use root_counts, only: no_count, roots_beside, roots_right_of
+   use root_counts, only: no_count, roots_right_of
    implicit none (type, external)
    private
    public :: collect_linear_stability
@@ -78,7 +78,7 @@ contains
                if (allocated(error)) return
                call expect_close(error, minval(abs(roots - cmplx(0.0_wp, omega, kind=wp))), &
                                  0.0_wp, 1.0e-12_wp, "distance of a root to i omega")
-               number = roots_beside(characteristic_of(block_at(p)), [omega])
+               number = roots_right_of(characteristic_of(block_at(p)), 0.0_wp, [omega])
                call expect(error, number == count(real(roots) > 1.0e-9_wp), &
                            "roots beside omega = "//text(omega)//" on branch "//text(k))
                if (j == 1 .and. k == 0) call expect(error, number == 0, "the first delay")

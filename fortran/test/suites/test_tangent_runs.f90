@@ -2,7 +2,7 @@
 !> Tangent vectors: their equations, norm and restart; runs by Taylor series beside other methods.
 module test_tangent_runs
    use block_builder, only: build_block
-   use dde, only: continuation_type, integration_options, integration_result
+   use dde, only: continuation_type, integration_result
    use dde_errors, only: text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close
@@ -75,16 +75,13 @@ contains
 
       call start_after(2.3_wp, 4, tangent, undisturbed, continuation, error)
       if (allocated(error)) return
-      call orthonormalise(tangent, 1.0_wp, .false., continuation, norm, share, &
-                           integration_options())
+      call orthonormalise(tangent, 1.0_wp, .false., continuation, norm, share)
       call expect_close(error, norm(1), cos(1.0_wp)*sqrt(1.01_wp), 1.0e-14_wp, "first norm")
       call expect_between(error, share, 0.01_wp, 0.999_wp, "least share")
-      call orthonormalise(tangent, 0.5_wp, .false., continuation, norm, share, &
-                           integration_options())
+      call orthonormalise(tangent, 0.5_wp, .false., continuation, norm, share)
       call expect_close(error, norm, [1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp], 1.0e-12_wp, "norms")
       call expect_close(error, share, 1.0_wp, 1.0e-12_wp, "share of orthonormal vectors")
-      call orthonormalise(tangent, 1.0_wp, .false., continuation, norm, share, &
-                           integration_options())
+      call orthonormalise(tangent, 1.0_wp, .false., continuation, norm, share)
       call expect_close(error, norm, [0.5_wp, 0.5_wp, 0.5_wp, 0.5_wp], 1.0e-12_wp, "smaller ones")
       call expect_close(error, continuation%y(1), undisturbed%y(1), 0.0_wp, "the state itself")
       call expect_close(error, pack(continuation%coefficients(:, 1, :), .true.), &
@@ -105,8 +102,7 @@ contains
       call run(error, tangent, 20.3_wp, 40.3_wp, at_tolerance(1.0e-9_wp), outcome, &
                continuation=continuation)
       call expect(error, outcome%breaking_points == 7, "the start makes a kink")
-      call orthonormalise(tangent, 1.0_wp, .false., continuation, norm, share, &
-                           integration_options())
+      call orthonormalise(tangent, 1.0_wp, .false., continuation, norm, share)
       alone = undisturbed_part(continuation, 1)
       call run(error, tangent, 40.3_wp, 50.3_wp, at_tolerance(1.0e-9_wp), outcome, &
                continuation=continuation)

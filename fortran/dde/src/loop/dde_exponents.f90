@@ -28,8 +28,8 @@ module dde_exponents
       logical :: begun = .false.
       !> Exponents at the places of the step, shape (exponentials, places)
       real(wp), allocatable, private :: a(:, :)
-      !> State and delayed values there
-      real(wp), allocatable, private :: y(:, :), z(:, :)
+      !> State in the middle and where a delayed value lies within the step; delayed values
+      real(wp), allocatable, private :: middle(:), before(:), z(:, :)
    contains
       procedure :: judge, advance
    end type exponent_watch
@@ -46,18 +46,17 @@ contains
       !> Error of the step in units of the tolerance
       real(wp), intent(inout) :: error
       real(wp) :: far
-      integer :: j, k
+      integer :: k
 
       associate (problem => context%problem)
          if (.not. allocated(self%a)) then
-            allocate (self%a(problem%exponentials, 3), self%y(problem%n, 3))
-            allocate (self%z(size(problem%lag), 3))
+            allocate (self%a(problem%exponentials, 3), self%z(size(problem%lag), 1))
+            allocate (self%middle(problem%n), self%before(problem%n))
          end if
-         call find_values(self, context, step)
-         do j = merge(2, 1, self%begun), 3
-            call problem%exponents(context%cursor%inside(step%t + step%h*places(j)), &
-                                   self%y(:, j), self%z(:, j), self%a(:, j))
-         end do
+         if (.not. self%begun) call find_exponents(self, context, step, 1, step%y)
+         call step%state_at(places(2), self%middle)
+         call find_exponents(self, context, step, 2, self%middle)
+         call find_exponents(self, context, step, 3, step%y_new)
          self%begun = .true.
          far = hidden - log(context%tolerance%level)
          do k = 1, problem%exponentials
@@ -66,32 +65,29 @@ contains
       end associate
    end subroutine judge
 
-   !> States at the places, and delayed values where exponents have them.
-   pure subroutine find_values(self, context, step)
+   !> Exponents at place number j.
+   pure subroutine find_exponents(self, context, step, j, y)
       class(exponent_watch), intent(inout) :: self
       type(step_context), intent(inout) :: context
       class(step_type), intent(in) :: step
-      integer :: first, j, k
+      integer, intent(in) :: j
+      !> State there
+      real(wp), contiguous, intent(in) :: y(:)
+      integer :: k
 
-      self%y(:, 1) = step%y
-      self%y(:, 3) = step%y_new
-      call step%state_at(places(2), self%y(:, 2))
-      if (.not. context%problem%delayed_exponents) return
-      first = merge(2, 1, self%begun)
-      call context%delayed_values(step%h*places(first:), self%z(:, first:))
-      if (.not. step%constants%implicit) return
-      ! delayed values within the step
-      associate (component => context%problem%component, lag => context%problem%lag)
-         do j = 2, 3
-            do k = 1, size(lag)
-               if (lag(k) >= step%h*places(j)) cycle
-               call step%state_at(places(j) - lag(k)/step%h, self%y(:, 1))
-               self%z(k, j) = self%y(component(k), 1)
+      associate (problem => context%problem, time => step%h*places(j))
+         if (problem%delayed_exponents) then
+            call context%delayed_values([time], self%z)
+            do k = 1, size(problem%lag)
+               ! a delayed value within an implicit step
+               if (problem%lag(k) >= time) cycle
+               call step%state_at(places(j) - problem%lag(k)/step%h, self%before)
+               self%z(k, 1) = self%before(problem%component(k))
             end do
-         end do
-         self%y(:, 1) = step%y
+         end if
+         call problem%exponents(context%cursor%inside(step%t + time), y, self%z(:, 1), self%a(:, j))
       end associate
-   end subroutine find_values
+   end subroutine find_exponents
 
    !> Go to the end of an accepted step.
    pure subroutine advance(self, smooth)

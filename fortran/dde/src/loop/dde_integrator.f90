@@ -126,45 +126,45 @@ contains
                exit
             end if
          end if
+         other = .false.
          if (.not. accepted(error_estimate)) then
             outcome%rejected = outcome%rejected + 1
             run%h = h
             call run%control%reject(run%step%constants, run%step%safety, run%h, error_estimate)
-            if (automatic) then
-               call switch%judge_rejection(run%step, error_estimate, other)
-               if (other) call change_method()
-               if (outcome%reason /= reached_end) exit
+            if (automatic) call switch%judge_rejection(run%step, error_estimate, other)
+         else
+            outcome%accepted = outcome%accepted + 1
+            if (run%step%constants%implicit) outcome%implicit_steps = outcome%implicit_steps + 1
+            call deliver(run, step_end, ended, sampler, watcher)
+            if (ended) then
+               call run%arrive(goal, .false., step_end)
+               run%step%y = run%search%event%y
+               outcome%reason = event_met
+               exit
             end if
-            cycle
+            call run%step%next_length(run%control, h, error_estimate)
+            if (automatic) then
+               ! a run that may be continued has no end yet
+               left = huge(1.0_wp)
+               if (.not. present(continuation)) left = t_end - step_end%hi
+               call switch%judge(problem, run%step, run%context%work, h, left, other)
+            end if
+            call exponents%advance(.not. landing)
+            call run%step%advance()
+            last = landing .and. run%points%is_end(goal)
+            call run%arrive(goal, landing, step_end)
+            ! a step shortened to end at a point does not reduce the step size proposed before
+            run%h = merge(max(run%h, h), h, landing)
+            if (landing .and. .not. last) outcome%breaking_points = outcome%breaking_points + 1
          end if
-
-         outcome%accepted = outcome%accepted + 1
-         if (run%step%constants%implicit) outcome%implicit_steps = outcome%implicit_steps + 1
-         call deliver(run, step_end, ended, sampler, watcher)
-         if (ended) then
-            call run%arrive(goal, .false., step_end)
-            run%step%y = run%search%event%y
-            outcome%reason = event_met
-            exit
-         end if
-         call run%step%next_length(run%control, h, error_estimate)
-         other = .false.
-         if (automatic) then
-            ! a run that may be continued has no end yet
-            left = huge(1.0_wp)
-            if (.not. present(continuation)) left = t_end - step_end%hi
-            call switch%judge(problem, run%step, run%context%work, h, left, other)
-         end if
-         call exponents%advance(.not. landing)
-         call run%step%advance()
-         last = landing .and. run%points%is_end(goal)
-         call run%arrive(goal, landing, step_end)
-         ! a step shortened to end at a point does not reduce the step size proposed before
-         run%h = merge(max(run%h, h), h, landing)
-         if (landing .and. .not. last) outcome%breaking_points = outcome%breaking_points + 1
          if (other) then
-            call change_method()
-            if (outcome%reason /= reached_end) exit
+            call run%change_to_other(switch%returned)
+            if (run%lacking > 0.0_wp) then
+               outcome%reason = out_of_memory
+               exit
+            end if
+            outcome%switches = outcome%switches + 1
+            longest = longest_step(problem, run%step, longest_of_all)
          end if
       end do
 
@@ -179,19 +179,6 @@ contains
       if (all(outcome%reason /= [reached_end, event_met, refused])) then
          call explain(run, outcome, t_end, h, options, error)
       end if
-
-   contains
-
-      !> Continue by the other method of `auto`.
-      subroutine change_method()
-         call run%change_to_other(switch%returned)
-         if (run%lacking > 0.0_wp) then
-            outcome%reason = out_of_memory
-            return
-         end if
-         outcome%switches = outcome%switches + 1
-         longest = longest_step(problem, run%step, longest_of_all)
-      end subroutine change_method
    end subroutine integrate
 
    !> The limit that forbids an attempt of length h, or `reached_end` if none does.

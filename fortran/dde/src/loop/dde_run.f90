@@ -112,6 +112,8 @@ contains
          call self%start_anew(instant(t_start), instant(t_end), options, error)
       end if
       if (self%lacking > 0.0_wp .or. allocated(error)) return
+      self%context%past%most_bytes = options%most_bytes
+      self%context%past%is_copied = self%points%remembers
       call self%context%tolerance%take_in(self%step%y)
       if (options%first_step > 0.0_wp) then
          self%h = options%first_step
@@ -200,8 +202,6 @@ contains
                                 problem%lag, problem%n, self%step%constants%order - 1, &
                                 context%tolerance%level)
       end associate
-      self%context%past%most_bytes = options%most_bytes
-      self%context%past%is_copied = self%points%remembers
       call prepare_start(self, options)
       self%first_slope = self%step%slope
    end subroutine start_anew
@@ -236,8 +236,6 @@ contains
          self%first_slope = continuation%slope
          context%past = history_type(problem, origin, continuation%kept)
          call continuation%restore(context%past, kinks)
-         context%past%most_bytes = options%most_bytes
-         context%past%is_copied = .true.
          call self%points%begin(causes(options, origin, kinks), origin, self%now, finish, &
                                 problem%lag, problem%n, self%step%constants%order - 1, &
                                 context%tolerance%level)

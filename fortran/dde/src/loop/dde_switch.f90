@@ -211,18 +211,14 @@ contains
       delay_limits = h_next/beyond_the_delay > self%shortest
       if (step%constants%implicit) then
          limited = .not. step%stiff()
-         if (self%series) limited = limited .or. in_balance(problem, step)
+         if (self%series) then
+            ! fast components are in balance all along the step
+            limited = limited .or. step%h*problem%relaxation_rate(step%t + step%h, step%y_new) &
+                      > least_balance
+         end if
          limited = limited .and. .not. delay_limits
       else
          limited = step%stiff() .or. delay_limits
       end if
    end function is_limited
-
-   !> Whether fast components are in balance all along a step.
-   pure logical function in_balance(problem, step) result(value)
-      class(dde_problem_type), intent(in) :: problem
-      class(step_type), intent(in) :: step
-
-      value = step%h*problem%relaxation_rate(step%t + step%h, step%y_new) > least_balance
-   end function in_balance
 end module dde_switch

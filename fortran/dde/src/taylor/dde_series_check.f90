@@ -12,7 +12,7 @@ module dde_series_check
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: find_wrong, measure_residual
+   public :: measure_residual, refuse_wrong
 
    !> A slope may be off by this many times degree tolerance/h: the term after the last one, at the
    !> tolerance, makes 1.
@@ -48,58 +48,53 @@ contains
       !> The component with this residual
       integer, intent(out) :: worst
       real(wp), intent(out) :: error
-      real(wp) :: ratio, residual, t
+      real(wp), allocatable :: of_tolerance(:)
+      real(wp) :: allowed, ratio, residual, t
       integer :: i
 
       call context%delayed_values([time], z)
       t = context%cursor%inside(context%cursor%t + time)
       call context%problem%rhs(t, y, z(:, 1), slope)
-      error = 0.0_wp
-      worst = 1
-      do i = 1, size(y)
-         residual = abs(series%slope_of(i, time) - slope(i))
-         if (.not. ieee_is_finite(residual)) then
-            error = ieee_value(1.0_wp, ieee_quiet_nan)
-            return
-         end if
-         ratio = over(residual, allowance*series%degree*scale(i)/span + rounding*abs(slope(i)))
-         if (ratio > error) then
+      do
+         error = 0.0_wp
+         worst = 1
+         do i = 1, size(y)
+            residual = abs(series%slope_of(i, time) - slope(i))
+            if (.not. ieee_is_finite(residual)) then
+               error = ieee_value(1.0_wp, ieee_quiet_nan)
+               return
+            end if
+            allowed = allowance*series%degree*scale(i)/span + rounding*abs(slope(i))
+            if (allocated(of_tolerance)) allowed = max(allowed, of_tolerance(i))
+            ratio = over(residual, allowed)
+            if (ratio <= error) cycle
             error = ratio
             worst = i
-         end if
+         end do
+         if (error <= 1.0_wp .or. allocated(of_tolerance)) return
+         of_tolerance = change_of_slope(context, scale, t, y, z(:, 1), slope)
       end do
-      if (error > 1.0_wp) then
-         call allow_for_tolerance(context, series, time, span, scale, y, z, slope, t, worst, error)
-      end if
    end subroutine measure_residual
 
-   !> The residual over that which the tolerance of state and delayed values makes.
-   pure subroutine allow_for_tolerance(context, series, time, span, scale, y, z, slope, t, worst, &
-                                       error)
+   !> Change of the right-hand side that the tolerance of state and delayed values makes.
+   pure function change_of_slope(context, scale, t, y, z, slope) result(change)
       type(step_context), intent(in) :: context
-      type(taylor_series), intent(in) :: series
-      real(wp), intent(in) :: time, span, t
-      real(wp), contiguous, intent(in) :: scale(:), y(:), z(:, :), slope(:)
-      integer, intent(inout) :: worst
-      real(wp), intent(inout) :: error
-      real(wp), allocatable :: allowed(:), beside(:), of_past(:)
+      real(wp), intent(in) :: t
+      real(wp), contiguous, intent(in) :: scale(:), y(:), z(:), slope(:)
+      real(wp), allocatable :: beside(:), change(:), of_past(:)
       integer :: i, j
 
-      allocate (beside(size(y)))
+      allocate (beside(size(y)), change(size(y)))
       associate (component => context%problem%component, tolerance => context%tolerance)
-         of_past = [(tolerance%of_component(component(i), z(i, 1)), i=1, size(z, 1))]
+         of_past = [(tolerance%of_component(component(i), z(i)), i=1, size(z))]
       end associate
-      allowed = allowance*series%degree*scale/span + rounding*abs(slope)
+      change = 0.0_wp
       do j = 1, directions
          call context%problem%rhs(t, y + scale*[(sin(real(i*j, wp)), i=1, size(y))], &
-                                  z(:, 1) + of_past*[(cos(real(i*j, wp)), i=1, size(z, 1))], &
-                                  beside)
-         where (ieee_is_finite(beside)) allowed = max(allowed, abs(beside - slope))
+                                  z + of_past*[(cos(real(i*j, wp)), i=1, size(z))], beside)
+         where (ieee_is_finite(beside)) change = max(change, abs(beside - slope))
       end do
-      beside = [(over(abs(series%slope_of(i, time) - slope(i)), allowed(i)), i=1, size(y))]
-      worst = maxloc(beside, dim=1)
-      error = beside(worst)
-   end subroutine allow_for_tolerance
+   end function change_of_slope
 
    !> A residual over the largest that is allowed, which may be 0.
    elemental function over(residual, allowed) result(ratio)
@@ -110,30 +105,31 @@ contains
       if (residual/most <= allowed) ratio = residual/max(allowed, tiny(1.0_wp))
    end function over
 
-   !> The first coefficient that is wrong, and the error that names it. The first one is compared
-   !> with the right-hand side; others show in the ratio of residuals at two places of a step that
-   !> was rejected, where not what they leave out grows as its last power.
-   pure subroutine find_wrong(context, series, h, scale, wrong, error)
+   !> Refuse a series of which the first coefficient is wrong, or in two attempts another one or a
+   !> delayed value. The first one is compared with the right-hand side; others show in the ratio of
+   !> residuals at two places of a step that was rejected: what is left out grows as the last power.
+   pure subroutine refuse_wrong(context, series, h, scale, suspect, error)
       type(step_context), intent(inout) :: context
       type(taylor_series), intent(in) :: series
       real(wp), intent(in) :: h
       real(wp), contiguous, intent(in) :: scale(:)
-      !> Its number; that of a delayed value with another sign; 0 if none is
-      integer, intent(out) :: wrong
-      !> What is wrong
+      !> The first coefficient that was wrong in the attempt before, the number of a delayed value
+      !> with another sign, or 0; replaced by that of this attempt
+      integer, intent(inout) :: suspect
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: found, given, of_series, ratio, residual, slope(size(scale)), time, &
                   y(size(scale)), z(size(context%problem%lag), 1)
-      integer :: i, ignored, j
+      integer :: before, i, ignored, j
 
-      wrong = 0
+      before = suspect
+      suspect = 0
       if (series%slow%holds .or. .not. series%reach > 0.0_wp) return
       time = 0.0_wp
       call series%state(time, y)
       call measure_residual(context, series, time, min(series%reach, longest*h), scale, y, z, &
                             slope, i, ratio)
       if (ratio > refused) then
-         wrong = 1
+         suspect = 1
       else
          time = 0.5_wp*h
          call series%state(time, y)
@@ -144,29 +140,31 @@ contains
       given = slope(i)
       do j = 1, size(z, 1)
          associate (component => context%problem%component(j), &
-                    before => context%cursor%t + time - context%problem%lag(j))
-            if (elapsed(instant(before), context%past%origin) <= 0.0_wp) cycle
+                    t => context%cursor%t + time - context%problem%lag(j))
+            if (elapsed(instant(t), context%past%origin) <= 0.0_wp) cycle
             of_series = series_value(series%degree, series%delayed%coefficients(:, j), &
                                      time/series%unit)
             if (abs(of_series - z(j, 1)) <= scale(component)) cycle
-            wrong = -j
+            suspect = -j
+            if (suspect /= before) return
             call raise(error, "integrate: past_series: component "//text(component)//" is " &
-                       //text(of_series)//" at t = "//text(before)//", history gives " &
+                       //text(of_series)//" at t = "//text(t)//", history gives " &
                        //text(z(j, 1))//"; the same expected, or a jump in break_at")
             return
          end associate
       end do
-      if (wrong == 0) then
+      if (suspect == 0) then
          residual = abs(found - given)
          call series%state(0.5_wp*time, y)
          call measure_residual(context, series, 0.5_wp*time, h, scale, y, z, slope, ignored, ratio)
          residual = residual/max(abs(series%slope_of(i, 0.5_wp*time) - slope(i)), tiny(1.0_wp))
-         wrong = 1 + nint(log(residual)/log(2.0_wp))
-         if (wrong < 2 .or. wrong > series%degree/2) wrong = 0
+         suspect = 1 + nint(log(residual)/log(2.0_wp))
+         if (suspect < 2 .or. suspect > series%degree/2) suspect = 0
+         if (suspect == 0 .or. suspect /= before) return
       end if
       call raise(error, "integrate: series: the slope of component "//text(i)//" is " &
                  //text(found)//" at t = "//text(context%cursor%t + time)//", rhs gives " &
-                 //text(given)//"; the same expected (wrong from about coefficient "//text(wrong) &
-                 //" on)")
-   end subroutine find_wrong
+                 //text(given)//"; the same expected (wrong from about coefficient " &
+                 //text(suspect)//" on)")
+   end subroutine refuse_wrong
 end module dde_series_check

@@ -8,7 +8,7 @@ module dde_taylor_step
    use dde_errors, only: error_type
    use dde_orders, only: taylor_degree
    use dde_problem, only: dde_problem_type
-   use dde_series_check, only: find_wrong, measure_residual
+   use dde_series_check, only: measure_residual, refuse_wrong
    use dde_step, only: step_type
    use dde_step_context, only: step_context
    use dde_taylor_series, only: taylor_series
@@ -38,8 +38,8 @@ module dde_taylor_step
    type, extends(step_type) :: taylor_step_type
       !> The series
       type(taylor_series), private :: series
-      !> What the last rejected step found wrong, see `find_wrong`
-      integer, private :: wrong = 0
+      !> What was wrong in the last attempt of the first step, see `refuse_wrong`
+      integer, private :: suspect = 0
       !> Whether the series is that from the start of the step, which an earlier attempt found
       logical, private :: found = .false.
       !> Residual of the last attempt over the largest allowed
@@ -71,17 +71,13 @@ contains
       self%series = taylor_series(problem, degree)
    end subroutine set_up
 
-   !> Refuse a series of which the first coefficient is wrong, or another one in two steps.
+   !> Refuse a series that is wrong.
    pure subroutine refuse_series(self, context, error)
       class(taylor_step_type), intent(inout) :: self
       type(step_context), intent(inout) :: context
       type(error_type), allocatable, intent(out) :: error
-      type(error_type), allocatable :: found
-      integer :: wrong
 
-      call find_wrong(context, self%series, self%h, self%scale, wrong, found)
-      if (wrong == 1 .or. wrong /= 0 .and. wrong == self%wrong) call move_alloc(found, error)
-      self%wrong = wrong
+      call refuse_wrong(context, self%series, self%h, self%scale, self%suspect, error)
    end subroutine refuse_series
 
    !> The series of the step gives its slope.

@@ -16,11 +16,11 @@ module characteristic_roots
    integer, parameter :: first_intervals = 16, most_intervals = 512
    !> No more roots than these are found.
    integer, parameter :: most_roots = most_intervals
-   !> Roots nearer than this, relative to rate + |s|, are the same.
+   !> Roots nearer than this, relative to 1 + |s|, are the same.
    real(wp), parameter :: same_root = 1.0e-8_wp
-   !> Farthest way from an eigenvalue to its root, relative to rate + |s|.
+   !> Farthest way from an eigenvalue to its root, relative to 1 + |s|.
    real(wp), parameter :: longest_way = 0.1_wp
-   !> Most iterations of Newton's method, and the step after which it ends, relative to rate + |s|;
+   !> Most iterations of Newton's method, and the step after which it ends, relative to 1 + |s|;
    !> it also ends where steps below `same_root` do not become smaller.
    integer, parameter :: most_iterations = 30
    real(wp), parameter :: last_step = 1.0e-14_wp
@@ -37,15 +37,17 @@ contains
       real(wp), intent(in) :: bound
       !> Number of roots by the principle of the argument
       integer, intent(in) :: expected
-      !> The unit of frequency
+      !> The unit of frequency, a power of 2
       real(wp), intent(in) :: rate
       !> The roots
       complex(wp), allocatable, intent(out) :: roots(:)
       !> Another number is found
       type(error_type), allocatable, intent(out) :: error
       complex(wp), allocatable :: approximate(:)
+      type(linear_system_type) :: scaled
       integer :: intervals
 
+      scaled = linear_system_type(system%a/rate, system%lag*rate)
       intervals = first_intervals
       ! with one delayed component, fewer intervals do not resolve all roots
       do while (intervals < expected)
@@ -53,10 +55,10 @@ contains
       end do
       allocate (roots(0))
       do while (intervals <= most_intervals)
-         call approximate_roots(system, intervals, rate, approximate, error)
+         call approximate_roots(scaled, intervals, approximate, error)
          if (stop_requested /= 0) call raise(error, "roots: interrupted")
          if (allocated(error)) return
-         roots = refine_roots(system, bound, rate, approximate)
+         roots = rate*refine_roots(scaled, bound/rate, approximate)
          if (size(roots) == expected) return
          intervals = 2*intervals
       end do
@@ -67,10 +69,9 @@ contains
    end subroutine find_roots
 
    !> The eigenvalues s of the scaled generator, M s x = G x.
-   subroutine approximate_roots(system, intervals, rate, approximate, error)
+   subroutine approximate_roots(system, intervals, approximate, error)
       type(linear_system_type), intent(in) :: system
       integer, intent(in) :: intervals
-      real(wp), intent(in) :: rate
       complex(wp), allocatable, intent(out) :: approximate(:)
       type(error_type), allocatable, intent(out) :: error
       real(wp), allocatable :: divisor(:), matrix(:, :)
@@ -81,8 +82,8 @@ contains
       if (unit > 0.0_wp) then
          matrix = generator(system, intervals, unit)
       else
-         unit = 1.0_wp/rate
-         matrix = unit*sum(system%a, dim=3)
+         unit = 1.0_wp
+         matrix = sum(system%a, dim=3)
       end if
       ! a row of large entries (a fast component) gets a small mass; otherwise its size would be
       ! that of the rounding errors of all roots
@@ -166,9 +167,9 @@ contains
    end function interpolation
 
    !> The roots that approximate ones lead to, each once.
-   function refine_roots(system, bound, rate, approximate) result(roots)
+   function refine_roots(system, bound, approximate) result(roots)
       type(linear_system_type), intent(in) :: system
-      real(wp), intent(in) :: bound, rate
+      real(wp), intent(in) :: bound
       complex(wp), intent(in) :: approximate(:)
       complex(wp), allocatable :: roots(:)
       complex(wp) :: s
@@ -177,11 +178,10 @@ contains
 
       allocate (roots(0))
       do i = 1, size(approximate)
-         if (real(approximate(i)) < bound - longest_way*rate) cycle
-         if (aimag(approximate(i)) < 0.0_wp) cycle
-         call follow_newton(system, approximate(i), rate, s, found)
-         if (.not. found .or. real(s) - bound <= last_step*(rate + abs(s))) cycle
-         if (any(abs(s - roots) <= same_root*(rate + abs(s)))) cycle
+         if (real(approximate(i)) < bound - longest_way .or. aimag(approximate(i)) < 0.0_wp) cycle
+         call follow_newton(system, approximate(i), s, found)
+         if (.not. found .or. real(s) - bound <= last_step*(1.0_wp + abs(s))) cycle
+         if (any(abs(s - roots) <= same_root*(1.0_wp + abs(s)))) cycle
          after = count(real(roots) >= real(s))
          roots = [roots(:after), s, roots(after + 1:)]
       end do
@@ -191,11 +191,10 @@ contains
    end function refine_roots
 
    !> Newton's method on det Delta(s), whose logarithm has the derivative trace(Delta^-1 Delta').
-   subroutine follow_newton(system, start, rate, s, found)
+   subroutine follow_newton(system, start, s, found)
       type(linear_system_type), intent(in) :: system
       !> Where to start, on or above the real axis
       complex(wp), intent(in) :: start
-      real(wp), intent(in) :: rate
       !> The root, on or above the real axis
       complex(wp), intent(out) :: s
       !> Whether there is one near the start
@@ -218,14 +217,14 @@ contains
          if (.not. abs(trace) > tiny(1.0_wp)) exit
          step = -1.0_wp/trace
          s = s + step
-         if (abs(s - start) > longest_way*(rate + abs(start))) exit
-         associate (share => abs(step)/(rate + abs(s)))
+         if (abs(s - start) > longest_way*(1.0_wp + abs(start))) exit
+         associate (share => abs(step)/(1.0_wp + abs(s)))
             found = share <= last_step .or. (share <= same_root .and. abs(step) > 0.5_wp*before)
          end associate
          if (found) exit
          before = abs(step)
       end do
-      if (abs(aimag(s)) <= same_root*(rate + abs(s))) s = real(s)
+      if (abs(aimag(s)) <= same_root*(1.0_wp + abs(s))) s = real(s)
       s = cmplx(real(s), abs(aimag(s)), kind=wp)
    end subroutine follow_newton
 end module characteristic_roots

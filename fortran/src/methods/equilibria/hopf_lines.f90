@@ -61,22 +61,22 @@ contains
       logical, intent(out), optional :: counted(0:)
       type(model_type) :: block
       logical :: finite(0:places)
-      real(wp) :: ends(2), here, next
+      real(wp) :: ends(2), here, highest, next
       integer :: i, roots_here, roots_next
 
       allocate (points(0))
       block = mode_of(model, 1)
       here = 0.0_wp
-      ends = 0.0_wp
-      roots_here = unstable_roots(here, ends(1))
+      roots_here = unstable_roots(here)
+      ends = highest
       finite = roots_here >= 0
       do i = 1, places
          next = real(i, wp)/places
-         roots_next = unstable_roots(next, ends(2))
+         roots_next = unstable_roots(next)
+         ends = [ends(2), highest]
          finite(i) = roots_next >= 0
          call search(here, next, roots_here, roots_next)
          if (allocated(error)) return
-         ends(1) = ends(2)
          here = next
          roots_here = roots_next
       end do
@@ -101,24 +101,15 @@ contains
          c = characteristic_of(block)
       end function function_at
 
-      !> Number of unstable roots at a share of the line.
-      integer function unstable_roots(x, highest) result(number)
+      !> Number of unstable roots at a share of the line, and the largest frequency there.
+      integer function unstable_roots(x) result(number)
          real(wp), intent(in) :: x
-         !> Largest frequency at a place; without it, `no_count` if it is too far above that of both
-         real(wp), intent(out), optional :: highest
          type(characteristic_type) :: c
-         real(wp) :: frequency
 
          c = function_at(x)
          number = roots_right_of(c, 0.0_wp)
-         frequency = 0.0_wp
-         if (number >= 0) frequency = far_end(c, 0.0_wp)
-         if (present(highest)) then
-            highest = frequency
-         else if (frequency > largest_growth*maxval(ends)) then
-            number = no_count
-            finite(i) = .false.
-         end if
+         highest = 0.0_wp
+         if (number >= 0) highest = far_end(c, 0.0_wp)
          if (stop_requested /= 0) call raise(error, "Hopf points: interrupted")
       end function unstable_roots
 
@@ -128,9 +119,10 @@ contains
          !> Numbers of unstable roots at its ends
          integer, intent(in) :: roots_start, roots_end
          type(hopf_on_line_type) :: point
+         logical, allocatable :: earlier(:)
          logical :: found
          real(wp) :: middle
-         integer :: roots_middle
+         integer :: j, roots_middle
 
          if (min(roots_start, roots_end) < 0) return
          if (abs(roots_end - roots_start) < 2 .or. allocated(error)) return
@@ -142,7 +134,8 @@ contains
          if (found) then
             point%roots_before = roots_start
             point%roots_behind = roots_end
-            call insert(point)
+            earlier = [(is_before(points(j), point), j=1, size(points))]
+            points = [pack(points, earlier), point, pack(points, .not. earlier)]
          else if (end - start <= narrowest) then
             call raise(error, "Hopf points: a pair of roots crosses the axis between the shares " &
                        //text(start)//" and "//text(end)//" of the line, and Newton's method " &
@@ -150,6 +143,10 @@ contains
          else
             middle = 0.5_wp*(start + end)
             roots_middle = unstable_roots(middle)
+            if (highest > largest_growth*maxval(ends)) then
+               roots_middle = no_count
+               finite(i) = .false.
+            end if
             call search(start, middle, roots_start, roots_middle)
             call search(middle, end, roots_middle, roots_end)
          end if
@@ -203,16 +200,6 @@ contains
          point%numbers = numbers_at(x)
          point%delay = maxval(c%delay)
       end subroutine find_double
-
-      !> Insert a point in the order of the points.
-      subroutine insert(point)
-         type(hopf_on_line_type), intent(in) :: point
-         logical, allocatable :: earlier(:)
-         integer :: i
-
-         earlier = [(is_before(points(i), point), i=1, size(points))]
-         points = [pack(points, earlier), point, pack(points, .not. earlier)]
-      end subroutine insert
 
       !> Derivative of Delta along the line.
       pure complex(wp) function slope_along(c, s) result(slope)

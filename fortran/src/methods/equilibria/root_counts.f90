@@ -9,8 +9,7 @@ module root_counts
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: crossing_frequency, far_end, has_more_roots, no_count, roots_beside, roots_right_of, &
-             slowest_rate
+   public :: crossing_frequency, far_end, has_more_roots, no_count, roots_right_of, slowest_rate
 
    !> The number of roots where there is none: the function is not finite, or the walk too long.
    integer, parameter :: no_count = -1
@@ -59,37 +58,47 @@ contains
       rate = rate/fraction(rate)
    end function slowest_rate
 
-   !> Number of roots with real part above `bound`, or `no_count`. A real root on the line is not
-   !> counted.
-   pure integer function roots_right_of(c, bound) result(number)
+   !> Number of roots with real part above `bound`, or `no_count`: each takes half a turn from the
+   !> growth of the argument up to `far_end`, from where it is that of the leading part. A real root
+   !> on the line is not counted, nor are pairs on the imaginary axis that are known.
+   pure integer function roots_right_of(c, bound, omega) result(number)
       !> Characteristic function
       type(characteristic_type), intent(in) :: c
-      !> Real part of the line, on which no pair lies
+      !> Real part of the line, on which no other pair lies
       real(wp), intent(in) :: bound
-      real(wp) :: from, growth
+      !> Frequencies of known pairs on the line, ascending; the bound is 0
+      real(wp), intent(in), optional :: omega(:)
+      complex(wp) :: factor, s
+      real(wp) :: from, growth, last, missing, radius
+      integer :: i
 
       number = no_count
       if (.not. ieee_is_finite(slowest_rate(c))) return
       if (-bound*maxval(c%delay) > largest_exponent) return
-      call begin_line(c, bound, radius_share*slowest_rate(c), from, growth)
-      number = number_of(c, growth + line_growth(c, bound, from, far_end(c, bound)), bound)
-   end function roots_right_of
-
-   !> Where the walk along a line begins, and how much the argument grows before: on a quarter
-   !> circle to the right of a real root on the line.
-   pure subroutine begin_line(c, bound, radius, from, growth)
-      type(characteristic_type), intent(in) :: c
-      real(wp), intent(in) :: bound, radius
-      real(wp), intent(out) :: from, growth
-      complex(wp) :: s
-
+      last = far_end(c, bound)
       from = 0.0_wp
       growth = 0.0_wp
       s = cmplx(bound, 0.0_wp, kind=wp)
-      if (abs(c%value(s)) > rounding*c%largest_term(s)) return
-      from = radius
-      growth = 0.5_wp*arc_growth(c, s, radius)
-   end subroutine begin_line
+      if (abs(c%value(s)) <= rounding*c%largest_term(s)) then
+         from = radius_share*slowest_rate(c)
+         if (present(omega)) from = min(from, radius_share*omega(1))
+         growth = 0.5_wp*arc_growth(c, s, from)
+      end if
+      if (present(omega)) then
+         do i = 1, size(omega)
+            radius = radius_share*omega(i)
+            growth = growth + line_growth(c, bound, from, omega(i) - radius) &
+                     + arc_growth(c, cmplx(bound, omega(i), kind=wp), radius)
+            from = omega(i) + radius
+         end do
+      end if
+      growth = growth + line_growth(c, bound, from, max(from, last))
+      s = cmplx(bound, last, kind=wp)
+      factor = s + c%coefficient(c%n - 1, 1)
+      missing = (c%n - 1)*angle(s) + angle(factor) + angle(c%value(s)/(s**(c%n - 1)*factor)) &
+                - growth
+      if (ieee_is_finite(missing)) number = nint(missing/pi)
+   end function roots_right_of
 
    !> Frequency at which a pair of roots crosses the imaginary axis between two characteristic
    !> functions that are near each other. From there on along the axis their arguments differ by a
@@ -164,43 +173,6 @@ contains
          total = total*abs(s) + abs(coefficient(k))
       end do
    end function terms_size
-
-   !> Number of roots with positive real part where some pairs i omega are on the
-   !> imaginary axis, which are left out.
-   pure integer function roots_beside(c, omega) result(number)
-      !> Characteristic function
-      type(characteristic_type), intent(in) :: c
-      !> Frequencies of the pairs on the axis, ascending
-      real(wp), intent(in) :: omega(:)
-      real(wp) :: from, growth, radius
-      integer :: i
-
-      call begin_line(c, 0.0_wp, radius_share*min(slowest_rate(c), omega(1)), from, growth)
-      do i = 1, size(omega)
-         radius = radius_share*omega(i)
-         growth = growth + line_growth(c, 0.0_wp, from, omega(i) - radius) &
-                  + arc_growth(c, cmplx(0.0_wp, omega(i), kind=wp), radius)
-         from = omega(i) + radius
-      end do
-      growth = growth + line_growth(c, 0.0_wp, from, max(from, far_end(c, 0.0_wp)))
-      number = number_of(c, growth, 0.0_wp)
-   end function roots_beside
-
-   !> Number of roots from the growth of the argument up to `far_end`; from there on the argument
-   !> grows as that of the leading part.
-   pure integer function number_of(c, growth, bound) result(number)
-      type(characteristic_type), intent(in) :: c
-      real(wp), intent(in) :: growth, bound
-      complex(wp) :: factor, s
-      real(wp) :: rest
-
-      s = cmplx(bound, far_end(c, bound), kind=wp)
-      factor = s + c%coefficient(c%n - 1, 1)
-      rest = 0.5_wp*c%n*pi - (c%n - 1)*angle(s) - angle(factor) &
-             - angle(c%value(s)/(s**(c%n - 1)*factor))
-      number = no_count
-      if (ieee_is_finite(growth + rest)) number = nint(0.5_wp*c%n - (growth + rest)/pi)
-   end function number_of
 
    !> A w from which on the leading part outweighs the other terms; their ratio grows with w.
    pure real(wp) function far_end(c, bound) result(w)

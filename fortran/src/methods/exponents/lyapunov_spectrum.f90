@@ -171,7 +171,10 @@ contains
                           measured%continuation, norm, share, options)
       ! no solution of the variational equations yet: a kink
       measured%continuation%rate = [approach%rate, (0.0_wp, i=1, tangent%n - problem%n)]
-      intervals = intervals_in(settings%t_end - measured%t_begin, settings)
+      ! as many in each block
+      associate (blocks => settings%blocks, time => settings%t_end - measured%t_begin)
+         intervals = blocks*max(1, ceiling(time/(blocks*settings%interval)*(1.0_wp - 1.0e-12_wp)))
+      end associate
       turning = ceiling((measured%t_begin - start)/settings%interval)
       do i = 1, turning
          call pass(tangent, settings, options, start + (measured%t_begin - start)*i/turning, &
@@ -246,16 +249,6 @@ contains
 
       value = 0.7_wp*(modulo(golden*real(i, wp)**2, 1.0_wp) - 0.5_wp)
    end function uneven
-
-   !> Number of intervals in a time, equal in all blocks.
-   pure integer function intervals_in(time, settings) result(intervals)
-      real(wp), intent(in) :: time
-      type(growth_settings_type), intent(in) :: settings
-
-      associate (blocks => settings%blocks)
-         intervals = blocks*max(1, ceiling(time/(blocks*settings%interval)*(1.0_wp - 1.0e-12_wp)))
-      end associate
-   end function intervals_in
 
    !> Go on up to `time`: in one interval, or in two halves where a vector becomes a combination of
    !> the others on the way.

@@ -142,8 +142,8 @@ contains
       real(wp), intent(out) :: norm(:)
       !> Least share that such a part had of its vector
       real(wp), intent(out) :: share
-      !> Units of the flow: the rounding of norms depends on them
-      type(integration_options), intent(in) :: options
+      !> Units of the flow, on which the rounding of norms depends
+      type(integration_options), intent(in), optional :: options
       !> Values of a vector, one column each; the flow is column 0
       real(wp), allocatable :: column(:, :)
       !> The new vectors in terms of the flow and the old ones
@@ -154,8 +154,10 @@ contains
       integer :: first, i, j, k, kept, pass, steps
 
       flow_unit = 1.0_wp
-      if (allocated(options%each_absolute)) then
-         flow_unit = maxval(options%each_absolute)/options%unit_of_time
+      if (present(options)) then
+         if (allocated(options%each_absolute)) then
+            flow_unit = maxval(options%each_absolute)/options%unit_of_time
+         end if
       end if
       associate (n => problem%base%n, m => problem%vectors, now => continuation)
          kept = size(now%kept)/(m + 1)
