@@ -31,8 +31,9 @@ module linear_map
    !> A vector shorter than this share of what it was is noise. One shorter than this other share is
    !> made orthogonal again.
    real(wp), parameter :: noise = 1.0e-15_wp, little = 0.1_wp
-   !> Arnoldi's method checks its eigenvalues after `first_check` steps, then every `steps_between`.
-   integer, parameter :: first_check = 24, steps_between = 12
+   !> Arnoldi's method checks its eigenvalues after `first_check` steps, then every `steps_between`,
+   !> up to `most_checked`: where a delay is hundreds of periods as many eigenvalues are near 1.
+   integer, parameter :: first_check = 24, steps_between = 12, most_checked = 600
    !> Vectors of the basis whose inner products are summed together: one sum alone waits for each of
    !> its additions.
    integer, parameter :: together = 4
@@ -115,14 +116,15 @@ contains
       complex(wp), allocatable :: small_values(:), small_vectors(:, :)
       real(wp), allocatable :: basis(:, :), h(:, :), image(:)
       real(wp) :: residual
-      integer :: count, i, k
+      integer :: count, i, k, most
       logical :: complete
 
-      allocate (basis(n, n + together), h(n + 1, n), image(n), source=0.0_wp)
+      most = min(n, most_checked)
+      allocate (basis(n, most + together), h(most + 1, most), image(n), source=0.0_wp)
       ! no eigenvector should be orthogonal to it
       basis(:, 1) = [(1.0_wp + sin(1.0_wp*i*i), i=1, n)]
       basis(:, 1) = basis(:, 1)/norm2(basis(:, 1))
-      do k = 1, n
+      do k = 1, most
          call map%apply(basis(:, k), image)
          call extend_basis(basis, k, image, h(:, k))
          complete = k == n .or. .not. h(k + 1, k) > 0.0_wp
@@ -146,6 +148,8 @@ contains
                          matmul(basis(:, :k), aimag(small_vectors(:, :count))), kind=wp)
          return
       end do
+      call raise(error, "multipliers: "//text(wanted)//" of a map of "//text(n)//" numbers do not " &
+                 //"converge in "//text(most)//" steps; a shorter delay or period expected")
    end subroutine leading_eigenvalues
 
    !> Make an image orthogonal to the basis, twice where that leaves little of it, and append it.

@@ -58,6 +58,7 @@ contains
       type(event_table) :: maxima
       type(integration_result) :: outcome
       type(table_sampler) :: samples
+      real(wp), allocatable :: sizes(:)
       real(wp) :: start
       integer :: i, last, repeated
 
@@ -71,7 +72,11 @@ contains
                     //text(longest)//"; at least 2 expected")
          return
       end if
-      repeated = repetition(maxima%y(:, :maxima%received))
+      allocate (sizes(problem%n), source=0.0_wp)
+      if (options%share_of_largest > 0.0_wp) then
+         sizes = options%each_absolute/options%share_of_largest
+      end if
+      repeated = repetition(maxima%y(:, :maxima%received), sizes)
       start = maxima%time(1)%hi
       orbit%basis = basis
       orbit%period = maxima%time(repeated)%hi - start
@@ -104,15 +109,17 @@ contains
    end subroutine close_orbit
 
    !> The first state that is the same as state 1, or else the most similar one.
-   pure integer function repetition(states) result(value)
+   pure integer function repetition(states, sizes) result(value)
       !> The states, shape (n, at least 2)
       real(wp), intent(in) :: states(:, :)
+      !> Known sizes of components: at a maximum one may be 0 but for rounding
+      real(wp), intent(in) :: sizes(:)
       real(wp) :: distance(2:size(states, 2)), scale(size(states, 1))
       integer :: i
 
       ! maxima of a cycle of one loop do not differ at all: then their size counts
-      scale = max(maxval(states, dim=2) - minval(states, dim=2), same*maxval(abs(states), dim=2), &
-                  tiny(1.0_wp))
+      scale = max(maxval(states, dim=2) - minval(states, dim=2), tiny(1.0_wp), &
+                  same*max(sizes, maxval(abs(states), dim=2)))
       do i = 2, size(states, 2)
          distance(i) = maxval(abs(states(:, i) - states(:, 1))/scale)
       end do
