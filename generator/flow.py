@@ -22,6 +22,7 @@ REFUSED = {
     **dict.fromkeys((sympy.sinh, sympy.cosh), f"abs({{}}) > {LARGEST_EXPONENT}.0_wp"),
     **dict.fromkeys((sympy.asin, sympy.acos, sympy.atanh), ".not. abs({}) < 1.0_wp"),
     sympy.acosh: ".not. {} > 1.0_wp",
+    sympy.atan2: ".not. max(abs({}), abs({})) > 0.0_wp",
 }
 """Arguments for which functions have no value or no derivative, or overflow, as conditions."""
 
@@ -109,7 +110,7 @@ def conditions_of(model: Model, equations: dict, names: dict) -> list[dict[str, 
         depth = max([visit(argument, state) for argument in one.args], default=0)
         text = None
         if one.func in REFUSED and not one.has(within):
-            text = REFUSED[one.func].format(text_of(one.args[0], names))
+            text = REFUSED[one.func].format(*(text_of(argument, names) for argument in one.args))
             for delayed in model.delayed:
                 known = one.func is sympy.exp and delayed.symbol == one.args[0]
                 if known and delayed.state in model.domain:
