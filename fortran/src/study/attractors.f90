@@ -5,13 +5,14 @@
 !> Then the motion is observed and its exponents are measured, for longer and longer times, until
 !> the class is certain or a limit is reached.
 module attractors
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use attractor_verdict, only: attractor_settings_type, attractor_type, judge, on_cycle, settle
    use dde, only: continuation_type, integrate, integration_options, integration_result
    use dde_errors, only: error_type, raise
    use dde_kinds, only: wp
    use exponent_averages, only: exponent_type, without_sign
    use lyapunov_spectrum, only: extend_growth, growth_settings_type, growth_type, measure_growth
-   use model_levels, only: rest_level
+   use model_levels, only: rest_level, section_level
    use model_problem, only: model_type
    use motion_classes, only: chaos, contradicted, cycle_motion, fixed_point, leaves_cycle, &
                              not_stationary, three_torus, torus, undecided, unstable_rest
@@ -68,6 +69,11 @@ contains
 
       if (model%sizes%driven) then
          call raise(error, "attractors: the model has t in its equations; expected one without")
+         return
+      end if
+      if (ieee_is_nan(section_level(model))) then
+         call raise(error, "attractors: no state at rest is known; expected steady_state or " &
+                    //"near, or a section")
          return
       end if
       allocate (search%model, source=model)
