@@ -6,6 +6,7 @@ This pays where v' needs fewer convolutions than the recurrence of the exponenti
 v' is linear, and w' = v'/v takes one.
 """
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -158,8 +159,11 @@ def refusals(
     With `of` only the elements of these equations are no numbers, else the whole result.
     """
     lines = []
+    lanes = {name for symbol, name in names.items() if in_lanes and symbol != TIME}
     for level in conditions_of(model, equations, names):
-        conditions = [f"any({one})" for one in level] if in_lanes else level
+        conditions = [
+            f"any({one})" if lanes & set(re.findall(r"\w+", one)) else one for one in level
+        ]
         marked = [f"   {result} = ieee_value(1.0_wp, ieee_quiet_nan)"]
         if of:
             marked = [f"   {result} = 0.0_wp"] + [

@@ -107,7 +107,8 @@ class Case:
         self.code = write_module(model).replace('"model_', f'"{self.name}_')
 
     def drawn(self, size: int) -> list:
-        return [mp.mpf(self.draw.uniform(-1, 1)) for _ in range(size)]
+        """Numbers that are not close to 0, where quotients are large."""
+        return [self.draw.choice([-1, 1]) * mp.mpf(self.draw.uniform(0.3, 1)) for _ in range(size)]
 
     def rates(self, **changes) -> list:
         """The equations where some variables have other values."""

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs against exact solutions and published values, and what is refused."""
 
+import itertools
 import math
 import multiprocessing
 import os
@@ -116,12 +117,14 @@ def test_numbers_of_sympy_keep_their_digits():
 
 
 def test_time_in_other_expressions_and_names_of_any_alphabet():
-    """y' = cos(w t)/(1 + t) e**(-0.1 t) by quadrature."""
-    model = dk.Model({"η": "cos(ω*t)/(1 + t)*e**(-t/10)*log10(10) + 0*η(t - τ)"}, {"ω": 3, "τ": 1})
+    """y' = cos(w t)/(1 + t) e**(-0.1 t) by quadrature, alone and in a chain of equal blocks."""
+    text = "cos(ω*t)/(1 + t)*e**(-t/10)*log10(10) + 0*η(t - τ)"
+    alone = dk.Model({"η": text}, {"ω": 3, "τ": 1})
+    chain = dk.Model({"η": f"{text} + second_difference(η)"}, {"ω": 3, "τ": 1}, blocks=3)
     expected = quad(lambda t: math.cos(3 * t) / (1 + t) * math.exp(-t / 10), 0, 5, epsabs=1e-13)
-    for method in ("taylor", "dop853", "radau9"):
+    for model, method in itertools.product((alone, chain), ("taylor", "dop853", "radau9")):
         run = model.integrate(0, 5, rtol=1e-11, atol=1e-13, method=method)
-        np.testing.assert_allclose(run.y[0, -1], expected[0], atol=1e-10)
+        np.testing.assert_allclose(run.y[0, ..., -1], expected[0], atol=1e-10)
 
 
 def test_an_exponential_of_a_state():
