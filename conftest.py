@@ -59,7 +59,7 @@ collect_ignore = (
     [] if (studies.FOLDER / "work_precision").exists() else ["tests/test_benchmarks.py"]
 )
 """Benchmarks measure the cases of this study."""
-MADE = set(".git .venv .snakemake build __pycache__ .pytest_cache .ruff_cache".split())
+MADE = set(".git .venv .snakemake build __pycache__ .pytest_cache .hypothesis .ruff_cache".split())
 """Folders that hold none of the project's own files, beside the one of the results."""
 
 

@@ -9,6 +9,7 @@ import math
 import operator as operators
 import random
 import re
+import unicodedata
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -17,15 +18,18 @@ import sympy
 from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
 
-from .fortran import FUNCTIONS, in_words
+from .fortran import CONSTANTS, FUNCTIONS, SHORT, WORD, in_words
 from .saturation import limited
 
 TIME = sympy.Symbol("t", real=True)
 MODE = sympy.Symbol("self%mode", real=True)
 """Of a chain whose blocks move alike: minus a second difference over the state."""
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,47}\Z")
-RESERVED = {"t", "derivative", "second_difference", *FUNCTIONS}
-"""Names with a meaning of their own in expressions."""
+LONGEST_NAME = 48
+"""Bytes of a name, which is a letter and then letters, digits and _, in any alphabet."""
+RESERVED = {"t", "derivative", "second_difference", *FUNCTIONS} - {"atan2", "erf", "erfc"}
+"""Names with a meaning of their own in expressions. Constants and other functions give way to the
+names of a definition."""
 KEYS = {
     *("name", "about", "source", "parameters", "states", "auxiliary", "definitions"),
     *("equations", "steady_state", "fast", "domain"),
@@ -48,6 +52,8 @@ OPERATORS = {
     **{ast.Add: operators.add, ast.Sub: operators.sub, ast.Mult: operators.mul},
     **{ast.Div: operators.truediv, ast.Pow: operators.pow},
 }
+LARGEST = 10**308
+"""Largest number, and 1/LARGEST is the least."""
 TRIALS, DIGITS = 5, 40
 """Values of the parameters at which a steady state is tested, and digits of these tests."""
 LONGEST_TEXT, LONGEST_UNIT = 500, 60
@@ -168,7 +174,11 @@ class Model:
         for one in self.delayed:
             values[one.symbol] = self.steady_state[one.state]
         values |= dict.fromkeys(self.differences.values(), sympy.S.Zero)
-        return expression.subs(values)
+        found = expression.subs(values)
+        if found.has(sympy.zoo, sympy.nan, sympy.oo):
+            where = f"model {self.name}: {expression} at the steady state"
+            raise ModelError(in_words(f"{where}: {found}; expected a number", self.written))
+        return found
 
 
 def read_files(paths: Iterable[Path], name: str | None = None) -> Model:
@@ -202,6 +212,12 @@ def near_of(values: dict) -> dict | None:
     section = values.get("steady_state")
     near = section.get("near") if isinstance(section, dict) else None
     return near if isinstance(near, dict) else None
+
+
+def in_ascii(name: str) -> str:
+    """A name of Fortran: letters that it has not by the last word of their description."""
+    words = [a if a.isascii() else unicodedata.name(a, "x").split()[-1].lower() for a in name]
+    return "".join(words).replace("-", "_")
 
 
 def entries_in_words(section: dict, of_keys: dict[str, str], of_values: dict[str, str]) -> dict:
@@ -272,7 +288,7 @@ class _Reader:
     def line(self, what: str, text, longest: int = LONGEST_TEXT) -> str:
         """A text on one line: as a comment of the generated code it must not begin another one."""
         line = " ".join(str(text).split())
-        if len(in_words(line, self.written)) > longest:
+        if len(in_words(line, self.written).encode()) > longest:
             self.refuse(what, f"{line[:30]}...", f"at most {longest} letters")
         return line
 
@@ -296,10 +312,11 @@ class _Reader:
         safe = {}
         for key in ("parameters", "states", "auxiliary", "definitions"):
             for name in map(str, values.get(key) or ()):
-                if name in safe or name in RESERVED or not NAME.match(name):
+                is_name = WORD.fullmatch(name) and len(name.encode()) <= LONGEST_NAME
+                if name in safe or name in RESERVED or not is_name:
                     taken = ", ".join([*sorted(RESERVED), *safe])
                     self.refuse("name", name, f"a letter, then letters, digits or _; not {taken}")
-                safe[name] = f"{name[:24]}_{len(safe) + 1}_"
+                safe[name] = f"{in_ascii(name)[:24]}_{len(safe) + 1}_"
         self.written = {new: old for old, new in safe.items()}
         safe = {new: f"{new}_" for new in self.written} | safe
         said = {**values, **{key: in_words(values.get(key), safe) for key in TEXTS}}
@@ -384,8 +401,7 @@ class _Reader:
                 text = model.texts[state]
                 self.refuse(f"equation of {state} with a steady state", text, "no t")
             left = model.at_steady_state(equation)
-            undefined = left.has(sympy.zoo, sympy.nan, sympy.oo)
-            if not near and (undefined or not self.vanishes(left)):
+            if not near and not self.vanishes(left):
                 text = f"{model.texts[state]} = {sympy.simplify(left)}"
                 self.refuse(f"equation of {state} at the steady state", text, "0")
 
@@ -413,7 +429,8 @@ class _Reader:
         except (SyntaxError, ValueError):
             self.refuse(place, text, "an expression such as -v*(theta + log(v(t - tau)))")
         value = _Expression(self, place, str(text).strip()).value(tree.body)
-        if value.has(sympy.zoo, sympy.nan, sympy.oo):
+        sizes = [max(abs(one), abs(1 / one)) for one in value.atoms(sympy.Rational) if one != 0]
+        if value.has(sympy.zoo, sympy.nan, sympy.oo) or max(sizes, default=0) > LARGEST:
             self.refuse(place, text, "an expression that is finite")
         for part in value.atoms(sympy.Function, sympy.Pow, sympy.I):
             # SymPy makes abs(a) of sqrt(a**2)
@@ -482,12 +499,14 @@ class _Expression:
         known = [*(one.name for one in model.parameters), *model.states, *model.auxiliary]
         if name in known:
             return model.symbol(name)
+        if name in CONSTANTS:
+            return CONSTANTS[name]
         self.refuse(node, f"one of {', '.join([*known, *model.definitions])}")
 
     def combined(self, node, operator, left: sympy.Expr, right: sympy.Expr) -> sympy.Expr:
         if type(operator) not in OPERATORS:
             self.refuse(node, "+ - * / **")
-        if isinstance(operator, ast.Pow):
+        if isinstance(operator, ast.Pow) and left is not sympy.E:
             if right.free_symbols & self.reader.model.variables:
                 self.refuse(node, "a power with a constant exponent; write exp(b*log(a))")
             if right.is_number and abs(right) > LARGEST_POWER:
@@ -505,18 +524,20 @@ class _Expression:
             return model.by_state(self.value(args[0]), args[1].id)
         if name == "second_difference":
             return self.second_difference(node, args)
-        if name not in FUNCTIONS or len(args) != 1:
-            expected = f"one of {', '.join(FUNCTIONS)} of one argument, or STATE(t - delay)"
-            expected += ": other functions are not analytic or have no series here"
-            self.refuse(node, expected)
-        argument = self.value(args[0])
+        known = {**FUNCTIONS, **SHORT}
+        if name not in known or len(args) != 1 + (name == "atan2"):
+            expected = f"one of {', '.join(known)} of one argument (atan2: 2), or STATE(t - delay)"
+            self.refuse(
+                node, f"{expected}: other functions are not analytic or have no series here"
+            )
+        argument, *others = map(self.value, args)
         for auxiliary, state in model.auxiliary.items():
             of, value = model.symbol(state), model.symbol(auxiliary)
             if name == "log" and argument == value:
                 return of
             if name == "exp" and argument in (of, -of):
                 return value ** (1 if argument == of else -1)
-        return FUNCTIONS[name](argument)
+        return known[name](argument, *others)
 
     def delayed(self, node: ast.Call, name: str, args: list[ast.AST]) -> sympy.Expr:
         model = self.reader.model

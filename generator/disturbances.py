@@ -47,21 +47,22 @@ class Disturbances:
         self.inlined = Recurrences(self.nodes, self.roots, Constants(self.constants.model)).inlined
         self.early = [node for node in self.nodes if self.is_early(node)]
         for node in self.nodes:
-            if node.is_convolution:
+            if node.is_convolution and not self.is_fixed(node):
                 self.formula(node)
         self.alone = [
             node
             for node in self.nodes
-            if node.kind != "input" and node not in self.inlined and not self.is_constant(node)
+            if node.kind != "input" and node not in self.inlined and not self.is_fixed(node)
         ]
 
-    def is_constant(self, node: Node) -> bool:
-        """Whether a node does not change in time."""
-        return node.kind == "sum" and not node.args
+    def is_fixed(self, node: Node) -> bool:
+        """Whether a node has no disturbance: it is a constant, or takes time alone."""
+        return all(map(self.is_fixed, node.args)) if node.kind != "input" else node.name == "time"
 
     def is_early(self, node: Node) -> bool:
         """Whether the disturbance follows without sums over lower orders."""
-        return node.kind == "input" or (node.kind == "sum" and all(map(self.is_early, node.args)))
+        is_sum = node.kind == "sum" and all(map(self.is_early, node.args))
+        return node.kind == "input" or is_sum or self.is_fixed(node)
 
     def text(self, node: Node, order: str = "k", lanes: str = ":") -> str:
         """The disturbance of a node at an order, that of the present one if it is not stored."""
@@ -79,12 +80,16 @@ class Disturbances:
     def sum_text(self, node: Node) -> str:
         """The sum of a node."""
         parts = [
-            (weight, self.text(one)) for weight, one in zip(node.weights, node.args, strict=True)
+            (weight, self.text(one))
+            for weight, one in zip(node.weights, node.args, strict=True)
+            if not self.is_fixed(one)
         ]
         return weighted_sum(parts, self.constants) or "0.0_wp"
 
     def rate_text(self, node: Node) -> str:
         """The disturbance of a rate, without brackets around a sum."""
+        if self.is_fixed(node):
+            return "0.0_wp"
         return self.sum_text(node) if node in self.inlined else self.text(node)
 
     def total(self, series: Node, of: Node, shift: str = "k - j") -> str:
@@ -97,7 +102,9 @@ class Disturbances:
         return f"d_total_{self.sums.index(pair) + 1}"
 
     def times(self, series: Node, of: Node) -> str:
-        """The whole sum over j <= k."""
+        """The whole sum over j <= k; "" where there is no disturbance."""
+        if self.is_fixed(of):
+            return ""
         total = self.total(series, of)
         if of in self.early:
             return total
@@ -113,14 +120,15 @@ class Disturbances:
                 b = node.args[1]
                 if a is b:
                     return f"2.0_wp*({self.times(a, a)})"
-                return f"{self.times(a, b)} + {self.times(b, a)}"
+                return " + ".join(filter(None, (self.times(a, b), self.times(b, a))))
             case "quotient":
                 b = node.args[1]
                 # the newest term of the quotient itself is a zero here
                 own = self.total(b, node)
-                above = "" if self.is_constant(a) else f"{self.text(a)} - "
+                above = "" if self.is_fixed(a) else f"{self.text(a)} - "
                 minus = "" if above else "-"
-                return f"{minus}({above}({self.times(node, b)} + {own}))/{self.series_text(b, '0')}"
+                taken = " + ".join(filter(None, (self.times(node, b), own)))
+                return f"{minus}({above}({taken}))/{self.series_text(b, '0')}"
             case "exp":
                 return self.times(node, a)
             case "log":
@@ -259,6 +267,4 @@ def lane_inputs(model: Model, steps: Disturbances) -> tuple[list[str], list[str]
         ]
         present = steps.text(steps.flow.graph.known[model.symbol(one.state)])
         at_order.append(f"if (place_{number} == 0) {steps.text(node)} = {present}")
-    if "time" in used:
-        at_order.append(f"{steps.text(used['time'])} = 0.0_wp")
     return before, at_order, arrays

@@ -36,6 +36,8 @@ def exponents_of(model: Model) -> list[str]:
                 exponent = one.args[0]
             elif one.func is sympy.tanh:
                 exponent = 2 * one.args[0]
+            elif one.func in (sympy.erf, sympy.erfc):
+                exponent = one.args[0] ** 2
             elif one.is_Pow and not (one.exp.is_number and abs(one.exp) <= LARGEST_ALGEBRAIC):
                 exponent = one.exp * sympy.log(one.base)
                 names = {sympy.log(one.base): logarithm_of(one)}

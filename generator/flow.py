@@ -6,6 +6,7 @@ This pays where v' needs fewer convolutions than the recurrence of the exponenti
 v' is linear, and w' = v'/v takes one.
 """
 
+import re
 from collections import defaultdict
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -24,6 +25,7 @@ REFUSED = {
     **dict.fromkeys((sympy.sinh, sympy.cosh), f"abs({{}}) > {LARGEST_EXPONENT}.0_wp"),
     **dict.fromkeys((sympy.asin, sympy.acos, sympy.atanh), ".not. abs({}) < 1.0_wp"),
     sympy.acosh: ".not. {} > 1.0_wp",
+    sympy.atan2: ".not. max(abs({}), abs({})) > 0.0_wp",
 }
 """Arguments for which functions have no value or no derivative, or overflow, as conditions."""
 
@@ -111,7 +113,7 @@ def conditions_of(model: Model, equations: dict, names: dict) -> list[dict[str, 
         depth = max([visit(argument, state) for argument in one.args], default=0)
         text = None
         if one.func in REFUSED and not one.has(within):
-            text = REFUSED[one.func].format(text_of(one.args[0], names))
+            text = REFUSED[one.func].format(*(text_of(argument, names) for argument in one.args))
             for delayed in model.delayed:
                 known = one.func is sympy.exp and delayed.symbol == one.args[0]
                 if known and delayed.state in model.domain:
@@ -151,8 +153,11 @@ def refusals(
     With `of` only the elements of these equations are no numbers, else all of the results.
     """
     lines = []
+    lanes = {name for symbol, name in names.items() if in_lanes and symbol != TIME}
     for level in conditions_of(model, equations, names):
-        conditions = [f"any({one})" for one in level] if in_lanes else level
+        conditions = [
+            f"any({one})" if lanes & set(re.findall(r"\w+", one)) else one for one in level
+        ]
         marked = [f"   {result} = ieee_value(1.0_wp, ieee_quiet_nan)" for result in results]
         if of:
             marked = [f"   {result} = 0.0_wp" for result in results] + [

@@ -8,16 +8,34 @@ from sympy.codegen.cfunctions import expm1, log1p
 
 FUNCTIONS = {
     **{"exp": sympy.exp, "expm1": expm1, "log": sympy.log, "log1p": log1p, "sqrt": sympy.sqrt},
-    **{"sin": sympy.sin, "cos": sympy.cos, "tan": sympy.tan},
+    **{"sin": sympy.sin, "cos": sympy.cos, "tan": sympy.tan, "atan2": sympy.atan2},
     **{"sinh": sympy.sinh, "cosh": sympy.cosh, "tanh": sympy.tanh},
     **{"asin": sympy.asin, "acos": sympy.acos, "atan": sympy.atan},
     **{"asinh": sympy.asinh, "acosh": sympy.acosh, "atanh": sympy.atanh},
+    **{"erf": sympy.erf, "erfc": sympy.erfc},
 }
 """The functions that an expression may have, by their names in definitions and in Fortran: all are
 analytic, and have series by a recurrence."""
+SHORT = {
+    "ln": sympy.log,
+    "log10": lambda x: sympy.log(x) / sympy.log(10),
+    "log2": lambda x: sympy.log(x) / sympy.log(2),
+    "sec": lambda x: 1 / sympy.cos(x),
+    "csc": lambda x: 1 / sympy.sin(x),
+    "cot": lambda x: sympy.cos(x) / sympy.sin(x),
+    "sech": lambda x: 1 / sympy.cosh(x),
+    "csch": lambda x: 1 / sympy.sinh(x),
+    "coth": lambda x: 1 / sympy.tanh(x),
+}
+"""Names of expressions of these functions."""
+CONSTANTS = {"pi": sympy.pi, "e": sympy.E}
+DIGITS = 40
+"""Of numbers that no short quotient gives: quadruple precision holds 34."""
 SUM, PRODUCT, POWER, ATOM = range(4)
 """How tightly the parts of an expression hold together."""
 WIDTH = 100
+WORD = re.compile(r"(?<!\d\.)\b[^\W\d_]\w*")
+"""A name; the e of 2.e-3 is none."""
 
 
 class within(sympy.Function):  # noqa: N801
@@ -37,8 +55,10 @@ def literal(number: sympy.Rational) -> str:
     for prime in (2, 5):
         while rest % prime == 0:
             rest //= prime
-    if rest != 1:
+    if rest != 1 and is_short(number):
         return f"{number.p}.0_wp/{number.q}.0_wp"
+    if rest != 1:
+        number = sympy.Rational(str(sympy.Float(number, DIGITS)))
     places = 0
     while (number * 10**places).q != 1:
         places += 1
@@ -49,6 +69,12 @@ def literal(number: sympy.Rational) -> str:
         exponent = len(digits.lstrip("0")) - 1 - places
         return f"{mantissa[0]}.{mantissa[1:] or '0'}e{exponent}_wp"
     return f"{whole}.{fraction or '0'}_wp"
+
+
+def is_short(number: sympy.Rational) -> bool:
+    """Whether numerator and denominator are exact in double precision."""
+    odd = [one // (one & -one) for one in (number.p, number.q) if one]
+    return max(odd) < 2**53 and max(number.p, number.q) < 10**300
 
 
 def text_of(expression: sympy.Expr, names: dict[sympy.Expr, str] | None = None) -> str:
@@ -104,6 +130,9 @@ class _Printer:
             if factor.is_Rational:
                 if factor < 0:
                     sign, factor = "-", -factor
+                if not is_short(factor):
+                    above.append(literal(factor))
+                    continue
                 if factor.p != 1:
                     above.append(literal(sympy.Integer(factor.p)))
                 if factor.q != 1:
@@ -164,4 +193,4 @@ def in_words(text, names: dict[str, str]):
     """A text with other names; what is no text is left as it is."""
     if not isinstance(text, str):
         return text
-    return re.sub(r"\b[A-Za-z]\w*", lambda word: names.get(word[0], word[0]), text)
+    return WORD.sub(lambda word: names.get(word[0], word[0]), text)

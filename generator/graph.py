@@ -14,7 +14,8 @@ from .fortran import within
 class Node:
     """A quantity: an input, a sum of multiples of others, or one operation on one or two of them.
 
-    Kinds: input, sum, product, quotient, power, and the names of functions.
+    Kinds: input, sum, product, quotient, power, path (the integral of a slope along an argument,
+    from 0), and the names of functions.
     """
 
     kind: str
@@ -95,11 +96,21 @@ class Graph:
             of = (self.node(one.args[0]),)
             weights, bound = (sympy.S.One,), one.args[1]
             return self.add("sum", *of, weights=weights, exponent=bound, exact="within", of=of)
+        if one.func is sympy.atan2:
+            # what it grows by along each argument; the rest is its value at order 0
+            of, paths = tuple(map(self.node, one.args)), []
+            for place, argument in enumerate(one.args, 1):
+                if not self.is_constant(argument):
+                    paths.append(self.add("path", of[place - 1], slope=self.node(one.fdiff(place))))
+            weights = (sympy.S.One,) * len(paths)
+            return self.add("sum", *paths, weights=weights, exact="atan2", of=of)
         node = self.add(one.func.__name__, self.node(one.args[0]))
         if one.func not in (sympy.exp, sympy.log):
             # the slope may take the function itself
             self.known[one] = node
             factor, node.slope = self.scaled(one.fdiff())
+            if abs(factor) != 1:
+                node.slope = self.node(one.fdiff())
             node.sign = "-" if factor == -1 else ""
         return node
 

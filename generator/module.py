@@ -5,13 +5,14 @@ import hashlib
 from pathlib import Path
 
 import jinja2
+import sympy
 
 from . import pointwise, rest
 from .address import couplings
 from .definition import TIME, Model
 from .exponents import exponents_of, exponents_procedure
 from .flow import Flow, Procedure, flow_of, rate_of_auxiliary, with_parameters
-from .fortran import in_words, text_of, wrapped
+from .fortran import FUNCTIONS, in_words, text_of, wrapped
 from .series import series_procedure
 from .slow import Balance, balance_of
 from .tangents import tangent_series_procedure
@@ -34,7 +35,9 @@ def write_module(model: Model) -> str:
     """The text of the module."""
     balance = balance_of(model)
     flow = flow_of(model)
+    plain = sympy.Tuple(*map(model.plain, model.equations.values()))
     parts = {
+        "more": [name for name in ("atan2", "erf") if plain.has(FUNCTIONS[name])],
         "made": procedures(model, balance),
         "description": description_lines(model),
         "delayed": delayed_procedure(model),

@@ -131,7 +131,8 @@ class Recurrences:
         """The sum of a node, or the function that coefficient 0 is."""
         if first and node.exact:
             bound = f", {text_of(node.exponent)}" if node.exponent else ""
-            return f"{node.exact}({self.rate_text(node.of[0], first=True)}{bound})"
+            of = ", ".join(self.rate_text(one, first=True) for one in node.of)
+            return f"{node.exact}({of}{bound})"
         parts = [
             (weight, self.text(one, first=first))
             for weight, one in zip(node.weights, node.args, strict=True)
@@ -251,6 +252,9 @@ class Recurrences:
             [f"{zero} = {node.kind}({a}_0)"],
             [line, f"{name} = {node.sign}{self.over_k}({rest} + {slope_0}*{multiple})"],
         )
+
+    def path(self, node, name, zero):
+        return [f"{zero} = 0.0_wp"], self.function(node, name, zero)[1]
 
     @property
     def over_k(self) -> str:

@@ -20,7 +20,7 @@ GROWING = {
     sympy.sinh: lambda x: (x - 1 / x) / 2,
 }
 """Functions that may overflow, by the exponential of their argument."""
-BOUNDED = (sympy.tanh, sympy.sin, sympy.cos, sympy.atan)
+BOUNDED = (sympy.tanh, sympy.sin, sympy.cos, sympy.atan, sympy.erf, sympy.erfc)
 """Functions of which a small error of the argument is a small error."""
 ROOM = 600
 """Logarithm of the largest power in a bounded quotient and its derivative; exp(709.8) overflows."""

@@ -14,15 +14,19 @@ from generator.definition import read_files, read_model
 from generator.module import write_module
 from scripts.config.check_config import checked
 from scripts.config.checks import place_of
+from scripts.drawing.roots import roots_in_words
 from scripts.files.inputs import read
 from scripts.files.read_config import ConfigError
 from scripts.namelists import laws
 from scripts.namelists.models import models_in
 from scripts.namelists.program_groups import scene_groups
+from scripts.plans.scenes import roots_of_scenes
 from scripts.studies.atlas import plan as atlas
 from scripts.studies.cycles import plan as cycles
+from scripts.studies.exponents import plan as exponents
 from scripts.studies.hopf import plan as hopf
 from scripts.studies.routes import plan as routes
+from scripts.studies.scenes import plan as scenes
 
 MINE = {
     "evolution": "-speed*v*(theta + (1 + epsilon)*log(v(t - tau)))",
@@ -136,6 +140,58 @@ WRONG = [
 def test_wrong_law_or_model_is_refused(with_model, path, value, words):
     """Place, what was met, and what is expected."""
     assert words in "".join(refusals(with_model, path, value))
+
+
+DRIVEN = {
+    "parameters": {"Ω": {"above": 0}, "N": {}},
+    "states": {"P": "size"},
+    "equations": {"P": "cos(2*pi*Ω*t) - N*P(t - 1)"},
+}
+AT = {"model": "driven", "N": 1.0}
+ALONG_N = {"model": "driven", "along": "Ω", "window": [1, 2], "history": {"P": 1}}
+PLANE = {
+    **{"model": "driven", "abscissa": "Ω", "abscissa_window": [1, 2]},
+    **{"ordinate": "N", "ordinate_window": [1, 2], "history": {"P": 1}},
+}
+
+
+@pytest.mark.parametrize(
+    ("path", "entry", "words"),
+    [
+        (("hopf_curves",), {k: v for k, v in PLANE.items() if k != "history"}, "with steady_state"),
+        (("cycles", "lines"), {**ALONG_N, "N": 1}, "with steady_state"),
+        (("routes", "lines"), {**ALONG_N, "N": 1, "count": 2}, "without t in its equations"),
+        (("atlas", "planes"), PLANE, "without t in its equations"),
+        (
+            ("basins", "places"),
+            {**AT, "Ω": 1, "histories": {"seed": 1, "P": [0, 1]}},
+            "without t in its equations",
+        ),
+    ],
+)
+def test_sections_that_refuse_a_driven_model(config, path, entry, words):
+    """A file has the names that Python takes; it need not declare a state at rest."""
+    config["models"] = {"driven": copy.deepcopy(DRIVEN)}
+    section = config
+    for key in path:
+        section = section[key]
+    section["mine"] = copy.deepcopy(entry)
+    with pytest.raises(ConfigError) as refused:
+        checked(config)
+    expected = f"config {' '.join(path)} mine: model = 'driven'; expected a model {words}"
+    assert expected in str(refused.value)
+
+
+def test_scene_of_a_driven_model_has_no_roots(config):
+    config["models"] = {"driven": copy.deepcopy(DRIVEN)}
+    config["scenes"]["mine"] = {**AT, "Ω": 0.3, "history": {"P": 1.0}, "t_end": 50.0}
+    whole = {**checked(config), "scenes": {"mine": config["scenes"]["mine"]}}
+    assert scenes.inputs(whole).keys() == {"trajectory", "spectrum", "attractors"}
+    assert roots_of_scenes(whole) == []
+    assert exponents.params(whole) == {"driven": ["mine"]}
+    # from the record of the first check, too
+    assert laws.is_driven(whole, "driven")
+    assert roots_in_words(None) == "not declared"
 
 
 @pytest.mark.parametrize(("section", "name"), [("routes", "lines"), ("cycles", "lines")])

@@ -67,7 +67,7 @@ class Model:
             raise ModelError(f"blocks: {blocks!r}; expected a whole number >= 1")
         check_name("ends", ends, ENDS)
         self.blocks, self.ends = blocks, ends
-        texts = {str(key): str(text) for key, text in equations.items()}
+        texts = {str(key): text_of(value) for key, value in equations.items()}
         self.definition = {
             "name": str(name),
             "parameters": {str(key): entry_of(key, v) for key, v in (parameters or {}).items()},
@@ -197,7 +197,28 @@ def plain(value):
         return [plain(one) for one in value]
     if isinstance(value, int | float) and not isinstance(value, bool):
         return value
-    return str(value)
+    return text_of(value)
+
+
+def text_of(value) -> str:
+    """A text; that of a SymPy expression has all digits, and no names but its own."""
+    if not hasattr(value, "free_symbols"):
+        return str(value)
+    from mpmath.libmp import from_str, repr_dps, to_str
+    from sympy.printing.str import StrPrinter
+
+    class Printer(StrPrinter):
+        def _print_Float(self, one):  # noqa: N802
+            texts = (to_str(one._mpf_, digits) for digits in range(15, repr_dps(one._prec) + 1))
+            return next(x for x in texts if from_str(x, one._prec, "n") == one._mpf_)
+
+        def _print_Exp1(self, _):  # noqa: N802
+            return "exp(1)"
+
+        def _print_Pi(self, _):  # noqa: N802
+            return "acos(-1)"
+
+    return Printer().doprint(value)
 
 
 def entry_of(name, value) -> dict:

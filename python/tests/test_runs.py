@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs against exact solutions and published values, and what is refused."""
 
+import itertools
 import math
 import multiprocessing
 import os
@@ -16,6 +17,8 @@ from concurrent.futures import ThreadPoolExecutor
 import delaykit as dk
 import numpy as np
 import pytest
+import sympy
+from scipy.integrate import quad
 
 from conftest import MACKEY_GLASS, NUMBERS
 
@@ -109,6 +112,28 @@ def test_events(sine):
     ended = sine.integrate(math.sin, 12, events="y = 0.5 rising stop")
     assert ended.status == 1
     np.testing.assert_allclose(ended.t[-1], math.pi / 6, atol=1e-7)
+
+
+def test_numbers_of_sympy_keep_their_digits():
+    """Also where states have the names of its constants."""
+    root = sympy.sqrt(2).evalf(40)
+    model = dk.Model({"e": sympy.Float(1 / 3) * sympy.E, "pi": sympy.pi * root})
+    texts = model.definition["equations"]
+    assert texts["e"] == "0.3333333333333333*exp(1)"
+    assert texts["pi"] == "1.41421356237309504880168872420969807856966*acos(-1)"
+    run = model.integrate({"e": 0, "pi": 0}, 1)
+    np.testing.assert_allclose(run.y[:, -1], [math.e / 3, math.pi * 2**0.5], rtol=1e-15)
+
+
+def test_time_in_other_expressions_and_names_of_any_alphabet():
+    """y' = cos(w t)/(1 + t) e**(-0.1 t) by quadrature, alone and in a chain of equal blocks."""
+    text = "cos(ω*t)/(1 + t)*e**(-t/10)*log10(10) + 0*η(t - τ)"
+    alone = dk.Model({"η": text}, {"ω": 3, "τ": 1})
+    chain = dk.Model({"η": f"{text} + second_difference(η)"}, {"ω": 3, "τ": 1}, blocks=3)
+    expected = quad(lambda t: math.cos(3 * t) / (1 + t) * math.exp(-t / 10), 0, 5, epsabs=1e-13)
+    for model, method in itertools.product((alone, chain), ("taylor", "dop853", "radau9")):
+        run = model.integrate(0, 5, rtol=1e-11, atol=1e-13, method=method)
+        np.testing.assert_allclose(run.y[0, ..., -1], expected[0], atol=1e-10)
 
 
 def test_an_exponential_of_a_state():

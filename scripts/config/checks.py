@@ -4,7 +4,15 @@ import math
 from collections.abc import Iterable, Iterator
 
 from scripts.config.ranges import expected_of, is_inside, range_of
-from scripts.namelists.laws import HISTORY, PREFIX, history_of, is_law, parameters_of
+from scripts.namelists.laws import (
+    HISTORY,
+    PREFIX,
+    has_rest,
+    history_of,
+    is_driven,
+    is_law,
+    parameters_of,
+)
 
 LEAST_LN_V, LARGEST_LN_V = -700.0, 700.0
 """Between these exp(ln v) is a positive finite number."""
@@ -58,6 +66,20 @@ def check_own_history(config: dict, place: str, entry: dict, key: str = "history
     if key not in entry and not is_law(config, entry["law"]):
         states = ", ".join(history_of(config, entry["law"]))
         yield f"{place}: key [{key!r}] is missing: {states} of the model {entry['law']}"
+
+
+def check_rest(config: dict, place: str, entry: dict) -> Iterator[str]:
+    """A model without the state at rest at which roots, Hopf points and cycles begin."""
+    if not has_rest(config, entry["law"]):
+        expected = "a model with steady_state: Hopf points and cycles begin there"
+        yield f"{place}: model = {entry['law']!r}; expected {expected}"
+
+
+def check_not_driven(config: dict, place: str, entry: dict) -> Iterator[str]:
+    """A model with t in its equations, of whose motions there are no classes."""
+    if is_driven(config, entry["law"]):
+        expected = "a model without t in its equations: classes of motion are of these"
+        yield f"{place}: model = {entry['law']!r}; expected {expected}"
 
 
 def check_histories(place: str, ranges: dict, rules: dict[str, dict] = HISTORY) -> Iterator[str]:

@@ -3,8 +3,10 @@
 import xarray as xr
 
 
-def roots_in_words(roots: xr.Dataset) -> str:
+def roots_in_words(roots: xr.Dataset | None) -> str:
     """Whether steady sliding is stable, its unstable roots, and its rightmost root."""
+    if roots is None:
+        return "not declared"
     number = int(roots.attrs["unstable_roots"])
     words = f"{'unstable' if number else 'stable'} ({number} unstable root{'s' * (number != 1)}"
     if not roots.sizes["root"]:

@@ -73,6 +73,18 @@ def is_law(config: dict, name: str) -> bool:
     return name not in models_of_user(config)
 
 
+def has_rest(config: dict, name: str) -> bool:
+    """Whether a model declares a state at rest: roots, Hopf points and cycles begin there."""
+    return is_law(config, name) or "steady_state" in models_of_user(config)[name]
+
+
+def is_driven(config: dict, name: str) -> bool:
+    """Whether a model has t in its equations."""
+    return not is_law(config, name) and check_model(
+        f"config models {name}", name, [definition(name, models_of_user(config)[name])]
+    )
+
+
 def names_of_models(config: dict) -> list[str]:
     """Names of all models that entries may have."""
     return [*definitions(config), *models_of_user(config)]
@@ -179,8 +191,11 @@ def spoken(law: str) -> str:
     return law.replace("_", " ")
 
 
-def check_model(place: str, name: str, parts: list[dict]) -> None:
-    """Refuse parts of a definition of which no model can be made; raise ConfigError saying why."""
+def check_model(place: str, name: str, parts: list[dict]) -> bool:
+    """Refuse parts of a definition of which no model can be made; raise ConfigError saying why.
+
+    Otherwise whether the model has t in its equations.
+    """
     if name in built_in():
         raise ConfigError(f"{place}: the project has a law of this name; expected another name")
     if name.startswith((PREFIX, CHAIN)):
@@ -189,21 +204,27 @@ def check_model(place: str, name: str, parts: list[dict]) -> None:
             " expected another"
         )
     checked = CHECKED / _digest_of(parts)
+    driven = checked.with_suffix(".driven")
     if checked.exists():
-        return
+        return driven.exists()
     # needs SymPy, which takes half a second to load
-    from generator.definition import ModelError, overlaid, read_model
+    from generator.definition import TIME, ModelError, overlaid, read_model
     from generator.module import write_module
 
     try:
-        write_module(read_model(reduce(overlaid, parts)))
+        model = read_model(reduce(overlaid, parts))
+        write_module(model)
     except (ModelError, TypeError) as problem:
         reason = str(problem).removeprefix(f"model {name}: ")
         raise ConfigError(f"{place}: {reason}") from None
+    has_time = any(one.has(TIME) for one in model.equations.values())
     # where nothing can be written, the model is checked again
     with contextlib.suppress(OSError):
         CHECKED.mkdir(parents=True, exist_ok=True)
+        if has_time:
+            driven.touch()
         checked.touch()
+    return has_time
 
 
 def check_users_models(config: dict) -> None:

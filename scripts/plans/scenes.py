@@ -1,6 +1,6 @@
 """Results of scenes by their paths, and what figures mark of scenes, by the configuration."""
 
-from scripts.namelists.laws import is_law, law_in_words
+from scripts.namelists.laws import has_rest, is_law, law_in_words
 from scripts.namelists.parameters import place_of
 
 
@@ -40,6 +40,13 @@ def is_block(config: dict, scene: str) -> bool:
 def blocks_of(config: dict) -> list[str]:
     """Scenes of one block."""
     return [name for name in config["scenes"] if is_block(config, name)]
+
+
+def roots_of_scenes(config: dict) -> list[str]:
+    """Roots of the scenes of one block whose model declares a state at rest."""
+    scenes = config["scenes"]
+    names = [name for name in blocks_of(config) if has_rest(config, scenes[name]["law"])]
+    return paths_of_scenes("linear_stability", names)
 
 
 def marked_scenes(config: dict) -> dict[str, dict]:

@@ -2,11 +2,12 @@
 !> Functions of nilpotent numbers, each from its derivatives at the number without units.
 module nilpotent_functions
    use dde_kinds, only: wp
-   use nilpotent_numbers, only: composed, most_units, nilpotent_type, operator(**)
+   use nilpotent_numbers, only: composed, disturbed, most_units, nilpotent_type, operator(**), &
+                                operator(/)
    implicit none (type, external)
    private
-   public :: acos, acosh, asin, asinh, atan, atanh, cos, cosh, exp, log, sin, sinh, sqrt, tan, tanh
-   public :: within
+   public :: acos, acosh, asin, asinh, atan, atan2, atanh, cos, cosh, erf, exp, log, sin, sinh, &
+             sqrt, tan, tanh, within
 
    !> m! of each order m; i is only that of the list.
    integer :: i
@@ -57,6 +58,12 @@ module nilpotent_functions
    interface atanh
       module procedure :: area_tangent
    end interface atanh
+   interface atan2
+      module procedure :: angle, angle_of_real, angle_over_real
+   end interface atan2
+   interface erf
+      module procedure :: error_function
+   end interface erf
    interface within
       module procedure :: within_bound
    end interface within
@@ -170,6 +177,49 @@ contains
 
       c = composed(a, inverses(atanh(a%a(0)), a%a(0), 1, -1, -1.0_wp))
    end function area_tangent
+
+   !> The angle of (x, y): the smaller of the two is divided by the other.
+   pure type(nilpotent_type) function angle(y, x) result(c)
+      type(nilpotent_type), intent(in) :: y, x
+
+      if (abs(x%a(0)) > abs(y%a(0))) then
+         c = arc_tangent(y/x)
+      else
+         c = arc_tangent(x/y)
+         c%a = -c%a
+      end if
+      c%a(0) = atan2(y%a(0)%re, x%a(0)%re)
+   end function angle
+
+   pure type(nilpotent_type) function angle_of_real(y, x) result(c)
+      real(wp), intent(in) :: y
+      type(nilpotent_type), intent(in) :: x
+
+      c = angle(disturbed(y, [complex(wp) ::]), x)
+   end function angle_of_real
+
+   pure type(nilpotent_type) function angle_over_real(y, x) result(c)
+      type(nilpotent_type), intent(in) :: y
+      real(wp), intent(in) :: x
+
+      c = angle(y, disturbed(x, [complex(wp) ::]))
+   end function angle_over_real
+
+   !> f'' = -2 x f', and f^(m + 1) = -2 x f^(m) - 2 (m - 1) f^(m - 1).
+   pure type(nilpotent_type) function error_function(a) result(c)
+      type(nilpotent_type), intent(in) :: a
+      complex(wp) :: slopes(0:most_units)
+      integer :: m
+
+      associate (x => a%a(0)%re)
+         slopes(0) = erf(x)
+         slopes(1) = 2.0_wp*exp(-x**2)/sqrt(acos(-1.0_wp))
+         do m = 1, most_units - 1
+            slopes(m + 1) = -2.0_wp*(x*slopes(m) + (m - 1)*slopes(m - 1))
+         end do
+      end associate
+      c = composed(a, slopes)
+   end function error_function
 
    !> Derivatives of a function with f'' = sign f.
    pure function waves(value, slope, sign) result(slopes)

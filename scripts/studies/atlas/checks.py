@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from scripts.config.checks import (
+    check_not_driven,
     check_observation,
     check_own_history,
     check_plane,
@@ -25,6 +26,7 @@ def contradictions(config: dict) -> Iterator[str]:
         shared = {"abscissa_window": atlas["abscissa_window"]}
         yield from check_plane(config, f"{place} planes {name}", shared | plane)
         yield from check_own_history(config, f"{place} planes {name}", plane)
+        yield from check_not_driven(config, f"{place} planes {name}", plane)
     delays, parts = atlas["ordinate_count"], atlas["parts"]
     if parts > delays:
         yield wrong(place, atlas, "parts", f"a whole number >= 1 and <= ordinate_count = {delays}")

@@ -2,7 +2,12 @@
 
 from collections.abc import Iterator
 
-from scripts.config.checks import check_histories, check_observation, check_own_history
+from scripts.config.checks import (
+    check_histories,
+    check_not_driven,
+    check_observation,
+    check_own_history,
+)
 from scripts.namelists.laws import history_of
 
 
@@ -16,6 +21,7 @@ def contradictions(config: dict) -> Iterator[str]:
     for name, place in study["places"].items():
         where = f"config basins places {name}"
         yield from check_own_history(config, where, place, "histories")
+        yield from check_not_driven(config, where, place)
         if "histories" in place:
             rules = history_of(config, place["law"])
             yield from check_histories(f"{where} histories", place["histories"], rules)

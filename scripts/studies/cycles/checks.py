@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from scripts.config.checks import check_line, window
+from scripts.config.checks import check_line, check_rest, window
 from scripts.config.ranges import range_of
 from scripts.namelists.laws import block_parameters, parameters_of
 
@@ -14,6 +14,7 @@ def contradictions(config: dict) -> Iterator[str]:
     for name, line in study["lines"].items():
         place, known = f"config cycles lines {name}", parameters_of(config, line["law"])
         yield from check_line(config, place, line)
+        yield from check_rest(config, place, line)
         yield from check_curves(f"{place} curves", line.get("curves", {}), known)
 
 

@@ -110,7 +110,7 @@ def draw_bars(axes: Axes, runs: xr.Dataset, places: np.ndarray) -> None:
     axes.set_yscale("symlog", linthresh=LEAST_SCALE)
 
 
-def numbers(runs: list[xr.Dataset], table: list[dict]) -> dict:
+def numbers(runs: list[xr.Dataset], table: list[dict], driven: list[str]) -> dict:
     """How many exponents of each scene are positive and zero, their values, the dimension."""
     scenes = []
     for scene in (run.attrs["scene"] for run in runs):
@@ -120,6 +120,7 @@ def numbers(runs: list[xr.Dataset], table: list[dict]) -> dict:
         scenes.append(
             {
                 "name": scene.replace("_", " "),
+                "driven": scene in driven,
                 "positive": signs.count("positive"),
                 "zero": signs.count("zero"),
                 "unclear": signs.count("unclear"),

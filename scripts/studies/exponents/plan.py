@@ -4,6 +4,7 @@ Formulas and sources: `lyapunov_spectrum.f90`, `tangent_problem.f90`, `tangent_v
 `exponent_averages.f90`.
 """
 
+from scripts.namelists.laws import is_driven
 from scripts.namelists.parameters import zero_of
 from scripts.namelists.program_groups import scene_groups
 from scripts.plans.declare import LONGEST, Figure, Run, Study, Table
@@ -32,7 +33,14 @@ def runs_shown(config: dict) -> list[str]:
     return paths_of_scenes("exponents", checked or names)
 
 
+def params(config: dict) -> dict:
+    """Scenes with t in their equations: none of their exponents is that of the flow."""
+    scenes = config["scenes"]
+    return {"driven": [name for name in scenes if is_driven(config, scenes[name]["law"])]}
+
+
 FIGURE = {
+    "params": params,
     "inputs": lambda config: {
         "runs": runs_shown(config),
         "table": "<results>/tables/exponents.tsv",

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from scripts.config.checks import check_plane, wrong
+from scripts.config.checks import check_plane, check_rest, wrong
 
 
 def contradictions(config: dict) -> Iterator[str]:
@@ -10,6 +10,7 @@ def contradictions(config: dict) -> Iterator[str]:
     for name, plane in config["hopf_curves"].items():
         place = f"config hopf_curves {name}"
         yield from check_plane(config, place, plane)
+        yield from check_rest(config, place, plane)
         # below epsilon = 0 steady sliding of the block is stable
         if plane["abscissa"] == "epsilon" and plane["abscissa_window"][1] <= 0:
             yield wrong(place, plane, "abscissa_window", "an end > 0")

@@ -7,7 +7,7 @@ supercritical or subcritical `normal_form.f90`; special points `hopf_points.f90`
 
 from scripts.namelists.parameters import plane_group
 from scripts.plans.declare import MAIN, PAPER, Figure, Run, Study, Table
-from scripts.plans.scenes import blocks_of, paths_of_scenes, scenes_in_plane
+from scripts.plans.scenes import roots_of_scenes, scenes_in_plane
 
 
 def groups(config: dict, plane: str) -> dict[str, dict]:
@@ -50,7 +50,7 @@ STUDY = Study(
             *("hopf_points", "tables/hopf-points.tsv"),
             lambda config: {
                 "curves": [f"<results>/hopf/{plane}.nc" for plane in config["hopf_curves"]],
-                "scenes": paths_of_scenes("linear_stability", blocks_of(config)),
+                "scenes": roots_of_scenes(config),
             },
             wanted=lambda config: bool(config["hopf_curves"]),
         ),

@@ -6,7 +6,7 @@ Formulas and sources: (5) `characteristic_roots.f90`, `stability_changes.f90`.
 from scripts.namelists.laws import is_law
 from scripts.namelists.parameters import with_model
 from scripts.plans.declare import Run, Study, Table
-from scripts.plans.scenes import blocks_of, paths_of_scenes
+from scripts.plans.scenes import roots_of_scenes
 
 
 def groups(config: dict, scene: str) -> dict[str, dict]:
@@ -25,8 +25,8 @@ STUDY = Study(
     tables=(
         Table(
             *("linear_stability_table", "tables/linear-stability.tsv"),
-            lambda config: {"scenes": paths_of_scenes("linear_stability", blocks_of(config))},
-            wanted=lambda config: bool(blocks_of(config)),
+            lambda config: {"scenes": roots_of_scenes(config)},
+            wanted=lambda config: bool(roots_of_scenes(config)),
         ),
     ),
 )

@@ -2,7 +2,12 @@
 
 from collections.abc import Iterator
 
-from scripts.config.checks import check_line, check_observation, check_values
+from scripts.config.checks import (
+    check_line,
+    check_not_driven,
+    check_observation,
+    check_values,
+)
 from scripts.namelists.laws import HISTORY
 
 
@@ -21,3 +26,4 @@ def contradictions(config: dict) -> Iterator[str]:
         yield from check_values(f"config routes histories {name}", history, HISTORY)
     for name, line in study["lines"].items():
         yield from check_line(config, f"config routes lines {name}", line, histories=True)
+        yield from check_not_driven(config, f"config routes lines {name}", line)

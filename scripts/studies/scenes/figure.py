@@ -58,7 +58,7 @@ def draw(
     trajectory: xr.Dataset,
     spectrum: xr.Dataset,
     attractors: xr.Dataset,
-    roots: xr.Dataset,
+    roots: xr.Dataset | None,
     si: dict,
 ) -> Figure:
     """v(t) from the start and at the end; portrait, section and exponents; spectrum."""
@@ -234,7 +234,7 @@ def numbers(
     trajectory: xr.Dataset,
     spectrum: xr.Dataset,
     attractors: xr.Dataset,
-    roots: xr.Dataset,
+    roots: xr.Dataset | None,
     si: dict,
 ) -> dict:
     """Class, end of v, exponents, spectrum and the roots of steady sliding."""
@@ -263,7 +263,7 @@ def numbers(
 def motion_in_words(row: dict) -> str:
     """The class of a motion, or why it has none."""
     if has_problem(row):
-        return f"without a class ({row['problem']})"
+        return f"without a class ({row['problem']}): (d) and (e) are empty"
     if row["class"] == UNDECIDED:
         return f"of no class that can be decided ({row['reason']})"
     if row["class"] == "chaos":

@@ -3,6 +3,7 @@
 Formulas and sources: (3), (4) `spring_block.yaml`, `slip_delayed_logarithm.yaml`; `spectrum.f90`.
 """
 
+from scripts.namelists.laws import has_rest
 from scripts.namelists.program_groups import scene_groups
 from scripts.plans.declare import PAPER, Figure, Run, Study
 from scripts.plans.scenes import is_block
@@ -15,19 +16,20 @@ def spectrum_groups(config: dict, scene: str) -> dict:
 
 def inputs(config: dict) -> dict:
     """Trajectory, spectrum, attractors and roots of the scene that the configuration lists."""
-    (scene,) = config["scenes"]
+    ((scene, settings),) = config["scenes"].items()
+    roots = {"roots": f"<results>/linear_stability/{scene}.nc"}
     return {
         "trajectory": f"<results>/trajectories/{scene}.nc",
         "spectrum": f"<results>/spectra/{scene}.nc",
         "attractors": f"<results>/attractors/scenes/{scene}.nc",
-        "roots": f"<results>/linear_stability/{scene}.nc",
+        **(roots if has_rest(config, settings["law"]) else {}),
     }
 
 
 def params(config: dict) -> dict:
-    """The quantities of a scene that is given in SI."""
+    """The quantities of a scene that is given in SI; no roots unless they are among the inputs."""
     (scene,) = config["scenes"].values()
-    return {"si": scene.get("si", {})}
+    return {"si": scene.get("si", {}), "roots": None}
 
 
 STUDY = Study(
