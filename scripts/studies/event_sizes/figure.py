@@ -13,6 +13,7 @@ from scripts.drawing.wording import place_in_words, short, with_error
 from scripts.namelists.parameters import PARAMETERS
 from scripts.studies.event_sizes.laws import (
     CONFIDENCE,
+    EXPONENT_RANGE,
     EXPONENTS,
     FEWEST,
     LARGEST,
@@ -173,7 +174,8 @@ def numbers(
         "fewest": FEWEST,
         "widest": short(max(others, default=0.0), 1),
         "fitted": len(exponents),
-        "at_zero": sum(map(math.isnan, exponents)),
+        "steepest": short(EXPONENT_RANGE[1]),
+        "ends": sum(map(math.isnan, exponents)),
         "decays": [short(end) for end in EXPONENTS],
         "at_end": sum(
             math.isnan(row["aftershock_exponent"]) and row["aftershock_main_shocks"] > 0
