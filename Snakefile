@@ -14,7 +14,7 @@ os.environ.update(PATH=os.pathsep.join(filter(None, folders)))
 sys.path.insert(0, str(workflow.basedir))
 
 from scripts.files.read_config import ConfigError
-from scripts.workflow import manifest, run_times
+from scripts.workflow import manifest, records, run_times
 from scripts.workflow.check_run import problem_of
 from scripts.workflow.failed_run import make_page
 from scripts.workflow.plan import read_plan
@@ -27,6 +27,7 @@ try:
 except ConfigError as problem:
     sys.exit(f"error: {problem}")
 config = plan.config
+records.keep_with(plan.results)
 
 
 pathvars:

@@ -57,9 +57,9 @@ OF_MODELS = [
 
 
 @functools.cache
-def digest_of_program():
+def digest_of_program(*others):
     """A digest of the program's sources: what it computes is stale once they change, built or not."""
-    return digest_of_files(SOURCES)
+    return digest_of_files([*SOURCES, *others])
 
 
 @functools.cache

@@ -24,10 +24,6 @@ rule definition:
 
 rule program:
     """The program, in double or in quadruple precision, built from its sources."""
-
-    # by time too: a program built by CMake alone has no record of its digest
-    input:
-        SOURCES,
     output:
         "build/release/bin/spring_block{quad}",
     log:
@@ -48,7 +44,11 @@ rule program:
 rule model:
     """A model, compiled from its definition: the program opens it by name."""
     input:
-        lambda wildcards: models.parts_of(wildcards.model, config, wildcards.built),
+        # of the project's files the digest decides: in a fresh clone they are younger than all results
+        lambda wildcards: [
+            path if path.startswith(BUILT) else ancient(path)
+            for path in models.parts_of(wildcards.model, config, wildcards.built)
+        ],
     output:
         "{built}/models{quad}/{model}.so",
     log:
@@ -86,7 +86,7 @@ for run in RUNS:
         params:
             namelist=functools.partial(namelist_of, run),
             before=functools.partial(namelists_before, run),
-            sources=digest_of_program(),
+            sources=digest_of_program("scripts/workflow/run_program.sh"),
             models=functools.partial(digests_of_models, run),
             command=run.command,
             folders=":".join(models.folders_of(config, BUILT, run.quad)),

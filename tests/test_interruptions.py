@@ -118,13 +118,14 @@ def test_workflow_resumes_and_nothing_stale_passes_as_current(scratch):
 
 def test_workflow_resumes_where_snakemake_itself_was_killed(smoke, scratch):
     """Its locks go with the next run, which has all results as before. A program with other values
-    lives on and does no harm."""
+    lives on and does no harm. Its result has no record, so that it is stale without .snakemake."""
     (scratch.folder / "mine.yaml").write_text(
         "stability: { families: { grid_fault: { t_end: 30.0 } } }"
     )
     with begun(scratch, LONG, "mine.yaml") as (run, program):
         run.kill()
         run.wait()
+        assert not (scratch.folder / f"{LONG.replace('/', '/records/', 1)}.json").exists()
         again = scratch.reproduce(LONG, *SMOKE)
         assert again.returncode == 0, again.stdout
         assert scratch.outputs() == smoke.outputs()

@@ -2,6 +2,7 @@
 
 import json
 import re
+import shutil
 import subprocess
 from pathlib import Path
 
@@ -254,7 +255,7 @@ def test_new_file_promises_only_the_folder_that_it_gets(tmp_path, name):
 def test_folder_is_named_after_the_file():
     """No folder of results has this name, and it is none that Snakemake cannot take."""
     assert name_of("/some/where/my-file_2.yaml") == "my-file_2"
-    others = {"logs", "benchmarks", "docs"}
+    others = {"logs", "benchmarks", "docs", "records"}
     for name in (
         kinds_of_results() | others | {"page", "a" * 20, "mine" + "-1" * 20, "ab" * 51, "a b"}
     ):
@@ -303,7 +304,7 @@ scenes:
 
 
 def test_changed_law_is_compiled_and_its_results_made_anew_and_no_others(scratch):
-    """A law is compiled alone; nothing is linked again."""
+    """A law is compiled alone; nothing is linked again. It is seen without .snakemake, too."""
     path = scratch.folder / "laws.yaml"
     path.write_text(TWO_LAWS)
     targets = [f"results/laws/trajectories/{name}.nc" for name in ("one", "other")]
@@ -313,6 +314,7 @@ def test_changed_law_is_compiled_and_its_results_made_anew_and_no_others(scratch
     made = {path.name for path in scratch.folder.glob("build/users/laws/models/*.so")}
     assert made == {"mine.so", "yours.so"}
     path.write_text(TWO_LAWS.replace("1e-3", "3e-3"))
+    shutil.rmtree(scratch.folder / ".snakemake")
     again = scratch.snakemake("--dry-run", *targets, "--config", "user_file=laws.yaml")
     assert again.returncode == 0, again.stdout
     assert rules_in(again.stdout) == {"definition", "model", "trajectory"}

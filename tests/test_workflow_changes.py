@@ -2,12 +2,13 @@
 
 import os
 import shutil
+import time
 
 import pytest
 from dry_runs import data_of_jobs, jobs_in
 
 from conftest import ROOT, SMOKE, Project, rules_in
-from scripts.plans.studies import files_of, runs
+from scripts.plans.studies import files_of
 from scripts.workflow.script_imports import modules_of
 
 SCRIPTS = ROOT / "scripts"
@@ -52,15 +53,20 @@ def test_results_of_a_script_depend_on_what_it_imports(script, expected):
     assert (SCRIPTS / STYLE in found) == (STYLE in expected)
 
 
-def test_results_of_changed_scripts_are_stale(scratch):
-    """Of every rule with a script, whatever the time of the script is."""
-    change(scratch, *scripts())
+def test_results_of_changed_scripts_and_commands_are_stale(scratch):
+    """Of every rule, whatever the time of the script is."""
+    change(scratch, *scripts(), "scripts/workflow/run_program.sh")
+    rules = scratch.folder / "rules" / "programs.smk"
+    rules.write_text(rules.read_text().replace("-m generator", "-m  generator"))
     said = scratch.snakemake("--summary", *SMOKE).stdout
     rows = [line.split("\t") for line in said.splitlines() if line.count("\t") == 5]
-    programs = {run.rule for run in runs()} | {"program", "model", "rule"}
-    statuses = {row[2]: row[4] for row in rows if row[2] not in programs}
+    statuses = {row[2]: row[4] for row in rows if row[2] not in {"program", "rule"}}
     assert len(statuses) > 30
-    assert {rule: status for rule, status in statuses.items() if status != "params changed"} == {}
+    command = {"model": "rule implementation changed"}
+    stale = {rule: status for rule, status in statuses.items() if status != "params changed"}
+    assert stale == command
+    run = scratch.snakemake("--dry-run", "build/release/models/slip_delayed_logarithm.so", *SMOKE)
+    assert rules_in(run.stdout) == {"model"}
 
 
 def test_changed_files_of_the_project_make_their_results_anew(scratch):
@@ -89,15 +95,38 @@ def test_results_of_an_older_program_are_computed_again(scratch):
     assert rules_in(run.stdout) == {"program", "stability_reference"}
 
 
-def test_changed_values_make_anew_only_what_depends_on_them(smoke, tmp_path):
+def bring_from_elsewhere(project: Project, age: float) -> None:
+    """Leave the results as a copy or an archive does: of one age in s, without .snakemake."""
+    changed = time.time() - age
+    shutil.rmtree(project.folder / ".snakemake")
+    for path in (project.folder / "results").rglob("*"):
+        os.utime(path, (changed, changed))
+
+
+def test_results_from_elsewhere_are_current_with_their_records_alone(scratch):
+    """Even older than the whole project. Without a record they are stale, in whole or in part."""
+    bring_from_elsewhere(scratch, 1e9)
+    shutil.rmtree(scratch.folder / "build")
+    run = scratch.snakemake("--dry-run", *SMOKE)
+    assert "Nothing to be done" in run.stdout
+    namelist = scratch.folder / "results" / "namelists" / "trajectories" / "torus.nml"
+    namelist.unlink()
+    for name in ("trajectories/torus.nc", "namelists/trajectories/torus.nml"):
+        (scratch.folder / "results" / "records" / f"{name}.json").unlink()
+    run = scratch.snakemake("--dry-run", "results/trajectories/torus.nc", *SMOKE)
+    assert "trajectory" in rules_in(run.stdout)
+
+
+def test_changed_values_make_anew_only_what_depends_on_them(scratch, tmp_path):
     """A scene's trajectory, spectrum, exponents and figures; a study's runs of one case, its table
-    and figure, and a figure that shows less; and the claims."""
+    and figure, and a figure that shows less; and the claims. In results from elsewhere, too."""
     (tmp_path / "mine.yaml").write_text(
         "scenes: { torus: { tolerance: 1.0e-8 } }\n"
         "stability: { families: { spring: { t_end: 11.0 } } }\n"
         "figures: { figure_7: { frequency_shown: 0.9 } }"
     )
-    run = smoke.snakemake("--dry-run", *SMOKE, str(tmp_path / "mine.yaml"))
+    bring_from_elsewhere(scratch, 0.0)
+    run = scratch.snakemake("--dry-run", *SMOKE, str(tmp_path / "mine.yaml"))
     rules = (
         "all claims captions first_page page"
         " trajectory spectrum exponents_runs exponents_table figure_5 figure_6 true_torus exponents"

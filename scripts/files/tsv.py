@@ -27,7 +27,7 @@ def as_text(value) -> str:
     if isinstance(value, float):
         if math.isnan(value):
             return ""
-        return str(int(value)) if value == int(value) and abs(value) < 1e6 else f"{value:.6g}"
+        return str(int(value)) if value.is_integer() and abs(value) < 1e6 else f"{value:.6g}"
     return str(value)
 
 

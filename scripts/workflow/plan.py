@@ -200,7 +200,7 @@ def name_of(user_file: str) -> str:
     """Name of the folder of a user's results."""
     name = Path(user_file).stem
     kinds = studies.kinds_of_results()
-    if name in kinds | {"logs", "benchmarks", "docs"} or not NAME.fullmatch(name):
+    if name in kinds | {"logs", "benchmarks", "docs", "records"} or not NAME.fullmatch(name):
         raise ConfigError(
             f"{user_file}: its results would be in {RESULTS}/{name}/; expected a name of letters,"
             " digits, _ and -, at most 100, without 20 equal parts at the end, and none of"

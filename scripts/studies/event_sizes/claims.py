@@ -9,7 +9,9 @@ from scripts.claims.declare import Scenes, claim, number, reads, says, tested_wi
 from scripts.studies.event_sizes.names_of_laws import (
     RIVALS,
     cut_off_in_words,
+    decades_of,
     definition_of,
+    exponent_in_words,
     is_usual,
 )
 
@@ -55,7 +57,7 @@ def power_law_of_sizes(results: Results, *, scenes: Scenes, decades: Decades) ->
             f" +- {short(row['size_error'], 1)}. The share {short(row['size_goodness'], 2)} of"
             f" samples of this law is farther from it; {PLAUSIBLE:g} is the least of a plausible"
             f" law. More likely laws: {join(better)}. With a cut-off at {cut_off_in_words(row)} the"
-            f" exponent is {short(row['size_cutoff_exponent'], 3)}, the share"
+            f" exponent is {exponent_in_words(row['size_cutoff_exponent'], 3)}, the share"
             f" {short(row['size_cutoff_goodness'], 2)} of samples is farther, and more likely laws:"
             f" {join(than_cut_off)}."
         )
@@ -84,11 +86,6 @@ def power_law_of_sizes(results: Results, *, scenes: Scenes, decades: Decades) ->
     return decided(pure, " ".join(parts), instead, partly=partly)
 
 
-def decades_of(row: dict) -> float:
-    """Decades from the lower cut-off to the upper one, none if this is the smaller one."""
-    return max(0.0, math.log10(row["size_cutoff"] / row["size_least"]))
-
-
 def better_laws(row: dict, rivals: Iterable[str]) -> list[str]:
     """Names of the laws that are more likely."""
     return [
@@ -105,7 +102,7 @@ def better_laws(row: dict, rivals: Iterable[str]) -> list[str]:
 def decaying_aftershocks(results: Results, *, scenes: Scenes) -> Finding:
     """Whether in some chain events follow large ones at a rate that decays by a power of time.
 
-    An exponential decay must be much less likely.
+    An exponential decay must be much less likely, and the power at no end of what is tried.
     """
     parts, power, more = [], False, False
     for name in scenes:
@@ -116,7 +113,9 @@ def decaying_aftershocks(results: Results, *, scenes: Scenes) -> Finding:
             continue
         here = row["aftershock_chance"] < LEVEL and row["aftershock_first"] > 1
         more = more or here
-        power = power or (here and row["aftershock_over_exponential"] > MUCH_MORE_LIKELY)
+        exponent = row["aftershock_exponent"]
+        likely = row["aftershock_over_exponential"] > MUCH_MORE_LIKELY
+        power = power or (here and likely and not math.isnan(exponent))
         parts.append(
             f"In chain {place} the rate of events in the first unit of time after"
             f" {row['aftershock_main_shocks']:g} large events is"
@@ -124,7 +123,8 @@ def decaying_aftershocks(results: Results, *, scenes: Scenes) -> Finding:
             " its mean. If it were constant, chance alone would make the law of Omori and Utsu as"
             f" much more likely with the probability {short(row['aftershock_chance'], 2)}. That law"
             f" is more likely than an exponential decay by a factor of"
-            f" {short(math.exp(row['aftershock_over_exponential']), 2)}."
+            f" {short(math.exp(row['aftershock_over_exponential']), 2)}. Its exponent is"
+            f" {exponent_in_words(exponent, 2)}."
         )
     return decided(
         power,

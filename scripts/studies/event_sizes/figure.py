@@ -11,8 +11,22 @@ from matplotlib.figure import Figure
 from scripts.drawing.style import INK
 from scripts.drawing.wording import place_in_words, short, with_error
 from scripts.namelists.parameters import PARAMETERS
-from scripts.studies.event_sizes.laws import CONFIDENCE, LARGEST, WINDOW, times_after_main_shocks
-from scripts.studies.event_sizes.names_of_laws import cut_off_in_words, definition_of, is_usual
+from scripts.studies.event_sizes.laws import (
+    CONFIDENCE,
+    EXPONENT_RANGE,
+    EXPONENTS,
+    FEWEST,
+    LARGEST,
+    WINDOW,
+    times_after_main_shocks,
+)
+from scripts.studies.event_sizes.names_of_laws import (
+    cut_off_in_words,
+    decades_of,
+    definition_of,
+    exponent_in_words,
+    is_usual,
+)
 
 MARKS = ["o", "s", "^", "D", "v", "P"]
 BINS = np.geomspace(0.3, WINDOW, 10)
@@ -28,7 +42,7 @@ def draw(
     events: list[list[dict]], slips: list[xr.Dataset], laws: list[dict], names: list[str]
 ) -> Figure:
     """Distributions of sizes, also by other definitions; cut-offs; rates after events."""
-    figure, ((sizes, others), (cutoffs, rates)) = plt.subplots(2, 2, figsize=(6.7, 5.6))
+    figure, ((sizes, others), (cutoffs, rates)) = plt.subplots(2, 2, figsize=(6.7, 6.0))
     usual = laws_of(laws, names)
     for number, (chain, row) in enumerate(zip(events, usual, strict=True)):
         colour, mark = f"C{number}", MARKS[number % len(MARKS)]
@@ -51,7 +65,6 @@ def draw(
                 kept = chain.onset >= chain.attrs["t_end"] - row["time"]
                 found = chain.slip.values[(chain.threshold == row["threshold"]) & kept]
             draw_sizes(others, found, label=name.replace("slips ", ""), **styles[name])
-    others.legend(fontsize=7, title="slips", title_fontsize=7, handlelength=1.5)
     draw_cut_offs(cutoffs, shown, styles)
     for axes, letter in zip((sizes, others, cutoffs, rates), "abcd", strict=True):
         of = "  " + names[longest].replace("_", " ") if axes is others else ""
@@ -65,9 +78,10 @@ def draw(
         ylabel="rate of events over its mean",
         ylim=(0, None),
     )
-    figure.legend(
-        *sizes.get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=7
-    )
+    for axes, place, title in ((sizes, "lower", "a, d"), (others, "upper", "b, c: slips")):
+        handles, labels = axes.get_legend_handles_labels()
+        look = {"ncols": 3, "fontsize": 7, "title": title, "title_fontsize": 7}
+        figure.legend(handles, labels, loc=f"outside {place} center", **look)
     return figure
 
 
@@ -101,9 +115,9 @@ def styles_of(laws: list[dict]) -> dict[str, dict]:
 
 
 def draw_cut_offs(axes: Axes, laws: list[dict], styles: dict[str, dict]) -> None:
-    """Cut-offs with their intervals over the number of blocks, a mark for each gamma."""
+    """Cut-offs up to the largest event, with intervals, over the blocks; a mark for each gamma."""
     marks = dict(zip(dict.fromkeys(row["gamma"] for row in laws), MARKS, strict=False))
-    fitted = [row for row in laws if not math.isnan(row["size_cutoff"])]
+    fitted = [row for row in laws if 0.0 < row["size_cutoff"] <= row["largest"]]
     for name, style in styles.items():
         for gamma, mark in marks.items():
             rows = [r for r in fitted if definition_of(r) == name and r["gamma"] == gamma]
@@ -142,6 +156,9 @@ def numbers(
     shuffled = [row["shuffled_cutoff"] for row in usual]
     cut_offs = {(row["chain"], definition_of(row)): cut_off_in_words(row) for row in laws}
     definitions = dict.fromkeys(definition for _, definition in cut_offs)
+    fitted = [row for row in laws if row["chain"] in names and not math.isnan(row["size_cutoff"])]
+    exponents = [row["size_cutoff_exponent"] for row in fitted]
+    others = [decades_of(row) for row in fitted if not is_usual(row)]
     return {
         "chains": [numbers_of(row) for row in usual],
         "cells": [
@@ -154,6 +171,16 @@ def numbers(
         ],
         "confidence": short(100 * CONFIDENCE),
         "largest": short(100 * LARGEST),
+        "fewest": FEWEST,
+        "widest": short(max(others, default=0.0), 1),
+        "fitted": len(exponents),
+        "steepest": short(EXPONENT_RANGE[1]),
+        "ends": sum(map(math.isnan, exponents)),
+        "decays": [short(end) for end in EXPONENTS],
+        "at_end": sum(
+            math.isnan(row["aftershock_exponent"]) and row["aftershock_main_shocks"] > 0
+            for row in usual
+        ),
     }
 
 
@@ -169,10 +196,9 @@ def numbers_of(row: dict) -> dict:
         cells[4:9] = [
             short(row["size_least"]),
             with_error(row["size_exponent"], row["size_error"]),
-            *(
-                short(row[f"size_{key}"], 2)
-                for key in ("goodness", "cutoff_exponent", "cutoff_goodness")
-            ),
+            short(row["size_goodness"], 2),
+            exponent_in_words(row["size_cutoff_exponent"], 2),
+            short(row["size_cutoff_goodness"], 2),
         ]
     if not math.isnan(row["aftershock_main_shocks"]):
         cells[9] = with_error(row["aftershock_first"], row["aftershock_first_error"])

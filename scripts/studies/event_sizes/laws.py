@@ -5,8 +5,9 @@ Newman 2009). Aftershocks: the likelihood of a rate that decays as Omori and Uts
 has the names of columns of the table.
 """
 
+import math
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import powerlaw
@@ -19,6 +20,9 @@ from scripts.studies.event_sizes.names_of_laws import CUT_OFF, RIVALS
 
 FEWEST = 100
 """Events that a fit needs."""
+ANY_EXPONENT = {"alpha": (0.0, None)}
+"""Exponents of power laws. By default `powerlaw` has none above 3, and no least size from which on
+the exponent is larger."""
 SAMPLES = 999
 """Random samples of the power law from which the goodness of fit is found."""
 SEED = 1
@@ -30,7 +34,7 @@ LOGS = 30.0 * np.linspace(0.0, 1.0, 2001) ** 2
 """ln(size/least) at which the law with a cut-off is integrated, dense near the least size."""
 LOG_RATES = (-16.0, 4.0)
 """Between these is the logarithm of least size over cut-off."""
-EXPONENT_RANGE = (0.0, 5.0)
+EXPONENT_RANGE = (0.0, 20.0)
 """Exponents of the law with a cut-off; at 0 it is an exponential law."""
 CUT_SAMPLES = 199
 """Samples of the law with a cut-off from which its goodness of fit is found."""
@@ -49,7 +53,7 @@ def fit_cut_off(sizes: np.ndarray, least: float) -> dict[str, float]:
     """The law with a cut-off, density size^-exponent exp(-size/cutoff) above a least size.
 
     By maximum likelihood. The interval of the cut-off is that of the profile likelihood, 0 or
-    infinite where this bounds it on one side only.
+    infinite where this bounds it on one side only, as is the cut-off at an end of `LOG_RATES`.
     """
     y = sizes[sizes >= least] / least
     exponent, best = most_likely(y)
@@ -67,12 +71,20 @@ def fit_cut_off(sizes: np.ndarray, least: float) -> dict[str, float]:
         least * np.exp(-brentq(beyond, best, end, xtol=1e-3)) if beyond(end) > 0 else without
         for end, without in zip(LOG_RATES[::-1], (0.0, np.inf), strict=True)
     )
+    (at_end,) = are_at_ends([exponent], [EXPONENT_RANGE])
+    ends = dict(zip(LOG_RATES, (math.inf, 0.0), strict=True))
     return {
-        "size_cutoff_exponent": exponent,
-        "size_cutoff": least * float(np.exp(-best)),
+        "size_cutoff_exponent": math.nan if at_end else exponent,
+        "size_at_end": "size_cutoff_exponent" if at_end else "",
+        "size_cutoff": ends.get(best, least * float(np.exp(-best))),
         "size_cutoff_low": float(low),
         "size_cutoff_high": float(high),
     }
+
+
+def are_at_ends(values: Sequence[float], ranges: Sequence[tuple[float, float]]) -> np.ndarray:
+    """Whether each value is at an end of its range: the data say no more than that."""
+    return np.isclose(np.array(values)[:, np.newaxis], ranges, rtol=0.0, atol=1e-6).any(axis=1)
 
 
 def minus_log_likelihood(
@@ -136,16 +148,31 @@ def distance(y: np.ndarray, exponent: float, log_rate: float) -> float:
     return float(cdf.statistic)
 
 
-def fit_definition(sizes: np.ndarray) -> dict[str, float]:
+def fit_power_law(sizes: np.ndarray) -> tuple[powerlaw.Fit | None, dict[str, str]]:
+    """The power law above the least size from which on it is closest to the events.
+
+    `FEWEST` events or more stay above this size. If the search ends there, no least size is found,
+    and a column says so.
+    """
+    if sizes.size < FEWEST:
+        return None, {}
+    searched = sizes.min(), np.sort(sizes)[-FEWEST]
+    with warnings.catch_warnings(action="ignore"):  # a search in sizes that are nearly all equal
+        fit = powerlaw.Fit(sizes, xmin=searched, parameter_ranges=ANY_EXPONENT, verbose=0)
+    if fit.noise_flag:
+        return None, {}
+    at_end = fit.xmin == fit.xmin_fitting_results["xmins"][-1]
+    return (None, {"size_at_end": "size_least"}) if at_end else (fit, {})
+
+
+def fit_definition(sizes: np.ndarray) -> dict[str, float | str]:
     """The least size, the events above it and the law with a cut-off; nothing of too few events."""
-    searched = sizes[:: max(1, sizes.size // MOST_SEARCHED)]
-    if searched.size < FEWEST:
-        return {}
-    with warnings.catch_warnings(action="ignore"):  # sizes at the bounds of the search
-        least = float(powerlaw.Fit(searched, verbose=0).xmin)
-    above = int(np.count_nonzero(sizes >= least))
-    found = {"size_least": least, "size_events": above}
-    return found | fit_cut_off(sizes, least) if above >= FEWEST else {}
+    fit, found = fit_power_law(sizes[:: max(1, sizes.size // MOST_SEARCHED)])
+    if fit is None:
+        return found
+    least = float(fit.xmin)
+    found = {"size_least": least, "size_events": int(np.count_nonzero(sizes >= least))}
+    return found | fit_cut_off(sizes, least)
 
 
 def shuffle_slips(slips: np.ndarray, per_event: np.ndarray) -> np.ndarray:
@@ -154,19 +181,17 @@ def shuffle_slips(slips: np.ndarray, per_event: np.ndarray) -> np.ndarray:
     return np.add.reduceat(drawn, np.concatenate(([0], np.cumsum(per_event)[:-1])))
 
 
-def fit_sizes(sizes: np.ndarray) -> dict[str, float]:
+def fit_sizes(sizes: np.ndarray) -> dict[str, float | str]:
     """The power law of the sizes, shape (events), density size^-exponent, and its rivals.
 
-    Nothing of fewer events than `FEWEST` above the least size. Goodness of a law is the share of
-    its samples that are farther from it than the data, by Kolmogorov and Smirnov's distance.
+    Goodness of a law is the share of its samples that are farther from it than the data, by
+    Kolmogorov and Smirnov's distance.
     """
-    if sizes.size < FEWEST:
-        return {}
-    with warnings.catch_warnings(action="ignore"):  # sizes at the bounds of the search
-        fit = powerlaw.Fit(sizes, verbose=0)
-        least, above = float(fit.xmin), sizes[sizes >= fit.xmin]
-        if above.size < FEWEST:
-            return {}
+    fit, found = fit_power_law(sizes)
+    if fit is None:
+        return found
+    least, above = float(fit.xmin), sizes[sizes >= fit.xmin]
+    with warnings.catch_warnings(action="ignore"):  # values of rivals at their bounds
         ratios = compare(fit, "power_law", RIVALS) | compare(fit, CUT_OFF, RIVALS[:-1])
         test = stats.goodness_of_fit(
             stats.pareto,
@@ -218,10 +243,12 @@ def times_after_main_shocks(events: list[dict]) -> tuple[int, np.ndarray]:
     return np.count_nonzero(main), after[(after > 0) & (after < WINDOW)]
 
 
-def fit_aftershocks(events: list[dict], time: float) -> dict[str, float]:
+def fit_aftershocks(events: list[dict], time: float) -> dict[str, float | str]:
     """The rate of events after main shocks, background + productivity (1 + t/delay)^-exponent.
 
     In a run of some time; nothing of too few events. Times t count from the end of the main shock.
+    Values at an end of what is tried are missing, and `at_end` names them; delay and exponent go
+    together.
     `chance` is the probability that a constant rate is as much less likely by chance,
     `over_exponential` the logarithm of the likelihood over that of an exponential decay.
     """
@@ -231,12 +258,15 @@ def fit_aftershocks(events: list[dict], time: float) -> dict[str, float]:
     rate, soon = len(events) / time, np.count_nonzero(after < FIRST)
     expected = rate * FIRST * shocks
     constant = after.size * (np.log(after.size / (shocks * WINDOW)) - 1)
-    best, values = fit_decay(shocks, after, power_decay)
-    exponential, _ = fit_decay(shocks, after, exponential_decay)
+    best, values, at_ends = fit_decay(shocks, after, power_decay)
+    exponential, *_ = fit_decay(shocks, after, exponential_decay)
+    names = ("background", "productivity", "delay", "exponent")
+    missing = at_ends | np.array([False, False, *[at_ends[2:].any()] * 2])
     found = {
         **{"main_shocks": shocks, "rate": rate, "first": soon / expected},
         "first_error": float(np.sqrt(max(soon, 1)) / expected),
-        **dict(zip(("background", "productivity", "delay", "exponent"), values, strict=True)),
+        **dict(zip(names, np.where(missing, math.nan, values).tolist(), strict=True)),
+        "at_end": " ".join(name for name, is_there in zip(names, at_ends, strict=True) if is_there),
         "chance": float(stats.chi2.sf(2 * max(best - constant, 0.0), 3)),
         "over_exponential": best - exponential,
     }
@@ -254,12 +284,16 @@ def exponential_decay(t: np.ndarray, delay: float, _: float) -> tuple[np.ndarray
     return np.exp(-t / delay), -delay * np.expm1(-WINDOW / delay)
 
 
-def fit_decay(shocks: int, after: np.ndarray, decay: Callable) -> tuple[float, list[float]]:
+def fit_decay(
+    shocks: int, after: np.ndarray, decay: Callable
+) -> tuple[float, np.ndarray, np.ndarray]:
     """The largest logarithm of the likelihood of a decay with a background.
 
-    Also background, productivity, delay and exponent there.
+    Also background, productivity, delay and exponent there, and which are at an end of their range.
     """
     constant = after.size / (shocks * WINDOW)
+    bounds = np.log(np.array([(1e-3, 10.0), (1e-6, 1e3)]) * constant).tolist()
+    bounds += np.log([(1e-2, WINDOW), EXPONENTS]).tolist()
 
     def minus_log_likelihood(values: np.ndarray) -> float:
         background, productivity, delay, exponent = np.exp(values)
@@ -272,11 +306,10 @@ def fit_decay(shocks: int, after: np.ndarray, decay: Callable) -> tuple[float, l
             minus_log_likelihood,
             np.log([constant, excess * constant, delay, 1.0]),
             method="L-BFGS-B",
-            bounds=np.log(np.array([(1e-3, 10.0), (1e-6, 1e3)]) * constant).tolist()
-            + np.log([(1e-2, WINDOW), EXPONENTS]).tolist(),
+            bounds=bounds,
         )
         for excess in (0.01, 1.0)
         for delay in (0.1, 1.0, 10.0)
     ]
     best = min(fits, key=lambda fit: fit.fun)
-    return -float(best.fun), np.exp(best.x).tolist()
+    return -float(best.fun), np.exp(best.x), are_at_ends(best.x, bounds)

@@ -18,6 +18,18 @@ def definition_of(row: dict) -> str:
     return f"v > {row['threshold']:g}, {slips}"
 
 
+def decades_of(row: dict) -> float:
+    """Decades from the lower cut-off to the upper one or to the largest event, if it is smaller."""
+    return math.log10(max(1.0, min(row["size_cutoff"], row["largest"]) / row["size_least"]))
+
+
+def exponent_in_words(exponent: float, digits: int) -> str:
+    """An exponent; it is missing where it is no estimate."""
+    if math.isnan(exponent):
+        return "not estimated (at an end of a range)"
+    return f"{exponent:.{digits}g}"
+
+
 def cut_off_in_words(row: dict) -> str:
     """The cut-off with the ends of its interval."""
     if math.isnan(row["size_cutoff"]):

@@ -22,14 +22,16 @@ from scripts.studies.event_sizes.names_of_laws import RIVALS, is_usual
 OF_LAWS = [
     *("size_exponent", "size_error", "size_least", "size_events", "size_goodness"),
     *("size_cutoff_goodness", "size_cutoff_exponent", "size_cutoff", "size_cutoff_low"),
-    *("size_cutoff_high", "shuffled_cutoff"),
+    *("size_cutoff_high", "size_at_end", "shuffled_cutoff"),
     *(f"{law}_{key}" for law in RIVALS for key in ("ratio", "chance")),
     *(f"cutoff_over_{law}_{key}" for law in RIVALS[:-1] for key in ("ratio", "chance")),
     *("aftershock_main_shocks", "aftershock_rate", "aftershock_first", "aftershock_first_error"),
     *("aftershock_background", "aftershock_productivity", "aftershock_delay"),
-    *("aftershock_exponent", "aftershock_chance", "aftershock_over_exponential"),
+    *("aftershock_exponent", "aftershock_at_end", "aftershock_chance"),
+    "aftershock_over_exponential",
 ]
-"""Columns that are missing where there are too few events."""
+"""Columns that are missing where there are too few events. A value at an end of the range that was
+tried is no estimate: it is missing, and `size_at_end` or `aftershock_at_end` names it."""
 
 
 def rows_of_chain(

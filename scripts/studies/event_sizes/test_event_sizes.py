@@ -16,6 +16,7 @@ from scripts.studies.event_sizes.laws import (
     fit_aftershocks,
     fit_cut_off,
     fit_definition,
+    fit_power_law,
     fit_sizes,
     goodness_of_cut_off,
     shuffle_slips,
@@ -95,6 +96,11 @@ def test_power_law_is_found():
     assert law["exponential_ratio"] > 0 > law["truncated_power_law_ratio"] - 1e-9
 
 
+def test_steep_power_law_is_found():
+    fit, _ = fit_power_law(pareto(4.5, 1000))
+    assert fit.alpha == pytest.approx(4.5, abs=3 * fit.sigma)
+
+
 def thinned(number: int, cut_off: float, seed: int = 1, thinning: int = 2) -> np.ndarray:
     """Sizes with the exponent 1.5, thinned by exp(-size/cut_off)."""
     sizes = pareto(1.5, number, seed)
@@ -127,6 +133,17 @@ def test_law_without_cut_off_has_no_upper_end():
     assert fit_cut_off(pareto(2.5, 500), 1.0)["size_cutoff_high"] == np.inf
 
 
+def test_exponent_at_the_end_of_its_range_is_no_estimate():
+    """Of equally likely sizes; a search that ends with the fewest events finds no least size."""
+    law = fit_cut_off(np.linspace(1.0, 2.0, 500), 1.0)
+    assert np.isnan(law["size_cutoff_exponent"])
+    assert law["size_at_end"] == "size_cutoff_exponent"
+    assert fit_cut_off(thinned(4000, 50.0), 1.0)["size_at_end"] == ""
+    tail = 2 * (1 - np.arange(FEWEST + 2) / (FEWEST + 2)) ** -0.5
+    sizes = np.concatenate((np.linspace(1.0, 1.5, 500), tail))
+    assert fit_sizes(sizes) == fit_definition(sizes) == {"size_at_end": "size_least"}
+
+
 def test_shuffled_slips_keep_their_number():
     """Of three slips, one event has two and one has one."""
     sizes = shuffle_slips(np.array([1.0, 10.0, 100.0]), np.array([2, 1]))
@@ -138,16 +155,19 @@ def test_few_events_have_no_law():
     few = np.arange(1.0, FEWEST)
     events = [{"onset": one, "duration": one, "size": one} for one in few]
     assert fit_sizes(few) == fit_definition(few) == fit_aftershocks(events, 1.0) == {}
+    assert fit_sizes(np.ones(2 * FEWEST)) == {}
 
 
-def made_up_shocks(decays: bool) -> tuple[list[dict], float]:
-    """Events of which one in 20 is large; if it decays, 20 follow each of those as 1/(t + 1)."""
+def made_up_shocks(decay: str = "") -> tuple[list[dict], float]:
+    """Events of which one in 20 is large; 20 follow each of those, by a power or exponentially."""
     random = np.random.default_rng(3)
     time = 24000.0
     main = np.arange(100.0, time - 100.0, 200.0)
-    onset = [random.uniform(0.0, time, main.size * (5 if decays else 25)), main]
-    if decays:
+    onset = [random.uniform(0.0, time, main.size * (5 if decay else 25)), main]
+    if decay == "power":
         onset += [shock + (51 ** random.random(20) - 1) for shock in main]
+    if decay == "exponential":
+        onset += [shock + random.exponential(1.0, 20) for shock in main]
     onset = np.concatenate(onset)
     sizes = np.where(np.isin(onset, main), 100.0, 1.0) * (1 + random.random(onset.size))
     events = sorted(zip(onset, sizes, strict=True))
@@ -155,13 +175,18 @@ def made_up_shocks(decays: bool) -> tuple[list[dict], float]:
 
 
 def test_decay_after_large_events_is_found():
-    """Exponent 1 and delay 1 of the events drawn, and no decay of events at a constant rate."""
-    law = fit_aftershocks(*made_up_shocks(decays=True))
+    """Exponent 1 of the events drawn, an end of the range for an exponential decay, and no decay of
+    events at a constant rate."""
+    law = fit_aftershocks(*made_up_shocks("power"))
     assert law["aftershock_exponent"] == pytest.approx(1.0, abs=0.3)
+    assert law["aftershock_at_end"] == ""
     assert law["aftershock_chance"] < 1e-6
     assert law["aftershock_first"] > 3
     assert law["aftershock_over_exponential"] > 3
-    law = fit_aftershocks(*made_up_shocks(decays=False))
+    law = fit_aftershocks(*made_up_shocks("exponential"))
+    assert law["aftershock_at_end"] == "exponent"
+    assert np.isnan([law["aftershock_exponent"], law["aftershock_delay"]]).all()
+    law = fit_aftershocks(*made_up_shocks())
     assert law["aftershock_chance"] > 0.01
     error = law["aftershock_first_error"]
     assert law["aftershock_first"] == pytest.approx(1.0, abs=4 * error)
@@ -178,7 +203,7 @@ ROW = {
     **{"cutoff_over_lognormal_ratio": -0.1, "cutoff_over_lognormal_chance": 0.9},
     **{"truncated_power_law_chance": 1.0, "aftershock_main_shocks": 50},
     **{"aftershock_first": 3.0, "aftershock_first_error": 0.1, "aftershock_chance": 1e-6},
-    "aftershock_over_exponential": 8.0,
+    **{"aftershock_over_exponential": 8.0, "aftershock_exponent": 1.0},
 }
 CUT_OFF = {"truncated_power_law_ratio": -5.0, "truncated_power_law_chance": 1e-7}
 IN_PART = [CUT_OFF, {"size_goodness": 0.01}, {"lognormal_ratio": -5.0, "lognormal_chance": 1e-5}]
@@ -221,10 +246,11 @@ def test_verdict_on_sizes(change, verdict):
         ({"aftershock_chance": 0.5}, NO),
         ({"aftershock_first": 0.5}, NO),
         ({"aftershock_chance": np.nan}, NO),
+        ({"aftershock_exponent": np.nan}, NO),
     ],
 )
 def test_verdict_on_aftershocks(change, verdict):
-    """A decay by a power; one that may be exponential; none."""
+    """A decay by a power; one that may be exponential; none; one whose power is no estimate."""
     made = Results(event_sizes=[{**ROW, **change}])
     assert decaying_aftershocks(made, scenes=["mine"]).verdict == verdict
 
