@@ -56,7 +56,7 @@ LARGEST = 10**308
 """Largest number, and 1/LARGEST is the least."""
 TRIALS, DIGITS = 5, 40
 """Values of the parameters at which a steady state is tested, and digits of these tests."""
-LONGEST_TEXT, LONGEST_UNIT = 500, 60
+LONGEST_TEXT, LONGEST_UNIT, LONGEST_EQUATION = 500, 60, 50_000
 """Letters of texts that stand in files of results."""
 
 
@@ -273,7 +273,9 @@ class _Reader:
             listed = ", ".join(values["equations"])
             self.refuse("equations", listed, f"one for each of {', '.join(model.states)}")
         for state in model.states:
-            model.texts[state] = self.line(f"equation of {state}", values["equations"][state])
+            model.texts[state] = self.line(
+                f"equation of {state}", values["equations"][state], LONGEST_EQUATION
+            )
             model.equations[state] = self.expression(f"equation of {state}", model.texts[state])
         self.read_rest(values)
         # a domain has windows of its own

@@ -26,6 +26,7 @@ def exponents_of(model: Model) -> list[str]:
     exponentials = {
         model.symbol(name): sympy.exp(model.symbol(w)) for name, w in model.auxiliary.items()
     }
+    variables = model.variables
     found: dict[sympy.Expr, str] = {}
     for equation in model.equations.values():
         # beyond the bounds of `within`, too
@@ -41,7 +42,7 @@ def exponents_of(model: Model) -> list[str]:
             elif one.is_Pow and not (one.exp.is_number and abs(one.exp) <= LARGEST_ALGEBRAIC):
                 exponent = one.exp * sympy.log(one.base)
                 names = {sympy.log(one.base): logarithm_of(one)}
-            if exponent.free_symbols & model.variables and not {exponent, -exponent} & {*found}:
+            if exponent.free_symbols & variables and not {exponent, -exponent} & {*found}:
                 found[exponent] = text_of(exponent, names)
     return list(found.values())
 
@@ -54,9 +55,8 @@ def logarithm_of(power: sympy.Pow) -> str:
     return f"max(log(max(abs({base}), tiny(1.0_wp))), {least})"
 
 
-def exponents_procedure(model: Model) -> Procedure:
+def exponents_procedure(model: Model, exponents: list[str]) -> Procedure:
     """The exponents in a state."""
-    exponents = exponents_of(model)
     first = f"{len(exponents)}*(block - 1) + " if Address(model).in_chain else ""
     lines = [f"exponents({first}{number}) = {text}" for number, text in enumerate(exponents, 1)]
     return of_all_blocks(model, "exponents", lines, [], guarded={})

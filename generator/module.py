@@ -9,7 +9,7 @@ import sympy
 
 from . import pointwise, rest
 from .address import couplings
-from .definition import TIME, Model
+from .definition import LONGEST_TEXT, TIME, Model
 from .exponents import exponents_of, exponents_procedure
 from .flow import Flow, Procedure, flow_of, rate_of_auxiliary, with_parameters
 from .fortran import FUNCTIONS, in_words, text_of, wrapped
@@ -17,6 +17,9 @@ from .series import series_procedure
 from .slow import Balance, balance_of
 from .tangents import tangent_series_procedure
 
+EQUATIONS, JACOBIAN, WHOLE = "equations", "jacobian", "whole"
+"""Extents of a module: the equations alone, with their Jacobian, and with series and what is at
+rest, which take most of the time of a compiler."""
 LONGEST = 70
 """Letters of a character constant on one line."""
 SUPPORT = Path(__file__).parent / "fortran"
@@ -31,20 +34,22 @@ TEMPLATES = jinja2.Environment(
 )
 
 
-def write_module(model: Model) -> str:
-    """The text of the module."""
-    balance = balance_of(model)
-    flow = flow_of(model)
+def write_module(model: Model, extent: str = WHOLE) -> str:
+    """The text of the module with all procedures, or those of an extent alone."""
+    whole = extent == WHOLE
+    balance = balance_of(model) if whole else None
+    exponents = exponents_of(model)
     plain = sympy.Tuple(*map(model.plain, model.equations.values()))
     parts = {
         "more": [name for name in ("atan2", "erf") if plain.has(FUNCTIONS[name])],
-        "made": procedures(model, balance),
-        "description": description_lines(model),
+        "made": procedures(model, exponents, balance, extent),
+        "description": description_lines(model, exponents, whole),
         "delayed": delayed_procedure(model),
-        "exponents": exponents_of(model),
-        "flow_texts": flow_texts(model, flow),
+        "exponents": exponents,
+        "flow_texts": flow_texts(model, flow_of(model)) if whole else {},
+        "rests": bool(whole and model.steady_state),
     }
-    if model.steady_state:
+    if parts["rests"]:
         parts["steady_state"] = rest.steady_state_procedure(model)
         parts["characteristic"] = rest.characteristic_procedure(model)
         parts["terms"] = rest.characteristic_terms(model)
@@ -55,15 +60,19 @@ def write_module(model: Model) -> str:
     return rendered("model.f90.jinja", model.written, model=model, balance=balance, **parts)
 
 
-def procedures(model: Model, balance: Balance | None) -> dict[str, Procedure]:
+def procedures(
+    model: Model, exponents: list[str], balance: Balance | None, extent: str
+) -> dict[str, Procedure]:
     """Those for the solver."""
     parts = {
         "rhs": pointwise.rhs_procedure(model),
-        "jacobian": pointwise.jacobian_procedure(model),
-        "series": series_procedure(model),
-        "tangent_series": tangent_series_procedure(model),
-        "exponents": exponents_procedure(model),
+        "exponents": exponents_procedure(model, exponents),
     }
+    if extent != EQUATIONS:
+        parts["jacobian"] = pointwise.jacobian_procedure(model)
+    if extent == WHOLE:
+        parts["series"] = series_procedure(model)
+        parts["tangent_series"] = tangent_series_procedure(model)
     if balance:
         parts["relaxation_rate"] = pointwise.relaxation_procedure(model, balance)
         parts["slow_series"] = series_procedure(model, balance)
@@ -88,17 +97,21 @@ def flow_texts(model: Model, flow: Flow) -> dict[str, str]:
     return texts
 
 
-def description_lines(model: Model) -> list[str]:
+def in_short(text: str) -> str:
+    """The text of an equation as results have it."""
+    return text if len(text) <= LONGEST_TEXT else f"{text[:LONGEST_TEXT]} ..."
+
+
+def description_lines(model: Model, exponents: list[str], whole: bool) -> list[str]:
     """Lines that describe the model, as expressions of Fortran; the interface first."""
-    equations = [f"{state}' = {text}" for state, text in model.texts.items()]
+    equations = [f"{state}' = {in_short(text)}" for state, text in model.texts.items()]
     equations += [f"{name} = {text}" for name, text in model.definitions.items()]
     equations += [f"{name} = exp({state})" for name, state in model.auxiliary.items()]
-    terms = rest.characteristic_terms(model) if model.steady_state else []
+    terms = rest.characteristic_terms(model) if whole and model.steady_state else []
     states = list(model.states)
     rest_at = model.near or model.steady_state or {}
     where = ", ".join(f"{state} = {value}" for state, value in rest_at.items())
     counted = (model.parameters, equations, model.states, model.delayed, terms)
-    exponents = exponents_of(model)
     delayed = sum(any(one.symbol.name in text for one in model.delayed) for text in exponents)
     lines = [
         ("sizes", *(str(len(each)) for each in counted), str(len(exponents)), str(delayed)),

@@ -197,11 +197,15 @@ contains
       type(code_type), intent(inout) :: code
 
       call c_f_procpointer(procedure_of(library, "rhs"), code%rhs)
-      call c_f_procpointer(procedure_of(library, "jacobian"), code%jacobian)
-      call c_f_procpointer(procedure_of(library, "series"), code%series)
-      call c_f_procpointer(procedure_of(library, "tangent_series"), code%tangent_series)
       call c_f_procpointer(procedure_of(library, "delayed"), code%delayed)
       call c_f_procpointer(procedure_of(library, "exponents"), code%exponents)
+      if (has(library, "jacobian")) then
+         call c_f_procpointer(procedure_of(library, "jacobian"), code%jacobian)
+      end if
+      if (has(library, "series")) then
+         call c_f_procpointer(procedure_of(library, "series"), code%series)
+         call c_f_procpointer(procedure_of(library, "tangent_series"), code%tangent_series)
+      end if
       if (has(library, "relaxation_rate")) then
          call c_f_procpointer(procedure_of(library, "relaxation_rate"), code%relaxation_rate)
          call c_f_procpointer(procedure_of(library, "slow_series"), code%slow_series)

@@ -5,7 +5,7 @@
 module model_problem
    use, intrinsic :: iso_c_binding, only: c_int
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use dde, only: problem_with_tangents
+   use dde, only: not_given, problem_with_tangents
    use dde_kinds, only: wp
    use model_border, only: describe_line, expand, expand_tangents, find_delayed, find_exponents, &
                            find_forms, find_jacobian, find_rate, find_rhs, find_state, &
@@ -140,8 +140,8 @@ contains
       integer :: block, k, states
 
       self%n = size(self%past)
-      self%analytic = .true.
-      self%analytic_tangents = .true.
+      self%analytic = associated(self%code%series)
+      self%analytic_tangents = self%analytic
       self%numbers = parameters
       call self%code%delayed(parameters, lag, component)
       kept = lag > 0.0_wp .or. self%keeps_delays
@@ -248,14 +248,19 @@ contains
                          t, y, z, dydt)
    end subroutine rhs
 
-   !> Their derivatives by states and delayed values.
+   !> Their derivatives by states and delayed values, if the object has them.
    pure subroutine jacobian(self, t, y, z, by_y, by_z)
       class(model_type), intent(in) :: self
       real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), contiguous, intent(out) :: by_y(:, :), by_z(:, :)
 
-      call self%code%jacobian(self%shape, self%numbers, self%place, self%left, self%right, &
-                              t, y, z, size(by_y, 1), size(by_z, 1), by_y, by_z)
+      if (associated(self%code%jacobian)) then
+         call self%code%jacobian(self%shape, self%numbers, self%place, self%left, self%right, &
+                                 t, y, z, size(by_y, 1), size(by_z, 1), by_y, by_z)
+      else
+         by_y = not_given
+         by_z = not_given
+      end if
    end subroutine jacobian
 
    !> Exponents of their exponential terms.
@@ -306,7 +311,7 @@ contains
       end if
    end function relaxation_rate
 
-   !> Better Taylor coefficients of the slow solution; not a number if there is none.
+   !> Better Taylor coefficients of the slow solution, where a state has a relaxation rate.
    pure subroutine slow_series(self, t, unit, degree, z, y)
       class(model_type), intent(in) :: self
       real(wp), intent(in) :: t, unit
@@ -314,14 +319,11 @@ contains
       real(wp), intent(in) :: z(0:degree, size(self%lag))
       real(wp), intent(inout) :: y(0:degree, self%n)
 
-      if (.not. associated(self%code%slow_series)) y = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (.not. associated(self%code%slow_series)) return
       call self%code%slow_series(self%shape, self%numbers, self%place, self%left, self%right, &
                                  t, unit, degree, z, y)
    end subroutine slow_series
 
-   !> Better Taylor coefficients of disturbances of the slow solution; not a number if there are
-   !> none.
+   !> Better Taylor coefficients of disturbances of the slow solution.
    pure subroutine slow_tangent_series(self, t, unit, degree, z, before, y, vectors, dz, dy)
       class(model_type), intent(in) :: self
       real(wp), intent(in) :: t, unit
@@ -332,8 +334,6 @@ contains
       real(wp), intent(in) :: dz(0:degree, size(self%lag), vectors)
       real(wp), intent(inout) :: dy(0:degree, self%n, vectors)
 
-      if (.not. associated(self%code%slow_tangent_series)) dy = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (.not. associated(self%code%slow_tangent_series)) return
       call self%code%slow_tangent_series(self%shape, self%numbers, self%place, self%left, &
                                          self%right, t, unit, degree, z, before, y, vectors, dz, dy)
    end subroutine slow_tangent_series

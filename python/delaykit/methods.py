@@ -43,13 +43,12 @@ def command(model, name: str, groups: Mapping, histories: Mapping | None = None)
     lists = {"settings": groups} | ({"histories": histories} if histories else {})
     with tempfile.TemporaryDirectory(prefix="delaykit") as folder:
         path = Path(folder, f"{name}.nml")
-        path.with_name(model.path.name).symlink_to(model.path)
+        path.with_name(f"{model.definition['name']}.so").symlink_to(model.path)
         f90nml.Namelist(lists).write(path)
         try:
             found = call(LIBRARY.dk_command, name.encode(), str(path).encode())
         except RunError as problem:
             text = str(problem).replace(f"{path}: ", "")
-            text = text.replace(model.path.stem, model.definition["name"])
             raise type(problem)(text, problem.partial) from None
     return dataset_of(found)
 
@@ -102,7 +101,7 @@ def model_group(own: Arguments, but=()) -> dict:
     model = own.model
     known = dict(zip(model.definition["parameters"], own.numbers.tolist(), strict=True))
     known = {key: value for key, value in known.items() if key not in but}
-    group = {"name": model.path.stem, "own_units": True}
+    group = {"name": model.definition["name"], "own_units": True}
     if known:
         group |= {"parameters": list(known), "values": list(known.values())}
     if model.blocks > 1:
@@ -173,6 +172,7 @@ def exponents(
     t_turning: time before t_transient is over in which the vectors turn. interval: longest time
     between two orthonormalisations.
     """
+    model = model.reduced("jacobian")
     own = Arguments(model, parameters)
     histories = histories_group(own, history)
     times = {"t_transient": t_transient, "t_observed": None, "t_turning": t_turning}
@@ -222,6 +222,8 @@ def attractor(
     `steady_state` or a `section`. observation: keys of OBSERVATION.
     """
     model = model.resting(near)
+    if "steady_state" not in model.definition:
+        model = model.reduced("jacobian")
     own = Arguments(model, parameters)
     for key in observation:
         check_name("option", key, OBSERVATION)

@@ -4,7 +4,6 @@
 import copy
 import ctypes
 from collections.abc import Mapping
-from functools import cached_property
 from operator import ge, gt
 from pathlib import Path
 
@@ -21,6 +20,9 @@ OPTIONS = {
 }
 """Keys of a definition that may be given by name (generator/README.md explains them)."""
 MOST_DELAYED = 1 << 14
+LONG = 1000
+"""Letters of all equations from which an object has no more than a method needs: a compiler takes
+a second for the whole of them, and a tenth of it for the equations."""
 
 
 class Handle(ctypes.c_void_p):
@@ -67,6 +69,7 @@ class Model:
             raise ModelError(f"blocks: {blocks!r}; expected a whole number >= 1")
         check_name("ends", ends, ENDS)
         self.blocks, self.ends = blocks, ends
+        self.extent, self.handles = "whole", {}
         texts = {str(key): text_of(value) for key, value in equations.items()}
         self.definition = {
             "name": str(name),
@@ -109,18 +112,32 @@ class Model:
         """Names of the states, in the order of the state vector."""
         return tuple(self.definition["states"])
 
-    @cached_property
+    def reduced(self, extent: str) -> "Model":
+        """The model whose object has no more than this, if the equations are long."""
+        other = copy.copy(self)
+        if sum(map(len, self.definition["equations"].values())) > LONG:
+            other.extent = extent
+        return other
+
+    @property
     def path(self) -> Path:
         """The compiled object."""
-        return objects.compiled(self.definition)
+        return objects.compiled(self.definition, self.extent)
 
-    @cached_property
+    @property
     def handle(self) -> "Handle":
         """The handle of the compiled model in the library."""
-        return Handle(self.path)
+        if self.extent not in self.handles:
+            self.handles[self.extent] = Handle(self.path)
+        return self.handles[self.extent]
+
+    def __copy__(self):
+        other = object.__new__(type(self))
+        other.__dict__.update(self.__dict__)
+        return other
 
     def __getstate__(self):
-        return {k: v for k, v in self.__dict__.items() if k not in ("handle", "path")}
+        return {**self.__dict__, "handles": {}}
 
     def __repr__(self):
         lines = [f"{state}' = {text}" for state, text in self.definition["equations"].items()]
@@ -129,8 +146,7 @@ class Model:
 
     def with_parameters(self, **values) -> "Model":
         """The same model with other values of parameters."""
-        other = object.__new__(type(self))
-        other.__dict__.update(self.__dict__)
+        other = copy.copy(self)
         other.parameters = {**self.parameters, **self.checked(values)}
         return other
 
@@ -185,7 +201,7 @@ class Model:
             return self
         guess = {key: number_of(f"near {key}", value) for key, value in near.items()}
         other = copy.copy(self)
-        other.definition = {**self.definition, "steady_state": {"near": guess}}
+        other.definition, other.handles = {**self.definition, "steady_state": {"near": guess}}, {}
         return other
 
 

@@ -44,13 +44,14 @@ def generator_digest() -> bytes:
     return hashlib.sha256(b"".join(path.read_bytes() for path in files)).digest()
 
 
-def compiled(definition: dict) -> Path:
+def compiled(definition: dict, extent: str) -> Path:
     """The object of a definition, made now unless it is in the cache.
 
-    Two processes may make the same one: each writes its own file and gives it the name then.
+    extent: "equations" alone, with their "jacobian", or "whole". Two processes may make the same
+    one: each writes its own file and gives it the name then.
     """
     digest = hashlib.sha256(generator_digest())
-    for part in (compiler_version(COMPILER), json.dumps(definition)):
+    for part in (compiler_version(COMPILER), json.dumps(definition), extent):
         digest.update(part.encode() + b"\0")
     path = cache() / f"m{digest.hexdigest()[:24]}.so"
     if path.exists():
@@ -62,7 +63,7 @@ def compiled(definition: dict) -> Path:
     from delaykit.generator.module import write_module
 
     try:
-        text = write_module(read_model(definition))
+        text = write_module(read_model(definition), extent)
     except DefinitionError as problem:
         raise ModelError(str(problem)) from None
     try:

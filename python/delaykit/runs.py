@@ -13,7 +13,9 @@ from delaykit.events import Event
 from delaykit.history import Pieces
 from delaykit.library import LIBRARY, Results, address, call
 
-METHODS = ("auto", "explicit", "bs5", "dop853", "taylor", "radau5", "radau9", "radau13")
+EXTENTS = {"taylor": "whole", **dict.fromkeys(("radau5", "radau9", "radau13"), "jacobian")}
+"""What a method needs beside the equations."""
+METHODS = ("auto", "explicit", "bs5", "dop853", *EXTENTS)
 COUNTS = (
     *("status", "steps_accepted", "steps_rejected", "steps_implicit", "evaluations"),
     *("factorisations", "breaking_points"),
@@ -103,6 +105,8 @@ def integrate(
     All times in the model's unit. Raise ModelError before the run for arguments that cannot be,
     RunError with the solver's words where it stops.
     """
+    check_name("method", method, METHODS)
+    model = model.reduced(EXTENTS.get(method, "equations"))
     own = Arguments(model, parameters)
     t_end = own.number("t_end", t_end)
     rtol = own.tolerance("rtol", rtol)
@@ -110,7 +114,6 @@ def integrate(
     breaks = own.array("breaks", breaks)
     past = begin(own, history, own.number("t_start", t_start), initial, breaks, rtol, atol)
     request, kept = own.request(past, t_end)
-    check_name("method", method, METHODS)
     request.method = method.encode()
     request.rtol, request.atol = address(rtol), address(atol)
     request.first_step = own.number("first_step", first_step)

@@ -13,6 +13,7 @@ from tqdm import tqdm
 from delaykit.arguments import Arguments, begin
 from delaykit.errors import DelaykitError, ModelError, check_name
 from delaykit.library import LIBRARY
+from delaykit.runs import EXTENTS
 
 STACK = 1 << 28
 """Bytes of the stack of a thread: compiled models have their work arrays there."""
@@ -97,7 +98,8 @@ def scan(
         found = measure(here) if compute is None else compute(here, dict(options))
         return np.atleast_1d(np.asarray(found, float)).ravel()[:most]
 
-    model.handle  # noqa: B018  compiled once, before there are threads
+    # compiled once, before there are threads
+    model.reduced(EXTENTS.get(options.get("method"), "equations")).handle  # noqa: B018
     rows, reasons = in_threads(measured, places, workers, progress)
     width = max(map(len, rows), default=0)
     table = np.full((len(rows), max(width, 1)), np.nan)

@@ -144,3 +144,59 @@ def test_every_method_on_every_kind(kind, method):
         found = np.ravel(found)
         assert np.isfinite(found).all() or method == "scan"
         np.testing.assert_allclose(found[: len(known)], known, rtol=2e-3, atol=1e-5)
+
+
+def test_exponents_need_a_motion_and_time():
+    model, history = model_of("decay")
+    with pytest.raises(dk.RunError, match=r"t_end = 50.0; expected a finite number > 100.0"):
+        model.exponents(history, t_end=50)
+    with pytest.raises(dk.RunError, match=r"the history is a state at rest, .*; expected another"):
+        model_of("two rests")[0].exponents({"y": 0})
+    # the motion itself falls to 0 of the computer
+    np.testing.assert_allclose(model.exponents(history, 2, t_end=5000).value, W, rtol=1e-3)
+
+
+def test_delays_from_0_to_1e4():
+    """Known before a delay is over; short delays are as good as none."""
+    model = dk.Model({"y": "-y + tanh(y(t - tau))"}, {"tau": 0})
+
+    def end(tau):
+        return model.integrate(2, 0.9, parameters={"tau": tau}, t_eval=[0.9]).y
+
+    known = 2 * math.exp(-0.9) + math.tanh(2) * (1 - math.exp(-0.9))
+    np.testing.assert_allclose([end(1), end(1e4)], known, rtol=1e-8)
+    np.testing.assert_allclose(end(1e-9), end(0), rtol=1e-8)
+
+
+def test_robertson_with_a_delay_is_unstable():
+    """docs/verification.md: the slow solution is left from t = 6.04 on, if steps resolve it."""
+    model = dk.Model(
+        {
+            "a": "-0.04*a + 1e4*b(t - tau)*c",
+            "b": "0.04*a - 1e4*b(t - tau)*c - 3e7*b**2",
+            "c": "3e7*b**2",
+        },
+        {"tau": 1e-2},
+    )
+    options = {"method": "dop853", "rtol": 1e-9, "atol": 1e-15}
+    with pytest.raises(dk.RunError, match=r"stopped at t = 7\.9.*a singularity\?"):
+        model.integrate({"a": 1, "b": 0, "c": 0}, 100, **options)
+
+
+def test_a_network_compiles_what_a_method_needs(tmp_path, monkeypatch):
+    """Twelve oscillators, each coupled to all: the object of a run has no series."""
+    monkeypatch.setenv("DELAYKIT_CACHE", str(tmp_path))
+    others = [[j for j in range(12) if j != i] for i in range(12)]
+    equations = {
+        f"x{i}": "1 + k*(" + " + ".join(f"sin(x{j}(t - tau{i}) - x{i})" for j in others[i]) + ")"
+        for i in range(12)
+    }
+    numbers = {"k": 0.1, **{f"tau{i}": 1 + i / 100 for i in range(12)}}
+    model = dk.Model(equations, numbers)
+    history = {f"x{i}": i / 10 for i in range(12)}
+    ends = [
+        model.integrate(history, 5, t_eval=[5], method=method).y for method in ("auto", "radau9")
+    ]
+    np.testing.assert_allclose(*ends, rtol=1e-7)
+    assert abs(model.exponents(history, 2, t_transient=20, t_end=60).value).min() < 1e-3
+    assert len([*tmp_path.glob("*.so")]) == 2

@@ -3,7 +3,7 @@
 !> order 1.
 module natural_units
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use dde, only: integration_options
+   use dde, only: find_jacobian, integration_options
    use dde_kinds, only: wp
    use model_problem, only: model_type
    use tangent_problem, only: allocate_slopes
@@ -68,7 +68,7 @@ contains
 
       band = merge(min(model%lower, model%upper), model%n, model%lower >= 0)
       call allocate_slopes(model, by_y, by_z)
-      call model%jacobian(t, y, y(model%component), by_y, by_z)
+      call find_jacobian(model, t, y, y(model%component), by_y, by_z)
       rate = 0.0_wp
       do j = 1, model%n
          do i = max(1, j - band), min(model%n, j + band)

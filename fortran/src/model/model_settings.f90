@@ -13,7 +13,7 @@ module model_settings
    public :: model_settings_type
 
    !> Most parameters of a model.
-   integer, parameter :: most_parameters = 64
+   integer, parameter :: most_parameters = 1024
 
    !> A model with its parameters.
    type :: model_settings_type

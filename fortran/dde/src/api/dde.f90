@@ -9,14 +9,14 @@ module dde
    use dde_kinds, only: wp
    use dde_outcome, only: event_met, integration_result, interrupted, out_of_memory, reached_end, &
                           refused, step_underflow, stop_requested, too_many_steps, value_not_finite
-   use dde_problem, only: dde_problem_type, problem_with_tangents
+   use dde_problem, only: dde_problem_type, not_given, problem_with_tangents
    use dde_request, only: integration_options, methods
    use dde_sampler, only: sampler_type, table_sampler
    use dde_time, only: elapsed, instant
    implicit none (type, external)
    private
    public :: error_type, wp
-   public :: dde_problem_type, find_jacobian, problem_with_tangents
+   public :: dde_problem_type, find_jacobian, not_given, problem_with_tangents
    public :: elapsed, instant
    public :: continuation_type
    public :: event_table, event_watcher_type
