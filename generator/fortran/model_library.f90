@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Compiled models, opened by name: shared objects NAME.so in a folder. The folders are those of the
 !> environment variable `MODELS`, with colons between them, or else the folder `models` beside that
-!> of the program (`models_quad` of a program in quadruple precision); before them that of a namelist.
+!> of the program (`models_quad` of a program in quadruple precision). A namelist's comes first.
 module model_library
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_procpointer, c_funptr, &
                                           c_null_char, c_ptr, c_size_t

@@ -129,7 +129,7 @@ contains
       rows = file%dimension("left_out", size(left_out), prefix="left_out_")
       call file%words(rows, "origin", left_out%origin, "where it starts, or special point")
       call file%column(rows, along, left_out%at, "parameter along the line")
-      call file%words(rows, "reason", left_out%reason, "why no branch was followed, or no point found")
+      call file%words(rows, "reason", left_out%reason, "why no branch or point")
       call put_points(file, settings%line%model, found)
       rows = file%dimension("hopf", size(hopf), prefix="hopf_")
       call put_places(file, rows, settings%line%model, [(hopf(i)%numbers, i=1, size(hopf))])

@@ -139,8 +139,8 @@ contains
                  attractor%class, attractor%reason)
    end subroutine judge
 
-   !> Whether the signal has not changed in the second half of the observation: the model has come to
-   !> another state of rest than that of its definition.
+   !> Whether the signal has not changed in the second half of the observation: the model has come
+   !> to another state of rest than that of its definition.
    pure logical function is_at_rest(motion) result(value)
       type(observed_motion_type), intent(in) :: motion
 

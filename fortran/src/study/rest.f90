@@ -19,9 +19,9 @@ module rest
    real(wp), parameter :: small = 1.0e-3_wp, near = 0.2_wp, shrunk = 0.8_wp
    !> Samples of a motion that may come to rest: of all blocks, and at least of each.
    integer, parameter :: samples_of_rest = 10000, least_samples = 500
-   !> Parts of the time in which a motion becomes slower or faster; the least logarithm of the change,
-   !> and the least slope in units of its standard error; changes within so many tolerances are
-   !> noise.
+   !> Parts of the time in which a motion becomes slower or faster; the least logarithm of the
+   !> change, and the least slope in units of its standard error; changes within so many tolerances
+   !> are noise.
    integer, parameter :: parts = 10
    real(wp), parameter :: least_change = 0.05_wp, clear = 10.0_wp, above_noise = 100.0_wp
    enum, bind(c)
@@ -54,8 +54,8 @@ contains
       if (model%sizes%driven) return
       call model%rhs(0.0_wp, model%past, model%past(model%component), slope)
       if (all(abs(slope)*options%unit_of_time <= rounding*abs(model%past))) then
-         call raise(error, "exponents: the history is a state at rest, of which they are the real " &
-                    //"parts of roots; expected another history")
+         call raise(error, "exponents: the history is a state at rest, of which they are the " &
+                    //"real parts of roots; expected another history")
          return
       end if
       last = max(least_samples, samples_of_rest/model%shape%blocks)

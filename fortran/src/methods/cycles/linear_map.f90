@@ -148,8 +148,8 @@ contains
                          matmul(basis(:, :k), aimag(small_vectors(:, :count))), kind=wp)
          return
       end do
-      call raise(error, "multipliers: "//text(wanted)//" of a map of "//text(n)//" numbers do not " &
-                 //"converge in "//text(most)//" steps; a shorter delay or period expected")
+      call raise(error, "multipliers: "//text(wanted)//" of a map of "//text(n)//" numbers do " &
+                 //"not converge in "//text(most)//" steps; a shorter delay or period expected")
    end subroutine leading_eigenvalues
 
    !> Make an image orthogonal to the basis, twice where that leaves little of it, and append it.
