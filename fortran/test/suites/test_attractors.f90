@@ -147,13 +147,13 @@ contains
       if (allocated(error)) return
       measured%length = spread(10.0_wp, 1, intervals)
       allocate (measured%growth(3, intervals), source=0.0_wp)
-      call judge(settings, measured, .true., found, failure)
+      call judge(settings, measured, .true., .true., found, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
       call expect(error, found%roughness >= 0.0_wp .and. found%line_share >= 0.0_wp &
                   .and. found%bases(1) > 0.0_wp, "section and spectrum at first")
       measured%growth = spread([1.0_wp, -1.0_wp, -2.0_wp], 2, intervals)
-      call judge(settings, measured, .true., found, failure)
+      call judge(settings, measured, .true., .true., found, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
       call expect(error, found%class == chaos .and. found%by_section == undecided &

@@ -119,7 +119,7 @@ contains
          if (problem%exponentials > 0 .and. accepted(error_estimate)) then
             call exponents%judge(run%context, run%step, error_estimate)
          end if
-         if (outcome%accepted == 0 .and. run%context%past%newest < run%context%past%oldest) then
+         if (outcome%accepted == 0 .and. .not. accepted(error_estimate)) then
             call run%step%refuse_series(run%context, error)
             if (allocated(error)) then
                outcome%reason = refused
