@@ -107,5 +107,3 @@ def test_exponents_of_equations_with_time():
     np.testing.assert_allclose(found.value, -0.3181315052047642, rtol=2e-3)
     with pytest.raises(dk.RunError, match="the model has t in its equations; expected one without"):
         driven.attractor(1)
-    with pytest.raises(dk.RunError, match="no state at rest is known; expected steady_state"):
-        dk.Model({"y": "-y(t - 1)"}).attractor(1)

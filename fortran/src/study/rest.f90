@@ -77,26 +77,25 @@ contains
       real(wp), intent(in) :: values(:, :)
       !> Their tolerances
       type(integration_options), intent(in) :: options
-      real(wp) :: change(parts), fastest(parts), line(parts), slope, x(parts)
+      real(wp) :: change(parts), fastest(parts), line(parts), noise, slope, x(parts)
       integer :: first, i, part
 
-      fastest = 0.0_wp
+      fastest = -huge(1.0_wp)
       do i = 1, size(values, 1)
+         noise = options%relative*maxval(abs(values(i, :)))
+         if (.not. allocated(options%each_absolute)) noise = noise + options%absolute
          do part = 1, parts
             first = 1 + (part - 1)*(size(values, 2) - 1)/parts
             associate (here => values(i, first:1 + part*(size(values, 2) - 1)/parts))
-               change(part) = maxval(abs(here(2:) - here(:size(here) - 1)))
+               change(part) = log(max(tiny(1.0_wp), maxval(abs(here(2:) - here(:size(here) - 1)))))
             end associate
          end do
-         associate (noise => above_noise*(options%absolute + options%relative &
-                                          *maxval(abs(values(i, :)))))
-            if (change(parts) > noise) fastest = max(fastest, change/maxval(change))
-         end associate
+         if (change(parts) <= log(max(tiny(1.0_wp), above_noise*noise))) cycle
+         fastest = max(fastest, change - maxval(change))
       end do
-      trend = merge(slower, steady, all(fastest <= 0.0_wp))
-      if (any(fastest <= 0.0_wp)) return
+      trend = merge(slower, steady, all(fastest <= -huge(1.0_wp)))
+      if (trend == slower) return
       x = [(part - 0.5_wp*(parts + 1), part=1, parts)]
-      fastest = log(fastest)
       slope = dot_product(x, fastest)/dot_product(x, x)
       line = sum(fastest)/parts + slope*x
       if ((parts - 1)*abs(slope) > least_change .and. &
