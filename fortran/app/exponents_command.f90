@@ -39,7 +39,7 @@ contains
                              growth_settings_type(settings%count, scene%t_transient, &
                                                   settings%t_end, settings%t_turning, &
                                                   settings%interval, settings%batches, &
-                                                  across_flow=neutral), &
+                                                  across_flow=neutral .and. settings%count > 1), &
                              options(i), measured(i), error, progress=report)
          if (allocated(error)) return
       end do

@@ -16,6 +16,7 @@ from delaykit.history import Pieces, fit
 from delaykit.library import LIBRARY, Request, address
 
 HUGE = sys.float_info.max
+DOSES = "pairs (time, {state: change})"
 ENDS = ("free", "ring", "plate")
 """What is beyond the ends of a chain, in the order of the library."""
 
@@ -31,6 +32,19 @@ def number_of(what: str, value) -> float:
     if not math.isfinite(number):
         raise ModelError(f"{what}: {number!r}; expected a finite number")
     return number
+
+
+def window_of(values, *names: str) -> list[float]:
+    """Ends of the window of each parameter in a row; raise ModelError for anything else."""
+    pairs = [values] if len(names) == 1 else values
+    try:
+        ends = [[number_of("window", end) for end in pair] for pair in pairs]
+    except TypeError:
+        ends = []
+    if [len(pair) for pair in ends] != [2] * len(names):
+        expected = ", ".join(f"(least, most) of {name}" for name in names)
+        raise ModelError(f"window: {values!r}; expected {expected}")
+    return [end for pair in ends for end in pair]
 
 
 class Arguments:
@@ -107,7 +121,15 @@ class Arguments:
     def doses(self, doses, start: float, end: float) -> list[np.ndarray]:
         """Changes of the state: each a time and n numbers, in order of time."""
         found = []
-        for time, change in doses:
+        pairs = list(doses.items()) if isinstance(doses, Mapping) else doses
+        if not isinstance(pairs, list | tuple):
+            raise ModelError(f"doses: {doses!r}; expected {DOSES}")
+        for one in pairs:
+            if not (
+                isinstance(one, list | tuple) and len(one) == 2 and isinstance(one[1], Mapping)
+            ):
+                raise ModelError(f"doses: {one!r}; expected {DOSES}")
+            time, change = one
             time = number_of("time of a dose", time)
             if not start <= time <= end:
                 raise ModelError(f"time of a dose: {time}; expected {start} <= t <= {end}")

@@ -13,7 +13,7 @@ import f90nml
 import numpy as np
 import xarray as xr
 
-from delaykit.arguments import Arguments
+from delaykit.arguments import Arguments, window_of
 from delaykit.errors import ModelError, RunError, check_name
 from delaykit.library import LIBRARY, Results, call
 from delaykit.version import __version__
@@ -221,7 +221,7 @@ def attractor(
     spectrum do not contradict each other. near: a guess of the state at rest, unless there is a
     `steady_state` or a `section`. observation: keys of OBSERVATION.
     """
-    model = model.resting(near)
+    model = model.resting(near, needed=False)
     if "steady_state" not in model.definition:
         model = model.reduced("jacobian")
     own = Arguments(model, parameters)
@@ -264,11 +264,14 @@ def hopf(model, along, window, *, parameters=None, near=None, cells=40) -> xr.Da
     model = model.resting(near)
     for key in along:
         check_name("parameter", key, model.definition["parameters"])
-    corner = {key: limits[0] for key, limits in zip(along, window, strict=True)}
+    if len(along) != 2:
+        raise ModelError(f"along: {along!r}; expected two names of parameters")
+    window = window_of(window, *along)
+    corner = dict(zip(along, window[::2], strict=True))
     own = Arguments(model, {**(parameters or {}), **corner})
     groups = {
         "hopf_curves": {
-            **{"along": list(along), "windows": list(np.ravel(window)), "cells": cells},
+            **{"along": list(along), "windows": window, "cells": cells},
             "model": model_group(own, but=along),
         }
     }
@@ -305,12 +308,13 @@ def cycle(
         near = mean_of(model, start)
     model = model.resting(near)
     check_name("parameter", along, model.definition["parameters"])
+    window = window_of(window, along)
     own = Arguments(model, parameters)
     here = dict(zip(model.definition["parameters"], own.numbers.tolist(), strict=True))[along]
     histories = histories_group(own, dict.fromkeys(own.states, 0.0) if start is None else start)
     times = {"t_transient": t_transient, "longest_period": longest_period}
     group = {
-        **{"along": along, "window": list(window), "model": model_group(own, but=[along])},
+        **{"along": along, "window": window, "model": model_group(own, but=[along])},
         **{"degree": degree, "intervals": intervals, "most_orbits": most_orbits},
         **in_units(own, histories, times),
     }

@@ -193,12 +193,20 @@ class Model:
 
     def run(self, *arguments, **options):
         """A run as an xarray.Dataset; the arguments are those of `integrate`."""
+        if options.get("dense_output"):
+            raise ModelError(
+                "dense_output: True; expected with integrate, whose result is a function"
+            )
         return self.integrate(*arguments, **options).to_dataset()
 
-    def resting(self, near: Mapping | None) -> "Model":
+    def resting(self, near: Mapping | None, *, needed=True) -> "Model":
         """The model with a state at rest, looked for near a guess unless it has one."""
         if near is None:
+            if needed and "steady_state" not in self.definition:
+                raise ModelError("near: None; expected a guess, or a model with steady_state")
             return self
+        if not isinstance(near, Mapping):
+            raise ModelError(f"near: {near!r}; expected {{state: guess}}")
         guess = {key: number_of(f"near {key}", value) for key, value in near.items()}
         other = copy.copy(self)
         other.definition, other.handles = {**self.definition, "steady_state": {"near": guess}}, {}

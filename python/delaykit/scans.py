@@ -5,6 +5,7 @@ import os
 import threading
 from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from inspect import signature
 
 import numpy as np
 import xarray as xr
@@ -13,7 +14,7 @@ from tqdm import tqdm
 from delaykit.arguments import Arguments, begin
 from delaykit.errors import DelaykitError, ModelError, check_name
 from delaykit.library import LIBRARY
-from delaykit.runs import EXTENTS
+from delaykit.runs import EXTENTS, integrate
 
 STACK = 1 << 28
 """Bytes of the stack of a thread: compiled models have their work arrays there."""
@@ -78,6 +79,9 @@ def scan(
         for key in list(options)
         if key in model.definition["parameters"]
     }
+    known = {*signature(integrate).parameters, "state", "t_transient"} - {"model"}
+    for key in options:
+        check_name("option", key, [*model.definition["parameters"], *known])
     if not arrays:
         raise ModelError("scan: no parameter varies; expected arrays of parameters by name")
     if callable(measure):
@@ -128,6 +132,8 @@ def axis(key: str, values) -> xr.DataArray:
     else:
         numbers = np.asarray(values)
         array = xr.DataArray(numbers, dims=(key,) if numbers.ndim == 1 else None)
+    if not array.size:
+        raise ModelError(f"parameter {key}: no values; expected one at least")
     if array.dtype.kind not in "iuf" or (not isinstance(values, xr.DataArray) and array.ndim > 1):
         raise ModelError(f"parameter {key}: {values!r}; expected a number or a row of numbers")
     if list(array.dims) == [key]:
@@ -152,8 +158,8 @@ def in_threads(compute: Callable, places: list, workers: int | None, progress: b
                     bar.update()
                     try:
                         rows[number] = done.result()
-                    except DelaykitError as problem:
-                        reasons[number] = str(problem)
+                    except (DelaykitError, ArithmeticError, LookupError, ValueError) as problem:
+                        reasons[number] = str(problem) or type(problem).__name__
     except BaseException:
         LIBRARY.dk_stop(1)
         pool.shutdown(wait=True, cancel_futures=True)

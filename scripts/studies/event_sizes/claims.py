@@ -7,6 +7,7 @@ from typing import Annotated
 from scripts.claims.claims_results import Finding, Results, decided, join, rows_about, short
 from scripts.claims.declare import Scenes, claim, number, reads, says, tested_with
 from scripts.studies.event_sizes.names_of_laws import (
+    PLAUSIBLE,
     RIVALS,
     cut_off_in_words,
     decades_of,
@@ -17,8 +18,6 @@ from scripts.studies.event_sizes.names_of_laws import (
 
 LEVEL = 0.01
 """A law is more likely than another one if chance alone has less than this probability."""
-PLAUSIBLE = 0.1
-"""A law is plausible if at least this share of its samples is farther from it than the data."""
 MUCH_MORE_LIKELY = 3.0
 """A law is preferred to one that is not nested in it if its log-likelihood is larger by this."""
 

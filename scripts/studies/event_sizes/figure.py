@@ -21,6 +21,7 @@ from scripts.studies.event_sizes.laws import (
     times_after_main_shocks,
 )
 from scripts.studies.event_sizes.names_of_laws import (
+    PLAUSIBLE,
     cut_off_in_words,
     decades_of,
     definition_of,
@@ -159,6 +160,7 @@ def numbers(
     fitted = [row for row in laws if row["chain"] in names and not math.isnan(row["size_cutoff"])]
     exponents = [row["size_cutoff_exponent"] for row in fitted]
     others = [decades_of(row) for row in fitted if not is_usual(row)]
+    spans = [decades_of(row) for row in fitted if is_usual(row)]
     return {
         "chains": [numbers_of(row) for row in usual],
         "cells": [
@@ -172,6 +174,9 @@ def numbers(
         "confidence": short(100 * CONFIDENCE),
         "largest": short(100 * LARGEST),
         "fewest": FEWEST,
+        "usual": definition_of(usual[0]),
+        "spanned": short(max(spans, default=0.0), 2),
+        "plausible": sum(row["size_cutoff_goodness"] >= PLAUSIBLE for row in usual),
         "widest": short(max(others, default=0.0), 1),
         "fitted": len(exponents),
         "steepest": short(EXPONENT_RANGE[1]),

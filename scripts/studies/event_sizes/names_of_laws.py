@@ -5,6 +5,8 @@ import math
 CUT_OFF = "truncated_power_law"
 RIVALS = ("exponential", "lognormal", CUT_OFF)
 """Laws that a power law is compared with: the last is one with an exponential cut-off."""
+PLAUSIBLE = 0.1
+"""A law is plausible if at least this share of its samples is farther from it than the data."""
 
 
 def is_usual(row: dict) -> bool:

@@ -70,7 +70,7 @@ contains
 
       kinks = others
       if (.not. allocated(options%break_at)) return
-      kinks = [others, spread(kink_type(), 1, size(options%break_at))]
+      kinks = [others, spread(kink_type(at=instant(0.0_wp)), 1, size(options%break_at))]
       associate (given => size(others) + 1)
          kinks(given:)%at%hi = options%break_at
          kinks(given:)%passages = merge(-1, 0, options%break_at < origin%hi)
