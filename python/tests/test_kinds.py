@@ -102,7 +102,7 @@ KNOWN = {
     ("another rest", "attractor"): [1, R],
     ("no rest", "exponents"): [0],
     ("no rest", "attractor"): [2, 0],
-    ("no rest", "roots"): "no state at rest",
+    ("no rest", "roots"): "near: None; expected a guess",
     ("damped, no delay", "exponents"): [-0.05, -0.05],
     ("damped, no delay", "attractor"): [1, -0.05],
     ("damped, no delay", "roots"): [-0.05, -0.05],
