@@ -100,6 +100,26 @@ def test_exponents_of_stick_slip():
     np.testing.assert_allclose(auto, radau, rtol=1e-5, atol=1e-7)
 
 
+def test_attractor_of_pulses():
+    """Two velocities are delayed: a pulse of 1e9 arrives, and v grows by e^12 in a slow step."""
+    block = {
+        "theta": "-v(t - tau)*(theta + (1 + epsilon)*log(v(t - tau)))",
+        "u": "expm1(w)",
+        "w": "-gamma**2/v*(u + (theta + log(v))/xi)",
+    }
+    numbers = {"tau": 41 / 3, "epsilon": 1.25, "xi": 0.5, "gamma": 1e8}
+    rest = dict.fromkeys(block, 0)
+    model = dk.Model(block, numbers, auxiliary={"v": "exp(w)"}, fast="w", steady_state=rest)
+    times = {"t_transient": 2000, "t_observed": 800, "t_turning": 500, "interval": 20}
+    auto, radau = (
+        model.attractor({"theta": 0, "u": 0, "v": 1.5}, method=method, **times)
+        for method in ("auto", "radau9")
+    )
+    assert auto["class"].item() == radau["class"].item() == "cycle"
+    values = [found.lyapunov_exponent[:2] for found in (auto, radau)]
+    np.testing.assert_allclose(*values, rtol=1e-3, atol=1e-9)
+
+
 def test_exponents_of_equations_with_time():
     """No disturbance along the flow stays: the exponents are Re W(-1) (DLMF 4.13), twice."""
     driven = dk.Model({"y": "-y(t - 1) + sin(t)"})

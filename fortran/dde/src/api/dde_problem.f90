@@ -34,6 +34,10 @@ module dde_problem
       !> First and last equation that contains each delayed value, shape (2, size(lag)); all
       !> equations unless they are given. A banded Jacobian needs them.
       integer, allocatable :: rows(:, :)
+      !> Number of components, from the first, whose series are compared with f and at each past
+      !> step. Others follow them, as small disturbances do: a transient of no account in their past
+      !> is then passed over
+      integer :: compared = huge(0)
       !> Number of exponential terms of f whose `exponents` the extension gives
       integer :: exponentials = 0
       !> Whether exponents depend on delayed values

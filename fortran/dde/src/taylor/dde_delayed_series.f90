@@ -210,21 +210,26 @@ contains
             if (cursor%before_origin(k) .or. cursor%step(k) == past%newest) cycle
             step = cursor%step(k)
             agreed = past%length_of(step) - cursor%offset(k)
-            ! at the end of each past step: a pulse may be over at the end of this one
             do while (h > agreed)
-               if (step < past%newest) step = step + 1
-               call cursor%read_from(past, k, step)
                time = h
-               if (step < past%newest) time = min(h, past%length_of(step) - cursor%offset(k))
-               do
-                  actual = past%value(step, k, cursor%offset(k) + time)
-                  difference = abs(series_value(ubound(z, 1), z(:, k), time/unit) - actual) &
-                               /(agreement*tolerance%of_component(component(k), actual))
-                  if (difference <= 1.0_wp .or. time <= agreed) exit
+               if (component(k) > context%problem%compared) then
+                  call cursor%walk_to(past, k, h)
+               else
+                  ! at the end of each past step: a pulse may be over at the end of this one
+                  call cursor%read_from(past, k, min(step + 1, past%newest))
+                  if (cursor%step(k) < past%newest) then
+                     time = min(h, past%length_of(cursor%step(k)) - cursor%offset(k))
+                  end if
+               end if
+               actual = past%value(cursor%step(k), k, cursor%offset(k) + time)
+               difference = abs(series_value(ubound(z, 1), z(:, k), time/unit) - actual) &
+                            /(agreement*tolerance%of_component(component(k), actual))
+               if (difference <= 1.0_wp) then
+                  agreed = time
+                  step = cursor%step(k)
+               else
                   h = max(agreed, 0.9_wp*time/difference**(1.0_wp/ubound(z, 1)))
-                  time = h
-               end do
-               agreed = time
+               end if
             end do
          end do
          do k = 1, size(z, 2)
@@ -288,9 +293,7 @@ contains
          ahead = length - cursor%offset(k)
          if (ahead >= cursor%h) return
          if (ahead > most) then
-            ! backwards no farther than it is long
-            if (ahead < min(cursor%offset(k), past%length_of(first + 1)) &
-                .and. past%validity_of(first) > length) then
+            if (ahead < cursor%offset(k) .and. past%validity_of(first) > length) then
                call cursor%read_from(past, k, first + 1)
             end if
             return

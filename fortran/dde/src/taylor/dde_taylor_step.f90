@@ -9,6 +9,7 @@ module dde_taylor_step
    use dde_orders, only: taylor_degree
    use dde_problem, only: dde_problem_type
    use dde_series_check, only: measure_residual, refuse_wrong
+   use dde_slow_series, only: least_balance
    use dde_step, only: step_type
    use dde_step_context, only: step_context
    use dde_taylor_series, only: taylor_series
@@ -24,11 +25,6 @@ module dde_taylor_step
    real(wp), parameter :: growth = 1000.0_wp
    !> A step of this share of the length to a breaking point ends there.
    real(wp), parameter :: nearly = 1.0_wp - 1.0e-8_wp
-   !> A slow series is left if its residual is so many times the largest allowed, else shortened.
-   real(wp), parameter :: most_misfit = 5.0_wp
-   !> The residual is measured at this share of a step: at its end a delayed value may be that after
-   !> a kink, as where a fast component was put out of balance for a time of no account.
-   real(wp), parameter :: inside = 0.99_wp
    !> Cost of a series over that of a right-hand side, divided by its degree (measured in
    !> instructions and time on a spring-block model).
    real(wp), parameter :: cost_of_degree = 0.75_wp
@@ -45,8 +41,6 @@ module dde_taylor_step
       integer, private :: suspect = 0
       !> Whether the series is that from the start of the step, which an earlier attempt found
       logical, private :: found = .false.
-      !> Residual of the last attempt over the largest allowed
-      real(wp), private :: misfit = 0.0_wp
       !> Time along the series of the present state; negative if its slope was evaluated instead
       real(wp), private :: place = -1.0_wp
    contains
@@ -112,7 +106,10 @@ contains
          ! rejected: the series is not valid as far as its coefficients say
          self%series%reach = min(self%series%reach, h)
          self%valid_for = h
-         if (.not. self%series%slow%holds .or. self%misfit <= most_misfit) return
+         if (.not. self%series%slow%holds) return
+         ! a slow series is left where it has no advantage any more
+         if (h*context%problem%relaxation_rate(context%cursor%inside(context%cursor%t), self%y) &
+             >= least_balance) return
          call self%series%slow%give_up()
       end if
       held = self%series%slow%holds
@@ -153,7 +150,7 @@ contains
    end subroutine next_length
 
    !> Attempt a step. Its length was chosen from the last coefficients, which say nothing of what
-   !> they do not hold: `error` is the residual near the end, or not a number if the series is not
+   !> they do not hold: `error` is the residual at the end, or not a number if the series is not
    !> finite.
    pure subroutine attempt(self, context, error)
       class(taylor_step_type), intent(inout) :: self
@@ -167,12 +164,10 @@ contains
       if (.not. self%series%reach > 0.0_wp) return
       ! beyond this, terms that vanish in a very short step would become large
       self%valid_for = min(self%valid_for, growth*self%h)
-      call self%series%state(inside*self%h, self%y_new)
-      call measure_residual(context, self%series, inside*self%h, self%h, self%scale, self%y_new, &
-                            self%z, self%slope, worst, error)
-      self%misfit = error
       call self%series%state(self%h, self%y_new)
-      if (.not. all(ieee_is_finite(self%y_new))) error = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (.not. all(ieee_is_finite(self%y_new))) return
+      call measure_residual(context, self%series, self%h, self%h, self%scale, self%y_new, self%z, &
+                            self%slope, worst, error)
    end subroutine attempt
 
    !> The series of component `i`.

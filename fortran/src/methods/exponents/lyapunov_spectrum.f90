@@ -21,8 +21,8 @@ module lyapunov_spectrum
    !> A part smaller than this number of tolerances of the vector it is taken from is noise.
    real(wp), parameter :: noise = 10.0_wp
    !> How often an interval in which a vector is lost to noise is halved before what is left of the
-   !> vector gives a bound. Without bounds it is halved until it takes one step.
-   integer, parameter :: most_halvings = 10
+   !> vector gives a bound. Without bounds it is halved until it takes one step, or so often.
+   integer, parameter :: most_halvings = 10, most_without_bounds = 40
 
    !> What growth is measured over.
    type :: growth_settings_type
@@ -305,8 +305,9 @@ contains
          call orthonormalise(tangent, vector_size, settings%across_flow, &
                              measured%continuation, norm, share, options)
          if (present(observer)) call observer%keep_interval()
-      else if (outcome%accepted <= 1 .and. .not. settings%bounds) then
-         ! lost within a step
+      else if (.not. settings%bounds .and. (outcome%accepted <= 1 .or. &
+                                            halvings <= most_halvings - most_without_bounds)) then
+         ! lost within a step, or a jump
          call raise(error, "exponents: at t = "//text(time)//" a share of "//text(share) &
                     //" is left of a tangent vector without those before it; expected > " &
                     //text(lost)//" (ask for fewer exponents or a smaller " &
