@@ -37,7 +37,7 @@ module dde_problem
       !> Number of components, from the first, whose series are compared with f and at each past
       !> step. Others follow them, as small disturbances do: a transient of no account in their past
       !> is then passed over
-      integer :: compared = huge(0)
+      integer :: checked_components = huge(0)
       !> Number of exponential terms of f whose `exponents` the extension gives
       integer :: exponentials = 0
       !> Whether exponents depend on delayed values

@@ -212,7 +212,7 @@ contains
             agreed = past%length_of(step) - cursor%offset(k)
             do while (h > agreed)
                time = h
-               if (component(k) > context%problem%compared) then
+               if (component(k) > context%problem%checked_components) then
                   call cursor%walk_to(past, k, h)
                else
                   ! at the end of each past step: a pulse may be over at the end of this one

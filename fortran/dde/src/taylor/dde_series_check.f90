@@ -58,7 +58,7 @@ contains
       do
          error = 0.0_wp
          worst = 1
-         do i = 1, min(size(y), context%problem%compared)
+         do i = 1, min(size(y), context%problem%checked_components)
             residual = abs(series%slope_of(i, time) - slope(i))
             if (.not. ieee_is_finite(residual)) then
                error = ieee_value(1.0_wp, ieee_quiet_nan)

@@ -9,7 +9,6 @@ module dde_taylor_step
    use dde_orders, only: taylor_degree
    use dde_problem, only: dde_problem_type
    use dde_series_check, only: measure_residual, refuse_wrong
-   use dde_slow_series, only: least_balance
    use dde_step, only: step_type
    use dde_step_context, only: step_context
    use dde_taylor_series, only: taylor_series
@@ -25,6 +24,9 @@ module dde_taylor_step
    real(wp), parameter :: growth = 1000.0_wp
    !> A step of this share of the length to a breaking point ends there.
    real(wp), parameter :: nearly = 1.0_wp - 1.0e-8_wp
+   !> A slow series is left if its residual falls by a smaller power of the length of the step: then
+   !> it is not that of terms that the series leaves out.
+   integer, parameter :: least_power = 4
    !> Cost of a series over that of a right-hand side, divided by its degree (measured in
    !> instructions and time on a spring-block model).
    real(wp), parameter :: cost_of_degree = 0.75_wp
@@ -41,6 +43,8 @@ module dde_taylor_step
       integer, private :: suspect = 0
       !> Whether the series is that from the start of the step, which an earlier attempt found
       logical, private :: found = .false.
+      !> Residuals of the last two attempts with it over the largest allowed (0: none), their lengths
+      real(wp), private :: residual(2) = 0.0_wp, length(2) = 1.0_wp
       !> Time along the series of the present state; negative if its slope was evaluated instead
       real(wp), private :: place = -1.0_wp
    contains
@@ -107,9 +111,10 @@ contains
          self%series%reach = min(self%series%reach, h)
          self%valid_for = h
          if (.not. self%series%slow%holds) return
-         ! a slow series is left where it has no advantage any more
-         if (h*context%problem%relaxation_rate(context%cursor%inside(context%cursor%t), self%y) &
-             >= least_balance) return
+         associate (error => self%residual, length => self%length)
+            if (.not. error(1) > 0.0_wp) return
+            if (error(2) <= error(1)*(length(2)/length(1))**least_power) return
+         end associate
          call self%series%slow%give_up()
       end if
       held = self%series%slow%holds
@@ -133,6 +138,7 @@ contains
          end do
          self%place = 0.0_wp
          self%found = .true.
+         self%residual = 0.0_wp
          self%valid_for = beyond*series%reach
          if (series%reach > 0.0_wp) h = possible
       end associate
@@ -168,6 +174,8 @@ contains
       if (.not. all(ieee_is_finite(self%y_new))) return
       call measure_residual(context, self%series, self%h, self%h, self%scale, self%y_new, self%z, &
                             self%slope, worst, error)
+      self%residual = [self%residual(2), error]
+      self%length = [self%length(2), self%h]
    end subroutine attempt
 
    !> The series of component `i`.

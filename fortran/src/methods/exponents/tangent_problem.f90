@@ -49,7 +49,7 @@ contains
       problem%vectors = vectors
       problem%n = base%n*(vectors + 1)
       problem%exponentials = base%exponentials
-      problem%compared = base%n
+      problem%checked_components = base%n
       problem%delayed_exponents = base%delayed_exponents
       select type (base)
       class is (problem_with_tangents)
