@@ -43,7 +43,7 @@ module dde_taylor_step
       integer, private :: suspect = 0
       !> Whether the series is that from the start of the step, which an earlier attempt found
       logical, private :: found = .false.
-      !> Residuals of the last two attempts with it over the largest allowed (0: none), their lengths
+      !> Residuals of the last two attempts with it over the largest allowed (0: none) and lengths
       real(wp), private :: residual(2) = 0.0_wp, length(2) = 1.0_wp
       !> Time along the series of the present state; negative if its slope was evaluated instead
       real(wp), private :: place = -1.0_wp
