@@ -40,6 +40,8 @@ module dde_outcome
       integer(int64) :: implicit_steps = 0
       !> Changes of method
       integer(int64) :: switches = 0
+      !> How often f changed its side of each switching function, shape (switches)
+      integer(int64), allocatable :: switched(:)
       !> Breaking points landed on
       integer :: breaking_points = 0
    end type integration_result

@@ -10,7 +10,8 @@
 !> Optional are - for implicit methods: `jacobian`, `lower` and `upper` of a banded one, and `rows`
 !> of delayed values, - for the method `taylor`: `series` and `past_series`, with `analytic` true, -
 !> for long Taylor steps where fast components are in balance: `relaxation_rate` and `slow_series`,
-!> - where f saturates: `exponents`, with their number in `exponentials`.
+!> - where f saturates: `exponents`, with their number in `exponentials`, - where f is not smooth:
+!> `switching` and `take_sides`, with the number of switching functions in `switches`.
 module dde_problem
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde_kinds, only: wp
@@ -42,6 +43,8 @@ module dde_problem
       integer :: exponentials = 0
       !> Whether exponents depend on delayed values
       logical :: delayed_exponents = .true.
+      !> Number of switching functions: f is smooth while none of them passes zero
+      integer :: switches = 0
       !> Whether the extension gives `series` and `past_series`
       logical :: analytic = .false.
    contains
@@ -55,6 +58,10 @@ module dde_problem
       procedure :: jacobian => no_jacobian
       !> Exponents of the exponential terms of f
       procedure :: exponents => no_exponents
+      !> Switching functions of f
+      procedure :: switching => no_switching
+      !> Go to other sides of the switching functions
+      procedure :: take_sides => no_sides
       !> Taylor series of the solution
       procedure :: series => no_series
       !> Taylor series of one component before the initial time
@@ -149,6 +156,27 @@ contains
 
       values = ieee_value(1.0_wp, ieee_quiet_nan)
    end subroutine no_exponents
+
+   !> Switching functions g of f, which is another smooth function on each side of g = 0: x of |x|.
+   !> f, its derivatives and series are those of the sides that `take_sides` was given last, also
+   !> beyond g = 0. None unless the extension gives them.
+   pure subroutine no_switching(self, t, y, z, values)
+      class(dde_problem_type), intent(in) :: self
+      real(wp), intent(in) :: t, y(self%n)
+      !> Delayed values, shape (size(lag))
+      real(wp), intent(in) :: z(size(self%lag))
+      !> The functions, shape (switches); one that is not finite is ignored
+      real(wp), intent(out) :: values(self%switches)
+
+      values = ieee_value(1.0_wp, ieee_quiet_nan)
+   end subroutine no_switching
+
+   !> Take other sides of the switching functions. Nothing to take unless the extension has some.
+   pure subroutine no_sides(self, above)
+      class(dde_problem_type), intent(inout) :: self
+      !> Whether f is that where each function is > 0, shape (switches)
+      logical, intent(in) :: above(:)
+   end subroutine no_sides
 
    !> Taylor series of the solution in powers of s = (t' - t)/unit: since dy/ds = unit f,
    !> coefficient k + 1 of y is unit/(k + 1) times coefficient k of f. Not a number unless the
