@@ -6,7 +6,7 @@ module dde_outcome
    implicit none (type, external)
    private
    public :: integration_result
-   public :: event_met, interrupted, out_of_memory, reached_end, refused, step_underflow
+   public :: event_met, interrupted, out_of_memory, reached_end, refused, slides, step_underflow
    public :: stop_requested, too_many_steps, value_not_finite
 
    !> Not 0: all runs of this process end before their next step, as `interrupted`.
@@ -15,13 +15,13 @@ module dde_outcome
    !> Why an integration ended.
    enum, bind(c)
       enumerator :: reached_end, event_met, refused, step_underflow, too_many_steps, &
-         value_not_finite, out_of_memory, interrupted
+         value_not_finite, out_of_memory, interrupted, slides
    end enum
 
    !> The result of an integration.
    type :: integration_result
       !> Why it ended: reached_end, event_met, step_underflow, too_many_steps, value_not_finite,
-      !> out_of_memory, interrupted or refused
+      !> out_of_memory, interrupted, slides or refused
       integer :: reason = refused
       !> Final time reached
       real(wp) :: t = 0.0_wp

@@ -2,7 +2,7 @@
 !> The error of a run that could not continue.
 module dde_diagnosis
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use dde_outcome, only: integration_result, interrupted, out_of_memory, step_underflow, &
+   use dde_outcome, only: integration_result, interrupted, out_of_memory, slides, step_underflow, &
                           too_many_steps
    use dde_request, only: integration_options
    use dde_run, only: run_type
@@ -35,6 +35,9 @@ contains
       case (interrupted)
          culprit = ""
          why = "interrupted"
+      case (slides)
+         culprit = "switching("//text(run%sides%slides)//")"
+         why = "f pushes the solution back from both sides of the zero of "
       case (out_of_memory)
          culprit = ""
          steps = run%context%past%newest - run%context%past%oldest + 1

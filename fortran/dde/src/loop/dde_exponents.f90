@@ -28,8 +28,8 @@ module dde_exponents
       logical :: begun = .false.
       !> Exponents at the places of the step, shape (exponentials, places)
       real(wp), allocatable, private :: a(:, :)
-      !> State in the middle and where a delayed value lies within the step; delayed values
-      real(wp), allocatable, private :: middle(:), before(:), z(:, :)
+      !> State in the middle, and delayed values
+      real(wp), allocatable, private :: middle(:), z(:, :)
    contains
       procedure :: judge, advance
    end type exponent_watch
@@ -51,7 +51,7 @@ contains
       associate (problem => context%problem)
          if (.not. allocated(self%a)) then
             allocate (self%a(problem%exponentials, 3), self%z(size(problem%lag), 1))
-            allocate (self%middle(problem%n), self%before(problem%n))
+            allocate (self%middle(problem%n))
          end if
          if (.not. self%begun) call find_exponents(self, context, step, 1, step%y)
          call step%state_at(places(2), self%middle)
@@ -73,17 +73,10 @@ contains
       integer, intent(in) :: j
       !> State there
       real(wp), contiguous, intent(in) :: y(:)
-      integer :: k
 
       associate (problem => context%problem, time => step%h*places(j))
          if (problem%delayed_exponents) then
-            call context%delayed_values([time], self%z)
-            do k = 1, size(problem%lag)
-               ! a delayed value within an implicit step
-               if (problem%lag(k) >= time) cycle
-               call step%state_at(places(j) - problem%lag(k)/step%h, self%before)
-               self%z(k, 1) = self%before(problem%component(k))
-            end do
+            call step%delayed_at(problem, context%past, context%cursor, time, self%z)
          end if
          call problem%exponents(context%cursor%inside(step%t + time), y, self%z(:, 1), self%a(:, j))
       end associate

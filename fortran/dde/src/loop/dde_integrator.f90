@@ -10,7 +10,8 @@ module dde_integrator
    use dde_exponents, only: exponent_watch
    use dde_methods, only: longest_step, matching_method, price_of_trial
    use dde_outcome, only: event_met, integration_result, interrupted, out_of_memory, reached_end, &
-                          refused, step_underflow, stop_requested, too_many_steps, value_not_finite
+                          refused, slides, step_underflow, stop_requested, too_many_steps, &
+                          value_not_finite
    use dde_output, only: deliver, is_read
    use dde_problem, only: dde_problem_type
    use dde_request, only: check, integration_options
@@ -50,12 +51,12 @@ contains
       type(continuation_type), intent(inout), optional :: continuation
       class(dde_problem_type), allocatable :: whole
       type(exponent_watch) :: exponents
-      type(run_type) :: run
+      type(run_type), target :: run
       type(switch_type) :: switch
       type(instant) :: step_end
       real(wp) :: error_estimate, h, left, longest, longest_of_all
       integer :: goal
-      logical :: automatic, ended, landing, last, other
+      logical :: automatic, ended, landing, last, other, passed
 
       if (.not. (allocated(problem%lag) .or. allocated(problem%component))) then
          ! gfortran 12 leaves out empty lists that a constructor is given
@@ -119,6 +120,9 @@ contains
          if (problem%exponentials > 0 .and. accepted(error_estimate)) then
             call exponents%judge(run%context, run%step, error_estimate)
          end if
+         if (accepted(error_estimate)) then
+            call run%sides%judge(run%context, run%step, error_estimate)
+         end if
          if (outcome%accepted == 0 .and. .not. accepted(error_estimate)) then
             call run%step%refuse_series(run%context, error)
             if (allocated(error)) then
@@ -136,6 +140,10 @@ contains
             outcome%accepted = outcome%accepted + 1
             if (run%step%constants%implicit) outcome%implicit_steps = outcome%implicit_steps + 1
             call deliver(run, step_end, ended, sampler, watcher)
+            passed = any(run%sides%passed)
+            if (passed) then
+               landing = landing .and. .not. elapsed(step_end, run%points%at(goal)) > 0.0_wp
+            end if
             if (ended) then
                call run%arrive(goal, .false., step_end)
                run%step%y = run%search%event%y
@@ -149,10 +157,15 @@ contains
                if (.not. present(continuation)) left = t_end - step_end%hi
                call switch%judge(problem, run%step, run%context%work, h, left, other)
             end if
-            call exponents%advance(.not. landing)
+            call exponents%advance(.not. (landing .or. passed))
             call run%step%advance()
             last = landing .and. run%points%is_end(goal)
             call run%arrive(goal, landing, step_end)
+            if (passed) call run%change_sides(options)
+            if (run%sides%slides > 0) then
+               outcome%reason = slides
+               exit
+            end if
             ! a step shortened to end at a point does not reduce the step size proposed before
             run%h = merge(max(run%h, h), h, landing)
             if (landing .and. .not. last) outcome%breaking_points = outcome%breaking_points + 1
@@ -170,6 +183,7 @@ contains
 
       outcome%t = run%now%hi
       outcome%y = run%step%y
+      outcome%switched = run%sides%changes
       if (present(continuation) .and. outcome%reason /= out_of_memory) then
          call run%keep(options, continuation)
       end if

@@ -14,6 +14,7 @@ module dde_run
    use dde_methods, only: choose_method, longest_step, matching_method
    use dde_problem, only: dde_problem_type
    use dde_request, only: causes, implicit_methods, integration_options
+   use dde_sides, only: sides_type
    use dde_step, only: step_type
    use dde_step_context, only: step_context
    use dde_time, only: elapsed, instant
@@ -47,6 +48,10 @@ module dde_run
       class(step_type), allocatable, private :: other
       !> The context of its steps: problem, past, tolerance and work
       type(step_context) :: context
+      !> The sides of switching functions on which f is, and the problem that takes them, if it has
+      !> some
+      type(sides_type) :: sides
+      class(dde_problem_type), allocatable, private :: sided
       !> Step control
       type(controller_type) :: control
       !> The search for events, begun if there is a watcher
@@ -69,7 +74,7 @@ module dde_run
       !> Time derivative of the state at the start of the run, as event functions see it, shape (n)
       real(wp), allocatable :: first_slope(:)
    contains
-      procedure :: begin, plan, change_to_other, keep, arrive
+      procedure :: begin, plan, change_to_other, change_sides, keep, arrive
       procedure, private :: start_anew, continue_run
    end type run_type
 
@@ -77,7 +82,7 @@ contains
 
    !> Begin, or continue an earlier run, unless memory is lacking.
    subroutine begin(self, problem, t_start, t_end, options, error, continuation)
-      class(run_type), intent(inout) :: self
+      class(run_type), intent(inout), target :: self
       !> The problem, which lives as long as the run
       class(dde_problem_type), intent(in), target :: problem
       real(wp), intent(in) :: t_start, t_end
@@ -98,6 +103,10 @@ contains
       self%lacking = find_lacking(reals)
       if (self%lacking > 0.0_wp) return
       self%context%problem => problem
+      if (problem%switches > 0) then
+         allocate (self%sided, source=problem)
+         self%context%problem => self%sided
+      end if
       self%points%remembers = present(continuation)
       self%context%tolerance = tolerance_type(problem%n, options%relative, options%absolute, &
                                               options%each_relative, options%each_absolute)
@@ -265,8 +274,11 @@ contains
          call self%context%go_to(self%now, &
                                  min(longest_step(problem, self%step, options%longest_step), &
                                      minval(problem%lag), self%points%time_to_next(self%now)))
+         call bound_times(self)
+         if (.not. allocated(self%sides%above)) then
+            call self%sides%begin(self%context, self%step%y, problem%switches)
+         end if
       end associate
-      call bound_times(self)
       call self%step%restart(self%context)
    end subroutine prepare_start
 
@@ -348,6 +360,18 @@ contains
       if (returned .and. self%h_of_other > hardly*h) self%h = self%h_of_other
       self%h_of_other = h
    end subroutine change_to_other
+
+   !> Where an accepted step ended at zeros of switching functions, go on on their other side.
+   subroutine change_sides(self, options)
+      class(run_type), intent(inout) :: self
+      type(integration_options), intent(in) :: options
+
+      self%step%y = self%sides%y
+      call self%context%go_to(self%now, min(self%step%h, minval(self%context%problem%lag)))
+      call self%sides%change(self%context, self%step%y)
+      call prepare_start(self, options)
+      call self%points%add(kink_type(self%now))
+   end subroutine change_sides
 
    !> Go to the end of an accepted step.
    pure subroutine arrive(self, goal, landing, step_end)

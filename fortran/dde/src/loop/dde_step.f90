@@ -4,7 +4,9 @@
 !> steps and stores the polynomials. METHODS.md tells how to write a method.
 module dde_step
    use dde_controller, only: controller_type, method_constants
+   use dde_cursor, only: cursor_type
    use dde_errors, only: error_type
+   use dde_history, only: history_type
    use dde_interpolant, only: highest_degree, newton_state
    use dde_problem, only: dde_problem_type
    use dde_step_context, only: step_context
@@ -40,7 +42,7 @@ module dde_step
       real(wp) :: valid_for = 0.0_wp
    contains
       procedure :: allocate_state, restart, renew, reset, propose, next_length
-      procedure :: refuse_series, slope_here, state_at, stiff
+      procedure :: refuse_series, slope_here, state_at, delayed_at, stiff
       procedure(attempt_step), deferred :: attempt
       procedure(give_polynomial), deferred :: interpolant
       procedure(go_to_end), deferred :: advance
@@ -167,6 +169,28 @@ contains
          end do
       end associate
    end subroutine state_at
+
+   !> Delayed values at a time of an accepted step, before `advance`: some may lie within the step.
+   pure subroutine delayed_at(self, problem, past, cursor, time, z)
+      class(step_type), intent(in) :: self
+      class(dde_problem_type), intent(in) :: problem
+      type(history_type), intent(in) :: past
+      !> The cursor, on the step
+      type(cursor_type), intent(inout) :: cursor
+      !> Time since the start of the step
+      real(wp), intent(in) :: time
+      !> Delayed values, shape (number of delayed values, 1)
+      real(wp), intent(inout) :: z(:, :)
+      real(wp) :: y(problem%n)
+      integer :: k
+
+      call cursor%values(problem, past, [time], z)
+      do k = 1, size(problem%lag)
+         if (problem%lag(k) >= time) cycle
+         call self%state_at((time - problem%lag(k))/self%h, y)
+         z(k, 1) = y(problem%component(k))
+      end do
+   end subroutine delayed_at
 
    !> Slope at the present state, from the left: `advance` sets the slope at the next start.
    pure function slope_here(self) result(slope)

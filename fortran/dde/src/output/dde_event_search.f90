@@ -30,6 +30,8 @@ module dde_event_search
       type(dense_state) :: event
       !> Whether the last event ended the run
       logical, private :: ended = .false.
+      !> Share of the step that is searched
+      real(wp), private :: reach = 1.0_wp
       !> Event functions there
       real(wp), allocatable, private :: g(:)
       !> Sign of each function at the last place: -1, 1, or 0 at zero
@@ -41,12 +43,13 @@ module dde_event_search
 
 contains
 
-   !> Signs of the functions at the initial time.
-   pure subroutine begin(self, watcher, t, y, slope)
+   !> Signs of the functions at the initial time, unless they are given.
+   pure subroutine begin(self, watcher, t, y, slope, side)
       class(event_search), intent(inout) :: self
       class(event_watcher_type), intent(in) :: watcher
       type(instant), intent(in) :: t
       real(wp), intent(in) :: y(:), slope(:)
+      integer, intent(in), optional :: side(:)
       integer :: i
 
       call self%here%begin(t, y, slope, watcher%reads(size(y)))
@@ -55,10 +58,11 @@ contains
       allocate (self%side(size(watcher%direction)), source=0)
       call watcher%values(t%hi, y, slope, self%g)
       self%side = sign_of(self%g, self%side)
+      if (present(side)) self%side = side
    end subroutine begin
 
-   !> Report the events of an accepted step to the watcher. On return the search is at
-   !> the end of the step, or at the event that ends the run.
+   !> Report the events of an accepted step, up to a share of it, to the watcher. On return the
+   !> search is there, or at the event that ends the run.
    subroutine search_step(self, watcher, step, start, step_end, share, ended)
       class(event_search), intent(inout) :: self
       class(event_watcher_type), intent(inout) :: watcher
@@ -67,7 +71,7 @@ contains
       !> End of the step; the event that ends the run, if one does
       type(instant), intent(inout) :: step_end
       !> Share of the step up to there, 0..1
-      real(wp), intent(out) :: share
+      real(wp), intent(inout) :: share
       logical, intent(out) :: ended
       integer, allocatable :: which(:)
       real(wp), allocatable :: grid(:, :), root(:)
@@ -75,7 +79,8 @@ contains
 
       call self%here%take_up(step, start, step_end)
       ended = .false.
-      share = 1.0_wp
+      self%reach = share
+      if (share < 1.0_wp) call self%here%go_to(share)
       call watcher%values(self%here%t%hi, self%here%y, self%here%slope, self%g)
       if (self%stays(watcher)) return
       call self%fill_grid(watcher, grid)
@@ -92,7 +97,7 @@ contains
          if (ended) step_end = self%event%t
          if (ended) return
       end if
-      call self%here%go_to(1.0_wp)
+      call self%here%go_to(share)
    end subroutine search_step
 
    !> Whether no function leaves its side in the step, by the functions at its end and by bounds.
@@ -119,7 +124,7 @@ contains
       last = max(size(self%here%nodes) + 1, ceiling(self%here%h/watcher%look_every))
       allocate (grid(0:last, size(self%g)))
       do k = 0, last
-         call self%here%go_to(k*1.0_wp/last)
+         call self%here%go_to(self%reach*k/last)
          call watcher%values(self%here%t%hi, self%here%y, self%here%slope, self%g)
          grid(k, :) = self%g
       end do
@@ -148,9 +153,9 @@ contains
          vertex(0) = vertex(1)
          vertex(1) = 0.0_wp
          if (k < last) vertex(1) = vertex_of(grid(k - 1:k + 1))
-         if (vertex(0) > 0.0_wp) call look((k - 1 + vertex(0))/last)
-         if (vertex(1) < 0.0_wp) call look((k + vertex(1))/last)
-         call look(k*1.0_wp/last, grid(k))
+         if (vertex(0) > 0.0_wp) call look(self%reach*(k - 1 + vertex(0))/last)
+         if (vertex(1) < 0.0_wp) call look(self%reach*(k + vertex(1))/last)
+         call look(self%reach*k/last, grid(k))
       end do
 
    contains

@@ -29,7 +29,7 @@ contains
       !> Receiver of events
       class(event_watcher_type), intent(in), optional :: watcher
 
-      value = size(run%context%past%kept) > 0 .or. present(watcher)
+      value = size(run%context%past%kept) > 0 .or. present(watcher) .or. size(run%sides%above) > 0
       if (.not. present(sampler)) return
       call limit_next(sampler, run%now%hi, h)
       value = value .or. sample_is_due(sampler, step_end)
@@ -47,7 +47,7 @@ contains
    subroutine deliver(run, step_end, ended, sampler, watcher)
       !> The run at the start of the step, which is accepted
       class(run_type), intent(inout) :: run
-      !> End of the step; the event that ends the run, if one does
+      !> End of the step; where f changes its side, or the event that ends the run, if one does
       type(instant), intent(inout) :: step_end
       !> Whether an event ends the run
       logical, intent(out) :: ended
@@ -59,8 +59,10 @@ contains
 
       ended = .false.
       share = 1.0_wp
-      if (present(watcher)) then
+      call run%sides%end_step(run%context, run%step, run%now, step_end, share)
+      if (present(watcher) .and. share > 0.0_wp) then
          call run%search%search_step(watcher, run%step, run%now, step_end, share, ended)
+         if (ended) run%sides%passed = .false.
       end if
       if (present(sampler)) then
          if (sample_is_due(sampler, step_end)) call sample(sampler, run%step, run%now, step_end)

@@ -1,0 +1,280 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The sides of the switching functions of f, which is smooth while none of them passes zero. A step
+!> is made with the sides of its start, ends where the first function passes zero on its dense
+!> output, and f goes to the other side there. Where f pushes the solution back from both sides, it
+!> would slide along the zero (Filippov 1988, "Differential Equations with Discontinuous Righthand
+!> Sides", sec. 4): it cannot go on by steps.
+module dde_sides
+   use dde_cursor, only: cursor_type
+   use dde_event_search, only: event_search
+   use dde_events, only: event_watcher_type
+   use dde_step, only: step_type
+   use dde_step_context, only: step_context
+   use dde_time, only: elapsed, instant
+   use dde_kinds, only: int64, wp
+   implicit none (type, external)
+   private
+   public :: sides_type
+
+   !> Share of a step over which rates of the functions are found, and where a run starts.
+   real(wp), parameter :: ahead = 1.0e-4_wp, ahead_of_start = 1.0e-10_wp
+   !> A passage as near to an end of the step, in units of the spacing of times, is there.
+   real(wp), parameter :: near = 16.0_wp
+   !> Places of a step at which the functions are looked at, powers of two. A sine of many periods
+   !> may look straight at even places, hardly ever at odd ones, too.
+   integer, parameter :: least_places = 8, most_places = 128
+   real(wp), parameter :: odd(5) = [0.118_wp, 0.382_wp, 0.55_wp, 0.764_wp, 0.854_wp]
+   !> Largest distance of functions from a line, over their largest value.
+   real(wp), parameter :: most_bend = 0.1_wp
+   !> Least rate at which a solution is pushed back, over that at which it came.
+   real(wp), parameter :: least_push = 1.0e-6_wp
+
+   !> The sides.
+   type :: sides_type
+      !> Whether f is that where each function is > 0, shape (switches)
+      logical, allocatable :: above(:)
+      !> How often each has changed, shape (switches)
+      integer(int64), allocatable :: changes(:)
+      !> Functions that pass zero at the end of the step, and the state there
+      logical, allocatable :: passed(:)
+      real(wp), allocatable :: y(:)
+      !> Number of the function along whose zero the solution slides; 0 if it does not
+      integer :: slides = 0
+      !> Changes at one time
+      integer, private :: idle = 0
+      !> Places at which the functions are looked at in the step
+      integer, private :: places = 2
+   contains
+      procedure :: begin, judge, end_step, change
+   end type sides_type
+
+   !> The functions over a step, and those that pass zero.
+   type, extends(event_watcher_type) :: passages_type
+      type(step_context), pointer :: context => null()
+      class(step_type), pointer :: step => null()
+      logical, allocatable :: above(:), passed(:)
+      !> Size up to which each function may be beyond zero by rounding, shape (switches)
+      real(wp), allocatable :: slack(:)
+   contains
+      procedure :: values, take
+   end type passages_type
+
+contains
+
+   !> The sides at the start of a run: on a zero that to which the solution goes.
+   subroutine begin(self, context, y, switches)
+      class(sides_type), intent(inout) :: self
+      !> The context, at the start
+      type(step_context), intent(inout) :: context
+      real(wp), intent(in) :: y(:)
+      !> Number of switching functions
+      integer, intent(in) :: switches
+      real(wp), dimension(switches) :: g, rate
+
+      allocate (self%above(switches), self%passed(switches), source=.false.)
+      allocate (self%changes(switches), source=0_int64)
+      if (switches == 0) return
+      call find_rates(context, y, ahead_of_start, g, rate)
+      self%above = g > 0.0_wp
+      call context%problem%take_sides(self%above)
+      call find_rates(context, y, ahead_of_start, g, rate)
+      self%above = self%above .or. .not. abs(g) > 0.0_wp .and. rate > 0.0_wp
+      call context%problem%take_sides(self%above)
+   end subroutine begin
+
+   !> Find how many places show where the functions pass zero: between these they are near lines.
+   !> Reject a step that takes too many.
+   subroutine judge(self, context, step, error)
+      class(sides_type), intent(inout) :: self
+      type(step_context), intent(in), target :: context
+      class(step_type), intent(in), target :: step
+      !> Error of the step in units of the tolerance
+      real(wp), intent(inout) :: error
+      real(wp) :: between(size(self%above), size(odd)), g(size(self%above), 0:most_places)
+      real(wp) :: y(size(step%y))
+      type(passages_type) :: passages
+      integer :: i, stride
+
+      if (size(self%above) == 0) return
+      passages = new_passages(self, context, step)
+      between = reshape([(functions_at(odd(i)), i=1, size(odd))], shape(between))
+      stride = most_places/least_places
+      g(:, ::stride) = reshape([(functions_at(real(i, wp)/least_places), i=0, least_places)], &
+                               [size(g, 1), least_places + 1])
+      do while (.not. straight(g(:, ::stride), between))
+         if (stride == 1) then
+            error = huge(1.0_wp)
+            return
+         end if
+         stride = stride/2
+         do i = stride, most_places, 2*stride
+            g(:, i) = functions_at(real(i, wp)/most_places)
+         end do
+      end do
+      self%places = most_places/stride
+
+   contains
+
+      !> The functions at a place of the step.
+      function functions_at(place) result(values)
+         real(wp), intent(in) :: place
+         real(wp) :: values(size(self%above))
+
+         call step%state_at(place, y)
+         call passages%values(step%t + place*step%h, y, y, values)
+      end function functions_at
+   end subroutine judge
+
+   !> Whether functions are near lines between even places: at every other place, and at odd ones.
+   pure logical function straight(g, between) result(value)
+      !> Functions at even places, shape (switches, 0:last), and at the odd ones
+      real(wp), intent(in) :: g(:, 0:), between(:, :)
+      real(wp) :: bend(size(g, 1)), largest(size(g, 1))
+      integer :: i, last
+
+      last = ubound(g, 2)
+      largest = most_bend*maxval(abs(g), dim=2)
+      value = .true.
+      do i = 1, last - 1, 2
+         bend = g(:, i) - 0.5_wp*(g(:, i - 1) + g(:, i + 1))
+         value = value .and. .not. any(abs(bend) > largest)
+      end do
+      do i = 1, size(odd)
+         associate (left => int(last*odd(i)), share => last*odd(i) - int(last*odd(i)))
+            bend = between(:, i) - (1.0_wp - share)*g(:, left) - share*g(:, left + 1)
+         end associate
+         value = value .and. .not. any(abs(bend) > largest)
+      end do
+   end function straight
+
+   !> Let an accepted step end where the first function passes zero.
+   subroutine end_step(self, context, step, start, step_end, share)
+      class(sides_type), intent(inout) :: self
+      type(step_context), intent(in), target :: context
+      class(step_type), intent(in), target :: step
+      type(instant), intent(in) :: start
+      !> End of the step
+      type(instant), intent(inout) :: step_end
+      !> Share of the step up to there
+      real(wp), intent(inout) :: share
+      type(passages_type) :: passages
+      type(event_search) :: search
+      type(instant) :: whole
+      real(wp) :: beside
+      logical :: ended
+
+      self%passed = .false.
+      if (size(self%above) == 0) return
+      passages = new_passages(self, context, step)
+      passages%look_every = step%h/self%places
+      allocate (passages%direction(size(self%above)), source=0)
+      allocate (passages%terminal(size(self%above)), source=.true.)
+      call search%begin(passages, start, step%y, step%slope, merge(1, -1, self%above))
+      whole = step_end
+      call search%search_step(passages, step, start, step_end, share, ended)
+      if (.not. ended) then
+         self%idle = 0
+         return
+      end if
+      self%passed = passages%passed
+      self%y = search%event%y
+      beside = near*spacing(step_end%hi)
+      if (elapsed(step_end, whole) <= beside) then
+         share = 1.0_wp
+         step_end = whole
+         self%y = step%y_new
+      else if (elapsed(start, step_end) <= beside) then
+         share = 0.0_wp
+         step_end = start
+         self%y = step%y
+      end if
+      self%idle = merge(0, self%idle + 1, share > 0.0_wp)
+   end subroutine end_step
+
+   !> Go to the other side of the functions that passed zero where the step ended.
+   subroutine change(self, context, y)
+      class(sides_type), intent(inout) :: self
+      !> The context, there
+      type(step_context), intent(inout) :: context
+      real(wp), intent(in) :: y(:)
+      real(wp), dimension(size(self%above)) :: g, before, after
+      logical :: back(size(self%above))
+
+      call find_rates(context, y, ahead, g, before)
+      self%above = self%above .neqv. self%passed
+      self%changes = self%changes + merge(1, 0, self%passed)
+      call context%problem%take_sides(self%above)
+      call find_rates(context, y, ahead, g, after)
+      associate (on => merge(1.0_wp, -1.0_wp, self%above))
+         back = self%passed .and. on*before > 0.0_wp .and. on*after < -least_push*abs(before)
+         if (self%idle > size(self%above)) back = self%passed
+      end associate
+      self%slides = findloc(back, .true., dim=1)
+   end subroutine change
+
+   !> The functions over a step.
+   function new_passages(self, context, step) result(passages)
+      class(sides_type), intent(in) :: self
+      type(step_context), intent(in), target :: context
+      class(step_type), intent(in), target :: step
+      type(passages_type) :: passages
+      real(wp) :: g(size(self%above))
+
+      passages%context => context
+      passages%step => step
+      passages%above = self%above
+      passages%passed = self%passed
+      allocate (passages%slack(size(self%above)), source=0.0_wp)
+      ! where the last step ended at a zero
+      call passages%values(step%t, step%y, step%slope, g)
+      passages%slack = merge(2.0_wp*abs(g), 0.0_wp, self%above .neqv. g > 0.0_wp)
+   end function new_passages
+
+   !> The functions where the step of the context starts, and their rates.
+   subroutine find_rates(context, y, share, g, rate)
+      type(step_context), intent(inout) :: context
+      real(wp), intent(in) :: y(:)
+      !> Share of the step over which rates are found
+      real(wp), intent(in) :: share
+      real(wp), intent(out) :: g(:), rate(:)
+      real(wp) :: h, slope(size(y)), z(size(context%problem%lag), 2)
+
+      associate (problem => context%problem, cursor => context%cursor)
+         h = share*cursor%h
+         call context%delayed_values([0.0_wp, h], z)
+         call problem%switching(cursor%inside(cursor%t), y, z(:, 1), g)
+         call context%evaluate(cursor%inside(cursor%t), y, z(:, 1), slope)
+         call problem%switching(cursor%inside(cursor%t + h), y + h*slope, z(:, 2), rate)
+         rate = (rate - g)/h
+      end associate
+   end subroutine find_rates
+
+   !> The functions at a place of the step. One that is 0, or no farther beyond than where the step
+   !> starts, has not passed yet.
+   pure subroutine values(self, t, y, slope, g)
+      class(passages_type), intent(in) :: self
+      real(wp), intent(in) :: t, y(:), slope(:)
+      real(wp), intent(out) :: g(:)
+      type(cursor_type) :: cursor
+      real(wp) :: z(size(self%context%problem%lag), 1)
+
+      cursor = self%context%cursor
+      associate (context => self%context, place => min(self%step%h, t - cursor%t))
+         call self%step%delayed_at(context%problem, context%past, cursor, place, z)
+         call context%problem%switching(cursor%inside(t), y, z(:, 1), g)
+      end associate
+      where ((self%above .neqv. g > 0.0_wp) .and. .not. abs(g) > self%slack)
+         g = merge(tiny(g), -tiny(g), self%above)
+      end where
+   end subroutine values
+
+   !> A function passes zero.
+   subroutine take(self, which, t, y, slope)
+      class(passages_type), intent(inout) :: self
+      integer, intent(in) :: which
+      type(instant), intent(in) :: t
+      real(wp), intent(in) :: y(:), slope(:)
+
+      self%passed(which) = .true.
+   end subroutine take
+end module dde_sides
