@@ -137,13 +137,7 @@ contains
          if (is_end(settings, found, hopf(i))) cycle
          call orbit_at_hopf_point(how%family, hopf(i)%numbers, hopf(i)%omega, first_amplitude, &
                                   basis, settings%intervals, orbit, tangent, failure)
-         associate (place => hopf(i)%numbers(settings%line%along))
-            if (allocated(failure)) then
-               call leave_out("hopf", place, failure%message)
-            else
-               call append(1, "hopf", place, tangent)
-            end if
-         end associate
+         call append(1, "hopf", hopf(i)%numbers(settings%line%along), tangent)
       end do
       do i = 1, size(settings%starts)
          if (present(progress)) then
@@ -170,22 +164,16 @@ contains
          here = found(i)%points
          do j = 1, size(here)
             if (here(j)%kind /= period_doubling) cycle
-            associate (place => here(j)%orbit%parameters(settings%line%along))
-               call orbit_of_double_period(how%family, here(j), first_amplitude, orbit, tangent, &
-                                           failure)
-               if (allocated(failure)) then
-                  call leave_out("period_doubling", place, failure%message)
-               else
-                  call append(1, "period_doubling", place, tangent)
-               end if
-            end associate
+            call orbit_of_double_period(how%family, here(j), first_amplitude, orbit, tangent, &
+                                        failure)
+            call append(1, "period_doubling", here(j)%orbit%parameters(settings%line%along), tangent)
          end do
       end do
 
    contains
 
-      !> Follow the branch from `orbit` and append it with its special points, or leave it out if it
-      !> cannot be started.
+      !> Follow the branch from `orbit` and append it with its special points, or leave it out if
+      !> there is none or it cannot be started.
       subroutine append(direction, origin, place, tangent)
          !> 1 or -1
          integer, intent(in) :: direction
@@ -201,7 +189,9 @@ contains
          longer(:size(found)) = found
          associate (last => longer(size(longer)))
             last%origin = origin
-            call follow_branch(how, orbit, direction, last%branch, failure, tangent)
+            if (.not. allocated(failure)) then
+               call follow_branch(how, orbit, direction, last%branch, failure, tangent)
+            end if
             if (allocated(failure)) then
                call leave_out(origin, place, failure%message)
                return
