@@ -199,6 +199,9 @@ contains
       call c_f_procpointer(procedure_of(library, "rhs"), code%rhs)
       call c_f_procpointer(procedure_of(library, "delayed"), code%delayed)
       call c_f_procpointer(procedure_of(library, "exponents"), code%exponents)
+      if (has(library, "switching")) then
+         call c_f_procpointer(procedure_of(library, "switching"), code%switching)
+      end if
       if (has(library, "jacobian")) then
          call c_f_procpointer(procedure_of(library, "jacobian"), code%jacobian)
       end if

@@ -20,7 +20,7 @@ module model_problem
       procedure(describe_line), pointer, nopass :: description => null()
       procedure(find_rhs), pointer, nopass :: rhs => null()
       procedure(find_jacobian), pointer, nopass :: jacobian => null()
-      procedure(find_exponents), pointer, nopass :: exponents => null()
+      procedure(find_exponents), pointer, nopass :: exponents => null(), switching => null()
       procedure(expand), pointer, nopass :: series => null(), slow_series => null()
       procedure(expand_tangents), pointer, nopass :: tangent_series => null(), &
                                                      slow_tangent_series => null()
@@ -40,6 +40,8 @@ module model_problem
       !> Parameters in the order of the definition: names and values
       character(len=word_length), allocatable :: names(:)
       real(wp), allocatable :: numbers(:)
+      !> These, and the sides of the switches
+      real(wp), allocatable, private :: given(:)
       !> States up to the initial time, shape (n)
       real(wp), allocatable :: past(:)
       !> Where each delayed state of the definition is among the delayed values of the problem; 0
@@ -76,6 +78,8 @@ module model_problem
       procedure :: rhs
       procedure :: jacobian
       procedure :: exponents
+      procedure :: switching
+      procedure :: take_sides
       procedure :: series
       procedure :: tangent_series
       procedure :: relaxation_rate
@@ -143,6 +147,8 @@ contains
       self%analytic = associated(self%code%series)
       self%analytic_tangents = self%analytic
       self%numbers = parameters
+      self%switches = self%sizes%switches
+      self%given = [parameters, (0.0_wp, k=1, self%switches)]
       call self%code%delayed(parameters, lag, component)
       kept = lag > 0.0_wp .or. self%keeps_delays
       self%place = merge([(count(kept(:k)), k=1, size(lag))], 0, kept)
@@ -244,7 +250,7 @@ contains
       real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
 
-      call self%code%rhs(self%shape, self%numbers, self%place, self%left, self%right, &
+      call self%code%rhs(self%shape, self%given, self%place, self%left, self%right, &
                          t, y, z, dydt)
    end subroutine rhs
 
@@ -255,7 +261,7 @@ contains
       real(wp), contiguous, intent(out) :: by_y(:, :), by_z(:, :)
 
       if (associated(self%code%jacobian)) then
-         call self%code%jacobian(self%shape, self%numbers, self%place, self%left, self%right, &
+         call self%code%jacobian(self%shape, self%given, self%place, self%left, self%right, &
                                  t, y, z, size(by_y, 1), size(by_z, 1), by_y, by_z)
       else
          by_y = not_given
@@ -269,9 +275,27 @@ contains
       real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: values(self%exponentials)
 
-      call self%code%exponents(self%shape, self%numbers, self%place, self%left, self%right, &
+      call self%code%exponents(self%shape, self%given, self%place, self%left, self%right, &
                                t, y, z, values)
    end subroutine exponents
+
+   !> What is 0 where the equations are not smooth.
+   pure subroutine switching(self, t, y, z, values)
+      class(model_type), intent(in) :: self
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
+      real(wp), intent(out) :: values(self%switches)
+
+      call self%code%switching(self%shape, self%given, self%place, self%left, self%right, &
+                               t, y, z, values)
+   end subroutine switching
+
+   !> Go to other sides.
+   pure subroutine take_sides(self, above)
+      class(model_type), intent(inout) :: self
+      logical, intent(in) :: above(:)
+
+      self%given(size(self%numbers) + 1:) = merge(1.0_wp, 0.0_wp, above)
+   end subroutine take_sides
 
    !> Taylor coefficients of the solution.
    pure subroutine series(self, t, unit, degree, z, y)
@@ -281,7 +305,7 @@ contains
       real(wp), intent(in) :: z(0:degree, size(self%lag))
       real(wp), intent(inout) :: y(0:degree, self%n)
 
-      call self%code%series(self%shape, self%numbers, self%place, self%left, self%right, &
+      call self%code%series(self%shape, self%given, self%place, self%left, self%right, &
                             t, unit, degree, z, y)
    end subroutine series
 
@@ -295,7 +319,7 @@ contains
       real(wp), intent(in) :: dz(0:degree, size(self%lag), vectors)
       real(wp), intent(inout) :: dy(0:degree, self%n, vectors)
 
-      call self%code%tangent_series(self%shape, self%numbers, self%place, self%left, &
+      call self%code%tangent_series(self%shape, self%given, self%place, self%left, &
                                     self%right, t, unit, degree, z, y, y, vectors, dz, dy)
    end subroutine tangent_series
 

@@ -10,6 +10,7 @@ module delaykit_runs
    use dde_kinds, only: wp
    use delaykit_handles, only: message_of, model_of, string_of
    use model_chain, only: chain_ends, find_neighbours
+   use model_description, only: description_type
    use model_problem, only: model_type
    use natural_units, only: in_own_units
    implicit none (type, external)
@@ -233,6 +234,7 @@ contains
       end if
       call put_events(data, watcher)
       call put_outcome(data, total, now)
+      call put_switched(data, model, total)
       if (request%keep_all /= 0 .and. allocated(now%step_length)) call put_past(data, now)
    end subroutine run
 
@@ -308,6 +310,11 @@ contains
       total%evaluations = total%evaluations + outcome%evaluations
       total%factorisations = total%factorisations + outcome%factorisations
       total%breaking_points = total%breaking_points + outcome%breaking_points
+      if (.not. allocated(outcome%switched)) return
+      if (.not. allocated(total%switched)) then
+         allocate (total%switched(size(outcome%switched)), source=0_c_int64_t)
+      end if
+      total%switched = total%switched + outcome%switched
    end subroutine add
 
    !> Times and states.
@@ -350,6 +357,22 @@ contains
                        //"evaluations, factorisations, breaking points")
       call data%attribute("method_at_end", trim(now%method))
    end subroutine put_outcome
+
+   !> How often each term that is not smooth switched.
+   subroutine put_switched(data, model, outcome)
+      type(results_type), intent(inout) :: data
+      type(model_type), intent(in) :: model
+      type(integration_result), intent(in) :: outcome
+      type(description_type) :: about
+      integer :: i
+
+      if (.not. allocated(outcome%switched)) return
+      about = model%describe()
+      do i = 1, size(outcome%switched)
+         call data%attribute("switched", trim(about%switches(i))//achar(9) &
+                             //text(outcome%switched(i)))
+      end do
+   end subroutine put_switched
 
    !> The past in polynomials, with which another run can begin: dense output.
    subroutine put_past(data, now)
