@@ -10,9 +10,10 @@ module model_library
    use model_border, only: describe_line, expand, expand_tangents, find_delayed, find_exponents, &
                            find_forms, find_jacobian, find_rate, find_rhs, find_state, list_terms, &
                            letters => line_length
+   use model_code, only: code_type
    use model_description, only: description_type, word_length
    use model_interface, only: interface_digest
-   use model_problem, only: code_type, model_type
+   use model_problem, only: model_type
    implicit none (type, external)
    private
    public :: list_models, open_model, open_object, path_of_model

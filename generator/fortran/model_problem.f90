@@ -7,29 +7,13 @@ module model_problem
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde, only: not_given, problem_with_tangents
    use dde_kinds, only: wp
-   use model_border, only: describe_line, expand, expand_tangents, find_delayed, find_exponents, &
-                           find_forms, find_jacobian, find_rate, find_rhs, find_state, &
-                           list_terms, shape_type
+   use model_border, only: shape_type
+   use model_chain, only: find_band
+   use model_code, only: code_type
    use model_description, only: description_of, description_type, sizes_type, word_length
    implicit none (type, external)
    private
-   public :: code_type, model_type
-
-   !> Procedures of a compiled model. Those that it has not are not associated.
-   type :: code_type
-      procedure(describe_line), pointer, nopass :: description => null()
-      procedure(find_rhs), pointer, nopass :: rhs => null()
-      procedure(find_jacobian), pointer, nopass :: jacobian => null()
-      procedure(find_exponents), pointer, nopass :: exponents => null(), switching => null()
-      procedure(expand), pointer, nopass :: series => null(), slow_series => null()
-      procedure(expand_tangents), pointer, nopass :: tangent_series => null(), &
-                                                     slow_tangent_series => null()
-      procedure(find_rate), pointer, nopass :: relaxation_rate => null()
-      procedure(find_delayed), pointer, nopass :: delayed => null()
-      procedure(find_state), pointer, nopass :: steady_state => null()
-      procedure(find_forms), pointer, nopass :: derivative => null()
-      procedure(list_terms), pointer, nopass :: characteristic_terms => null()
-   end type code_type
+   public :: model_type
 
    !> A model: its parameters, and constant values up to the initial time.
    type, extends(problem_with_tangents) :: model_type
@@ -133,13 +117,14 @@ contains
       call self%put(parameters)
    end subroutine set
 
-   !> Give a model other parameters; it keeps its past.
+   !> Give a model other parameters; it keeps its past. Where it is not smooth it is on the sides of
+   !> its past.
    pure subroutine put(self, parameters)
       class(model_type), intent(inout) :: self
       !> Parameters, in the order of the definition
       real(wp), intent(in) :: parameters(:)
       integer(c_int) :: component(self%sizes%delayed)
-      real(wp) :: lag(self%sizes%delayed)
+      real(wp) :: lag(self%sizes%delayed), values(self%sizes%switches)
       logical, allocatable :: kept(:)
       integer :: block, k, states
 
@@ -164,31 +149,17 @@ contains
       self%shape%n = self%n
       self%shape%values = size(self%lag)
       self%shape%delays = count(kept)
-      if (self%is_chain()) call set_band(self, states)
+      if (self%is_chain()) then
+         call find_band(self%left, self%right, self%sizes%couplings, states, self%shape%delays, &
+                        self%shape%reach, self%lower, self%upper, self%rows)
+         self%shape%upper = self%upper
+      end if
+      do k = 1, self%switches
+         ! a side may depend on those before it
+         call self%switching(0.0_wp, self%past, self%past(self%component), values)
+         call self%take_sides(values > 0.0_wp)
+      end do
    end subroutine put
-
-   !> The band of the Jacobian of a chain, and the equations of each delayed value.
-   pure subroutine set_band(self, states)
-      class(model_type), intent(inout) :: self
-      !> States of a block
-      integer, intent(in) :: states
-      integer :: block, k
-
-      associate (shape => self%shape, row => self%sizes%couplings(1, :), &
-                 column => self%sizes%couplings(2, :))
-         shape%reach = 1
-         do block = 1, shape%blocks
-            associate (beside => [self%left(block), self%right(block)])
-               shape%reach = max(shape%reach, maxval(abs(beside - block), mask=beside > 0))
-            end associate
-         end do
-         self%lower = min(self%n - 1, max(states - 1, states*shape%reach + maxval(row - column)))
-         self%upper = min(self%n - 1, max(states - 1, states*shape%reach + maxval(column - row)))
-         shape%upper = self%upper
-         self%rows = reshape([((states*(block - 1) + 1, states*block, k=1, shape%delays), &
-                               block=1, shape%blocks)], [2, shape%blocks*shape%delays])
-      end associate
-   end subroutine set_band
 
    !> Number of a parameter by its name; 0 if there is none.
    pure integer function number_of(self, name) result(number)
