@@ -11,7 +11,7 @@ import random
 import re
 import unicodedata
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import sympy
@@ -302,6 +302,9 @@ class _Reader:
         if not model.domain:
             for state, equation in model.equations.items():
                 model.equations[state] = limited(equation, model.variables)
+            for place, one in enumerate(model.switches):
+                value = limited(one.value, model.variables)
+                model.switches[place] = replace(one, value=value)
 
     def refuse(self, what: str, value, expected: str):
         text = f"{self.place}: {what}: {value!r}; expected {expected}"
@@ -458,6 +461,11 @@ class _Reader:
         except (SyntaxError, ValueError):
             self.refuse(place, text, "an expression such as -v*(theta + log(v(t - tau)))")
         value = _Expression(self, place, str(text).strip()).value(tree.body)
+        self.expect_real(place, text, value)
+        return value
+
+    def expect_real(self, place: str, text, value: sympy.Expr) -> None:
+        """Refuse what has no value that is a number."""
         sizes = [max(abs(one), abs(1 / one)) for one in value.atoms(sympy.Rational) if one != 0]
         if value.has(sympy.zoo, sympy.nan, sympy.oo) or max(sizes, default=0) > LARGEST:
             self.refuse(place, text, "an expression that is finite")
@@ -466,7 +474,6 @@ class _Reader:
             known = part.is_Pow or part.func in FUNCTIONS.values()
             if not known or (part.is_number and not part.evalf().is_real):
                 self.refuse(place, text, "a real expression; abs(a) for sqrt(a**2)")
-        return value
 
     def definition(self, name: str) -> sympy.Expr:
         """A named part of the equations."""
@@ -487,8 +494,9 @@ class _Reader:
         self.model.delayed.append(Delayed(state, lag, symbol))
         return symbol
 
-    def side(self, value: sympy.Expr, text: str) -> sympy.Expr:
+    def side(self, place: str, text: str, value: sympy.Expr) -> sympy.Expr:
         """1 where an expression is > 0, else 0, the same for the same one; 1/2 of the number 0."""
+        self.expect_real(place, text, value)
         if value.is_number:
             return (1 + sympy.sign(value)) / 2
         switches = self.model.switches
@@ -585,16 +593,16 @@ class _Expression:
         match name, args:
             case "abs" | "sign", [one]:
                 value = self.value(one)
-                direction = 2 * self.side(node, value) - 1
+                direction = 2 * self.side(self.segment(node), value) - 1
                 return direction * value if name == "abs" else direction
             case "heaviside", [one] | [one, _]:
-                return self.side(node, self.value(one))
+                return self.side(self.segment(node), self.value(one))
             case "min" | "max", [first, _, *_]:
                 texts, found = [self.segment(first)], self.value(first)
                 for one in args[1:]:
                     value = self.value(one)
                     texts.append(self.segment(one))
-                    above = self.reader.side(found - value, f"{name}({', '.join(texts)})")
+                    above = self.side(f"{name}({', '.join(texts)})", found - value)
                     larger = above if name == "max" else 1 - above
                     found = larger * found + (1 - larger) * value
                 return found
@@ -617,8 +625,8 @@ class _Expression:
         """The text of a part."""
         return ast.get_source_segment(self.text, node) or self.text
 
-    def side(self, node: ast.AST, value: sympy.Expr) -> sympy.Expr:
-        return self.reader.side(value, self.segment(node))
+    def side(self, text: str, value: sympy.Expr) -> sympy.Expr:
+        return self.reader.side(self.place, text, value)
 
     def condition(self, node: ast.AST) -> sympy.Expr:
         """1 where a condition holds, 0 elsewhere."""
@@ -652,7 +660,7 @@ class _Expression:
         value = self.value(left) - self.value(right)
         if value == 0:
             return sympy.Integer("=" in order)
-        return self.reader.side(value if ">" in order else -value, text)
+        return self.side(text, value if ">" in order else -value)
 
     def delayed(self, node: ast.Call, name: str, args: list[ast.AST]) -> sympy.Expr:
         model = self.reader.model

@@ -115,12 +115,13 @@ def description_lines(model: Model, exponents: list[str], whole: bool) -> list[s
     where = ", ".join(f"{state} = {value}" for state, value in rest_at.items())
     counted = (model.parameters, equations, model.states, model.delayed, terms, exponents)
     delayed = sum(any(one.symbol.name in text for one in model.delayed) for text in exponents)
+    taken = [*model.equations.values(), *(one.value for one in model.switches)]
     sizes = [*map(len, counted), delayed, len(model.switches)]
     lines = [
         ("sizes", *map(str, sizes)),
         *(("coupling", str(row), str(column)) for row, column in couplings(model)),
         observed_line(model),
-        *([("driven",)] if any(one.has(TIME) for one in model.equations.values()) else ()),
+        *([("driven",)] if any(one.has(TIME) for one in taken) else ()),
         ("name", model.name),
         ("source", model.source),
         *(("state", name, meaning) for name, meaning in model.states.items()),

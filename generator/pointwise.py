@@ -124,7 +124,9 @@ def switching_procedure(model: Model) -> Procedure:
         refused = refusals(model, {place: one.value}, names, place)
         leave = [line.replace("return", f"exit switch_{number}") for line in refused]
         inside = [*leave, f"{place} = {text_of(one.value)}"]
-        lines += [f"switch_{number}: block", *indented(inside), f"end block switch_{number}"]
+        if leave:
+            inside = [f"switch_{number}: block", *indented(inside), f"end block switch_{number}"]
+        lines += inside
     return of_all_blocks(model, "values", lines, [], guarded={})
 
 

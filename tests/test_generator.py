@@ -95,6 +95,8 @@ def block(law: str = PAPER) -> dict:
         ),
         ("a(t - max(rate_of, a))", r"'a\(t - max.*; expected a\(t - DELAY\) with a delay >= 0"),
         ("where(a == 1, a, w)", r"'a == 1'; expected < <= > >=: motions have exactly this value"),
+        ("where(sqrt(a**2) > 1, a, w)", r"'sqrt\(a\*\*2\) > 1'; expected a real expression; abs"),
+        ("max(a, 1/0)", r"equation of a: 'max\(a, 1/0\)'; expected an expression that is finite"),
         ("where(a > 1, a)", r"'where\(a > 1, a\)'; expected abs, sign, heaviside of one argument"),
         ("Piecewise((a, w), (1, True))", r"'w'; expected a condition of < <= > >=, and, or, not"),
         ("exp(a, 2)", r"'exp\(a, 2\)'; expected one of exp"),
