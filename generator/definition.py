@@ -11,13 +11,14 @@ import random
 import re
 import unicodedata
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import sympy
 from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
 
+from .branches import NAMES, either
 from .fortran import CONSTANTS, FUNCTIONS, SHORT, WORD, in_words
 from .saturation import limited
 
@@ -52,6 +53,7 @@ OPERATORS = {
     **{ast.Add: operators.add, ast.Sub: operators.sub, ast.Mult: operators.mul},
     **{ast.Div: operators.truediv, ast.Pow: operators.pow},
 }
+ORDERS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="}
 LARGEST = 10**308
 """Largest number, and 1/LARGEST is the least."""
 TRIALS, DIGITS = 5, 40
@@ -83,6 +85,17 @@ class Delayed:
     state: str
     lag: sympy.Expr
     symbol: sympy.Symbol
+
+
+@dataclass(frozen=True)
+class Switch:
+    """A place where equations are not smooth: where an expression passes 0."""
+
+    value: sympy.Expr
+    text: str
+    """The term as written."""
+    symbol: sympy.Symbol
+    """1 where the expression is > 0, else 0."""
 
 
 @dataclass
@@ -128,6 +141,7 @@ class Model:
     domain: dict[str, tuple[float, float]] = field(default_factory=dict)
     differences: dict[str, sympy.Symbol] = field(default_factory=dict)
     """Second difference along the chain of each state of which the equations take one."""
+    switches: list[Switch] = field(default_factory=list)
     written: dict[str, str] = field(default_factory=dict)
     """Names of the definition by those that stand for them here and in the generated code."""
 
@@ -151,6 +165,11 @@ class Model:
         names = [*self.states, *self.auxiliary]
         others = [*(one.symbol for one in self.delayed), *self.differences.values()]
         return {TIME, *map(self.symbol, names), *others}
+
+    @property
+    def sides(self) -> set[sympy.Symbol]:
+        """Symbols that are constant between two switches."""
+        return {one.symbol for one in self.switches}
 
     def by_state(self, expression: sympy.Expr, state: str) -> sympy.Expr:
         """The derivative by a state, of which auxiliaries are functions."""
@@ -277,15 +296,24 @@ class _Reader:
                 f"equation of {state}", values["equations"][state], LONGEST_EQUATION
             )
             model.equations[state] = self.expression(f"equation of {state}", model.texts[state])
+        self.expect_smooth("second_difference", ", ".join(model.differences))
         self.read_rest(values)
         # a domain has windows of its own
         if not model.domain:
             for state, equation in model.equations.items():
                 model.equations[state] = limited(equation, model.variables)
+            for place, one in enumerate(model.switches):
+                value = limited(one.value, model.variables)
+                model.switches[place] = replace(one, value=value)
 
     def refuse(self, what: str, value, expected: str):
         text = f"{self.place}: {what}: {value!r}; expected {expected}"
         raise ModelError(in_words(text, self.written))
+
+    def expect_smooth(self, what: str, value) -> None:
+        """Refuse what a model that is not smooth cannot have."""
+        if value and (switches := self.model.switches):
+            self.refuse(what, value, f"none where the model is not smooth, at {switches[0].text}")
 
     def line(self, what: str, text, longest: int = LONGEST_TEXT) -> str:
         """A text on one line: as a comment of the generated code it must not begin another one."""
@@ -339,6 +367,7 @@ class _Reader:
         model = self.model
         self.read_steady_state(values)
         fast = values.get("fast")
+        self.expect_smooth("fast", fast)
         if fast is not None and fast not in model.states:
             self.refuse("fast", fast, f"one of the states {', '.join(model.states)}")
         model.fast = fast
@@ -383,6 +412,7 @@ class _Reader:
         model, near, texts = self.model, near_of(values), values.get("steady_state")
         if texts is None:
             return
+        self.expect_smooth("steady_state", texts)
         if near and len(texts) > 1:
             self.refuse("steady_state", ", ".join(texts), "near alone")
         texts = near or texts
@@ -391,7 +421,7 @@ class _Reader:
         found = {}
         for state in model.states:
             found[state] = self.expression(f"steady state of {state}", texts[state])
-            if found[state].free_symbols & model.variables:
+            if found[state].free_symbols & (model.variables | model.sides):
                 expected = "an expression of parameters"
                 self.refuse(f"steady state of {state}", texts[state], expected)
         model.steady_state = found
@@ -431,6 +461,11 @@ class _Reader:
         except (SyntaxError, ValueError):
             self.refuse(place, text, "an expression such as -v*(theta + log(v(t - tau)))")
         value = _Expression(self, place, str(text).strip()).value(tree.body)
+        self.expect_real(place, text, value)
+        return value
+
+    def expect_real(self, place: str, text, value: sympy.Expr) -> None:
+        """Refuse what has no value that is a number."""
         sizes = [max(abs(one), abs(1 / one)) for one in value.atoms(sympy.Rational) if one != 0]
         if value.has(sympy.zoo, sympy.nan, sympy.oo) or max(sizes, default=0) > LARGEST:
             self.refuse(place, text, "an expression that is finite")
@@ -438,8 +473,7 @@ class _Reader:
             # SymPy makes abs(a) of sqrt(a**2)
             known = part.is_Pow or part.func in FUNCTIONS.values()
             if not known or (part.is_number and not part.evalf().is_real):
-                self.refuse(place, text, "an expression that is real and analytic")
-        return value
+                self.refuse(place, text, "a real expression; abs(a) for sqrt(a**2)")
 
     def definition(self, name: str) -> sympy.Expr:
         """A named part of the equations."""
@@ -460,6 +494,20 @@ class _Reader:
         self.model.delayed.append(Delayed(state, lag, symbol))
         return symbol
 
+    def side(self, place: str, text: str, value: sympy.Expr) -> sympy.Expr:
+        """1 where an expression is > 0, else 0, the same for the same one; 1/2 of the number 0."""
+        self.expect_real(place, text, value)
+        if value.is_number:
+            return (1 + sympy.sign(value)) / 2
+        switches = self.model.switches
+        for one in switches:
+            if value in (one.value, -one.value):
+                return one.symbol if value == one.value else 1 - one.symbol
+        # no other name of the generated code is like this one
+        symbol = sympy.Symbol(f"side_{len(switches) + 1}", real=True)
+        switches.append(Switch(value, text, symbol))
+        return symbol
+
 
 class _Expression:
     """Turns the parsed text of one expression into symbols."""
@@ -468,8 +516,7 @@ class _Expression:
         self.reader, self.place, self.text = reader, place, text
 
     def refuse(self, node: ast.AST, expected: str):
-        part = ast.get_source_segment(self.text, node) or self.text
-        self.reader.refuse(self.place, part, expected)
+        self.reader.refuse(self.place, self.segment(node), expected)
 
     def value(self, node: ast.AST) -> sympy.Expr:
         match node:
@@ -526,12 +573,12 @@ class _Expression:
             return model.by_state(self.value(args[0]), args[1].id)
         if name == "second_difference":
             return self.second_difference(node, args)
+        if name[:1].lower() + name[1:] in NAMES:
+            return self.branched(node, name[:1].lower() + name[1:], args)
         known = {**FUNCTIONS, **SHORT}
         if name not in known or len(args) != 1 + (name == "atan2"):
-            expected = f"one of {', '.join(known)} of one argument (atan2: 2), or STATE(t - delay)"
-            self.refuse(
-                node, f"{expected}: other functions are not analytic or have no series here"
-            )
+            expected = f"one of {', '.join(known)} of one argument (atan2: 2), {', '.join(NAMES)}"
+            self.refuse(node, f"{expected}, or STATE(t - delay): others have no series here")
         argument, *others = map(self.value, args)
         for auxiliary, state in model.auxiliary.items():
             of, value = model.symbol(state), model.symbol(auxiliary)
@@ -541,13 +588,88 @@ class _Expression:
                 return value ** (1 if argument == of else -1)
         return known[name](argument, *others)
 
+    def branched(self, node: ast.Call, name: str, args: list[ast.AST]) -> sympy.Expr:
+        """A function that is smooth on each side of a switch."""
+        match name, args:
+            case "abs" | "sign", [one]:
+                value = self.value(one)
+                direction = 2 * self.side(self.segment(node), value) - 1
+                return direction * value if name == "abs" else direction
+            case "heaviside", [one] | [one, _]:
+                return self.side(self.segment(node), self.value(one))
+            case "min" | "max", [first, _, *_]:
+                texts, found = [self.segment(first)], self.value(first)
+                for one in args[1:]:
+                    value = self.value(one)
+                    texts.append(self.segment(one))
+                    above = self.side(f"{name}({', '.join(texts)})", found - value)
+                    larger = above if name == "max" else 1 - above
+                    found = larger * found + (1 - larger) * value
+                return found
+            case "where", [condition, one, other]:
+                return either(self.condition(condition), self.value(one), self.value(other))
+            case "piecewise", [*rest, ast.Tuple(elts=[last, ast.Constant(value=True)])]:
+                found = self.value(last)
+                for pair in reversed(rest):
+                    if not isinstance(pair, ast.Tuple) or len(pair.elts) != 2:
+                        self.refuse(pair, "(VALUE, CONDITION)")
+                    found = either(self.condition(pair.elts[1]), self.value(pair.elts[0]), found)
+                return found
+        self.refuse(
+            node,
+            "abs, sign, heaviside of one argument, min, max of two or more, "
+            "where(CONDITION, VALUE, VALUE), Piecewise((VALUE, CONDITION), ..., (VALUE, True))",
+        )
+
+    def segment(self, node: ast.AST) -> str:
+        """The text of a part."""
+        return ast.get_source_segment(self.text, node) or self.text
+
+    def side(self, text: str, value: sympy.Expr) -> sympy.Expr:
+        return self.reader.side(self.place, text, value)
+
+    def condition(self, node: ast.AST) -> sympy.Expr:
+        """1 where a condition holds, 0 elsewhere."""
+        match node:
+            case ast.Constant(value=bool()):
+                return sympy.Integer(node.value)
+            case ast.UnaryOp(op=ast.Not() | ast.Invert(), operand=one):
+                return 1 - self.condition(one)
+            case ast.BinOp(op=ast.BitAnd() | ast.BitOr(), left=one, right=other):
+                return self.joined(node.op, [one, other])
+            case ast.BoolOp(op=operator, values=parts):
+                return self.joined(operator, parts)
+            case ast.Compare(left=first, ops=operators, comparators=others):
+                pairs = zip([first, *others], operators, others, strict=False)
+                return sympy.Mul(*(self.compared(node, *pair) for pair in pairs))
+        self.refuse(node, "a condition of < <= > >=, and, or, not")
+
+    def joined(self, operator, parts: list[ast.AST]) -> sympy.Expr:
+        """All conditions, or one of them."""
+        found = list(map(self.condition, parts))
+        if isinstance(operator, ast.And | ast.BitAnd):
+            return sympy.Mul(*found)
+        return 1 - sympy.Mul(*(1 - one for one in found))
+
+    def compared(self, node: ast.AST, left: ast.AST, operator, right: ast.AST) -> sympy.Expr:
+        """Two numbers in their order."""
+        if type(operator) not in ORDERS:
+            self.refuse(node, "< <= > >=: motions have exactly this value for no time")
+        order = ORDERS[type(operator)]
+        text = f"{self.segment(left)} {order} {self.segment(right)}"
+        value = self.value(left) - self.value(right)
+        if value == 0:
+            return sympy.Integer("=" in order)
+        return self.side(text, value if ">" in order else -value)
+
     def delayed(self, node: ast.Call, name: str, args: list[ast.AST]) -> sympy.Expr:
         model = self.reader.model
         lag = TIME - self.value(args[0]) if len(args) == 1 else TIME
         if lag == 0:
             return model.symbol(name)
         # one whose sign depends on the parameters is seen with their values, before a run
-        if lag.free_symbols & model.variables or lag.subs(model.signed).is_nonpositive:
+        changing = model.variables | model.sides
+        if lag.free_symbols & changing or lag.subs(model.signed).is_nonpositive:
             self.refuse(node, f"{name}(t - DELAY) with a delay >= 0 of numbers and parameters")
         if name in model.auxiliary:
             return sympy.exp(self.reader.delayed(model.auxiliary[name], lag))

@@ -17,7 +17,7 @@ from .address import Address
 from .definition import LARGEST_EXPONENT, TIME, Model
 from .fortran import indented, text_of, within
 from .graph import Graph, Node, convolutions
-from .recurrences import Constants, fetch_parameters, names_of_parameters
+from .recurrences import Constants, fetch_parameters
 
 REFUSED = {
     sympy.log: ".not. {} > 0.0_wp",
@@ -40,8 +40,10 @@ class Procedure:
 
 def with_parameters(model: Model, lines: list[str], *reals: str) -> Procedure:
     """A procedure whose statements take the parameters, and set real numbers of these names."""
-    names = {"real(wp)": [*names_of_parameters(model), *reals]}
-    return Procedure(names, [*fetch_parameters(model), *lines])
+    own = [one.name for one in model.parameters]
+    names = {"real(wp)": [*own, *reals]}
+    # those behind them are not given here
+    return Procedure(names, [*fetch_parameters(model)[: len(own)], *lines])
 
 
 def input_names(model: Model) -> dict[sympy.Symbol, str]:
@@ -177,6 +179,7 @@ def integral_of(model: Model, auxiliary: str) -> tuple[str, sympy.Expr] | None:
         by_v = equation.diff(v)
         if (
             by_v != 0
+            and not by_v.free_symbols & model.sides
             and not (by_v.free_symbols | (equation - by_v * v).free_symbols) & model.variables
         ):
             return state, by_v

@@ -73,6 +73,8 @@ def procedures(
     if extent == WHOLE:
         parts["series"] = series_procedure(model)
         parts["tangent_series"] = tangent_series_procedure(model)
+    if model.switches:
+        parts["switching"] = pointwise.switching_procedure(model)
     if balance:
         parts["relaxation_rate"] = pointwise.relaxation_procedure(model, balance)
         parts["slow_series"] = series_procedure(model, balance)
@@ -111,13 +113,15 @@ def description_lines(model: Model, exponents: list[str], whole: bool) -> list[s
     states = list(model.states)
     rest_at = model.near or model.steady_state or {}
     where = ", ".join(f"{state} = {value}" for state, value in rest_at.items())
-    counted = (model.parameters, equations, model.states, model.delayed, terms)
+    counted = (model.parameters, equations, model.states, model.delayed, terms, exponents)
     delayed = sum(any(one.symbol.name in text for one in model.delayed) for text in exponents)
+    taken = [*model.equations.values(), *(one.value for one in model.switches)]
+    sizes = [*map(len, counted), delayed, len(model.switches)]
     lines = [
-        ("sizes", *(str(len(each)) for each in counted), str(len(exponents)), str(delayed)),
+        ("sizes", *map(str, sizes)),
         *(("coupling", str(row), str(column)) for row, column in couplings(model)),
         observed_line(model),
-        *([("driven",)] if any(one.has(TIME) for one in model.equations.values()) else ()),
+        *([("driven",)] if any(one.has(TIME) for one in taken) else ()),
         ("name", model.name),
         ("source", model.source),
         *(("state", name, meaning) for name, meaning in model.states.items()),
@@ -126,6 +130,7 @@ def description_lines(model: Model, exponents: list[str], whole: bool) -> list[s
             for name, state in model.auxiliary.items()
         ),
         *(("equation", text) for text in equations),
+        *(("switch", in_short(one.text)) for one in model.switches),
         ("rest", f"near {where}, tried Newton's method" if model.near else where),
     ]
     for one in model.parameters:

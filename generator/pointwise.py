@@ -116,6 +116,20 @@ def braced(text: str) -> str:
     return f"({text})" if text.startswith("-") else text
 
 
+def switching_procedure(model: Model) -> Procedure:
+    """What is 0 where the equations switch, each no number where it has no value."""
+    names, lines = guard_names(model), []
+    for number, one in enumerate(model.switches, 1):
+        place = f"values({number})"
+        refused = refusals(model, {place: one.value}, names, place)
+        leave = [line.replace("return", f"exit switch_{number}") for line in refused]
+        inside = [*leave, f"{place} = {text_of(one.value)}"]
+        if leave:
+            inside = [f"switch_{number}: block", *indented(inside), f"end block switch_{number}"]
+        lines += inside
+    return of_all_blocks(model, "values", lines, [], guarded={})
+
+
 def relaxation_procedure(model: Model, balance: Balance) -> Procedure:
     """The least rate at which the fast state of a block approaches its balance, rate/v."""
     place, size = list(model.states).index(balance.state) + 1, len(model.states)

@@ -55,8 +55,8 @@ class Constants:
 
 
 def names_of_parameters(model: Model) -> list[str]:
-    """Names of all parameters."""
-    return [one.name for one in model.parameters]
+    """Names of all parameters, and of the sides of switches, which follow them."""
+    return [one.name for one in (*model.parameters, *(one.symbol for one in model.switches))]
 
 
 def fetch_parameters(model: Model) -> list[str]:

@@ -125,7 +125,7 @@ WRONG = [
     (("scenes", "chaos", "speed"), 1, "speed is no parameter of the law slip_delayed_logarithm;"),
     (("scenes", "torus", "law"), "quasistatic_mine", "key ['zeta'] is missing: a parameter of the"),
     (("laws", "mine", "evolution"), "1 - theta", "equation of theta at the steady"),
-    (("laws", "mine", "evolution"), "-max(v, 1)", "definition of evolution: 'max(v, 1)'"),
+    (("laws", "mine", "evolution"), "-max(v, 1)", "none where the model is not smooth, at max(v"),
     (("laws", "slip_cut_off"), MINE, "slip_cut_off: the project has a law of this name"),
     (("laws", "quasistatic_a"), MINE, "quasistatic_a: quasistatic_NAME is the law NAME"),
     (("laws", "mine", "parameters"), {"tau": {}, "speed": {"default": 1.0}}, "parameters tau:"),
@@ -180,6 +180,23 @@ def test_sections_that_refuse_a_driven_model(config, path, entry, words):
         checked(config)
     expected = f"config {' '.join(path)} mine: model = 'driven'; expected a model {words}"
     assert expected in str(refused.value)
+
+
+def test_exponents_and_classes_are_of_smooth_models(config):
+    """Read from the record of the first check, too."""
+    rough = {"parameters": {}, "states": {"P": ""}, "equations": {"P": "-sign(P(t - 1))"}}
+    config["models"] = {"rough": rough}
+    scene = {"model": "rough", "history": {"P": 1.0}, "t_end": 50.0, "exponents": {"count": 2}}
+    config["scenes"]["mine"] = scene
+    config["basins"]["places"]["mine"] = {"model": "rough", "histories": {"seed": 1, "P": [0, 1]}}
+    for _ in range(2):
+        with pytest.raises(ConfigError) as refused:
+            checked(copy.deepcopy(config))
+        words = "model = 'rough'; expected a smooth model, without sign(P(t - 1))"
+        assert f"scene 'mine' exponents: {words}" in str(refused.value)
+        assert f"config basins places mine: {words}" in str(refused.value)
+    del scene["exponents"], config["basins"]["places"]["mine"]
+    checked(config)
 
 
 def test_scene_of_a_driven_model_has_no_roots(config):

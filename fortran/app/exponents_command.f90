@@ -4,7 +4,7 @@ module exponents_command
    use dde, only: integration_options
    use dde_errors, only: error_type
    use exponents_files, only: exponents_settings_type, read_exponents, write_exponents
-   use lyapunov_spectrum, only: growth_settings_type, growth_type, measure_growth
+   use lyapunov_spectrum, only: expect_smooth, growth_settings_type, growth_type, measure_growth
    use progress, only: progress_type
    use rest, only: judge_flow
    use scene_input, only: scene_type
@@ -27,6 +27,7 @@ contains
       logical :: neutral
 
       call read_exponents(namelist_path, scene, settings, error)
+      if (.not. allocated(error)) call expect_smooth(scene%problem, error)
       if (allocated(error)) return
       options = settings%options_of_runs(scene%options())
       allocate (measured(size(options)))

@@ -5,10 +5,11 @@
 !> The blocks of a ring are folded: 1, N, 2, N - 1, ..., so that neighbours are at most two places
 !> apart and the Jacobian is banded.
 module model_chain
+   use, intrinsic :: iso_c_binding, only: c_int
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: blocks_in_order, chain_ends, find_neighbours, mode_eigenvalue, word_length
+   public :: blocks_in_order, chain_ends, find_band, find_neighbours, mode_eigenvalue, word_length
 
    integer, parameter :: word_length = 8
    !> What may be beyond the last block is no neighbour, the first block, or one that moves with the
@@ -58,6 +59,37 @@ contains
       left = place_of(order - 1)
       right = place_of(order + 1)
    end subroutine find_neighbours
+
+   !> The band of the Jacobian, and the equations of each delayed value.
+   pure subroutine find_band(left, right, couplings, states, delays, reach, lower, upper, rows)
+      !> Places of the neighbours, shape (blocks)
+      integer(c_int), intent(in) :: left(:), right(:)
+      !> Equations with a second difference, and states of which they take it, shape (2, couplings)
+      integer, intent(in) :: couplings(:, :)
+      !> States and delayed values of a block
+      integer, intent(in) :: states, delays
+      !> Largest distance of neighbours, at least 1
+      integer(c_int), intent(out) :: reach
+      !> Diagonals below and above the main one
+      integer, intent(out) :: lower, upper
+      !> First and last equation of each delayed value, shape (2, delayed values)
+      integer, allocatable, intent(out) :: rows(:, :)
+      integer :: block, k, last
+
+      reach = 1
+      do block = 1, size(left)
+         associate (beside => [left(block), right(block)])
+            reach = max(reach, maxval(abs(beside - block), mask=beside > 0))
+         end associate
+      end do
+      last = states*size(left) - 1
+      associate (row => couplings(1, :), column => couplings(2, :))
+         lower = min(last, max(states - 1, states*reach + maxval(row - column)))
+         upper = min(last, max(states - 1, states*reach + maxval(column - row)))
+      end associate
+      rows = reshape([((states*(block - 1) + 1, states*block, k=1, delays), &
+                       block=1, size(left))], [2, size(left)*delays])
+   end subroutine find_band
 
    !> Minus the second difference of a mode over the mode.
    pure elemental real(wp) function mode_eigenvalue(mode, blocks, ends) result(value)

@@ -62,6 +62,8 @@ module model_description
       integer :: exponentials = 0
       !> Number of these whose exponents depend on delayed states
       integer :: delayed_exponents = 0
+      !> Number of switches, where the equations are not smooth
+      integer :: switches = 0
       !> Equations of a chain with a second difference, and the states of which they take it, shape
       !> (2, couplings)
       integer, allocatable :: couplings(:, :)
@@ -86,6 +88,8 @@ module model_description
       type(auxiliary_type), allocatable :: auxiliaries(:)
       !> Equations and definitions as they are written, one a line
       character(len=line_length), allocatable :: equations(:)
+      !> Terms that are not smooth, as they are written
+      character(len=line_length), allocatable :: switches(:)
       !> Sizes of the definition
       type(sizes_type) :: sizes
    end type description_type
@@ -100,7 +104,7 @@ contains
       integer :: equation, number, pair(2), parameter, place
 
       allocate (description%states(0), description%meanings(0), description%auxiliaries(0))
-      allocate (description%sizes%couplings(2, 0))
+      allocate (description%switches(0), description%sizes%couplings(2, 0))
       equation = 0
       parameter = 0
       ! behind the line of the interface
@@ -109,8 +113,9 @@ contains
          select case (words(1))
          case ("sizes")
             associate (sizes => description%sizes)
-               read (words(2:8), *) sizes%parameters, sizes%equations, sizes%states, &
-                  sizes%delayed, sizes%terms, sizes%exponentials, sizes%delayed_exponents
+               read (words(2:9), *) sizes%parameters, sizes%equations, sizes%states, &
+                  sizes%delayed, sizes%terms, sizes%exponentials, sizes%delayed_exponents, &
+                  sizes%switches
                allocate (description%parameters(sizes%parameters), &
                          description%equations(sizes%equations))
             end associate
@@ -132,6 +137,8 @@ contains
          case ("equation")
             equation = equation + 1
             description%equations(equation) = words(2)
+         case ("switch")
+            description%switches = [character(len=line_length) :: description%switches, words(2)]
          case ("parameter")
             parameter = parameter + 1
             description%parameters(parameter) = parameter_type(words(2), words(3), words(4))

@@ -10,9 +10,10 @@ module model_library
    use model_border, only: describe_line, expand, expand_tangents, find_delayed, find_exponents, &
                            find_forms, find_jacobian, find_rate, find_rhs, find_state, list_terms, &
                            letters => line_length
+   use model_code, only: code_type
    use model_description, only: description_type, word_length
    use model_interface, only: interface_digest
-   use model_problem, only: code_type, model_type
+   use model_problem, only: model_type
    implicit none (type, external)
    private
    public :: list_models, open_model, open_object, path_of_model
@@ -199,6 +200,9 @@ contains
       call c_f_procpointer(procedure_of(library, "rhs"), code%rhs)
       call c_f_procpointer(procedure_of(library, "delayed"), code%delayed)
       call c_f_procpointer(procedure_of(library, "exponents"), code%exponents)
+      if (has(library, "switching")) then
+         call c_f_procpointer(procedure_of(library, "switching"), code%switching)
+      end if
       if (has(library, "jacobian")) then
          call c_f_procpointer(procedure_of(library, "jacobian"), code%jacobian)
       end if

@@ -7,29 +7,13 @@ module model_problem
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde, only: not_given, problem_with_tangents
    use dde_kinds, only: wp
-   use model_border, only: describe_line, expand, expand_tangents, find_delayed, find_exponents, &
-                           find_forms, find_jacobian, find_rate, find_rhs, find_state, &
-                           list_terms, shape_type
+   use model_border, only: shape_type
+   use model_chain, only: find_band
+   use model_code, only: code_type
    use model_description, only: description_of, description_type, sizes_type, word_length
    implicit none (type, external)
    private
-   public :: code_type, model_type
-
-   !> Procedures of a compiled model. Those that it has not are not associated.
-   type :: code_type
-      procedure(describe_line), pointer, nopass :: description => null()
-      procedure(find_rhs), pointer, nopass :: rhs => null()
-      procedure(find_jacobian), pointer, nopass :: jacobian => null()
-      procedure(find_exponents), pointer, nopass :: exponents => null()
-      procedure(expand), pointer, nopass :: series => null(), slow_series => null()
-      procedure(expand_tangents), pointer, nopass :: tangent_series => null(), &
-                                                     slow_tangent_series => null()
-      procedure(find_rate), pointer, nopass :: relaxation_rate => null()
-      procedure(find_delayed), pointer, nopass :: delayed => null()
-      procedure(find_state), pointer, nopass :: steady_state => null()
-      procedure(find_forms), pointer, nopass :: derivative => null()
-      procedure(list_terms), pointer, nopass :: characteristic_terms => null()
-   end type code_type
+   public :: model_type
 
    !> A model: its parameters, and constant values up to the initial time.
    type, extends(problem_with_tangents) :: model_type
@@ -40,6 +24,8 @@ module model_problem
       !> Parameters in the order of the definition: names and values
       character(len=word_length), allocatable :: names(:)
       real(wp), allocatable :: numbers(:)
+      !> These, and the sides of the switches
+      real(wp), allocatable, private :: given(:)
       !> States up to the initial time, shape (n)
       real(wp), allocatable :: past(:)
       !> Where each delayed state of the definition is among the delayed values of the problem; 0
@@ -76,6 +62,8 @@ module model_problem
       procedure :: rhs
       procedure :: jacobian
       procedure :: exponents
+      procedure :: switching
+      procedure :: take_sides
       procedure :: series
       procedure :: tangent_series
       procedure :: relaxation_rate
@@ -129,13 +117,14 @@ contains
       call self%put(parameters)
    end subroutine set
 
-   !> Give a model other parameters; it keeps its past.
+   !> Give a model other parameters; it keeps its past. Where it is not smooth it is on the sides of
+   !> its past.
    pure subroutine put(self, parameters)
       class(model_type), intent(inout) :: self
       !> Parameters, in the order of the definition
       real(wp), intent(in) :: parameters(:)
       integer(c_int) :: component(self%sizes%delayed)
-      real(wp) :: lag(self%sizes%delayed)
+      real(wp) :: lag(self%sizes%delayed), values(self%sizes%switches)
       logical, allocatable :: kept(:)
       integer :: block, k, states
 
@@ -143,6 +132,8 @@ contains
       self%analytic = associated(self%code%series)
       self%analytic_tangents = self%analytic
       self%numbers = parameters
+      self%switches = self%sizes%switches
+      self%given = [parameters, (0.0_wp, k=1, self%switches)]
       call self%code%delayed(parameters, lag, component)
       kept = lag > 0.0_wp .or. self%keeps_delays
       self%place = merge([(count(kept(:k)), k=1, size(lag))], 0, kept)
@@ -158,31 +149,17 @@ contains
       self%shape%n = self%n
       self%shape%values = size(self%lag)
       self%shape%delays = count(kept)
-      if (self%is_chain()) call set_band(self, states)
+      if (self%is_chain()) then
+         call find_band(self%left, self%right, self%sizes%couplings, states, self%shape%delays, &
+                        self%shape%reach, self%lower, self%upper, self%rows)
+         self%shape%upper = self%upper
+      end if
+      do k = 1, self%switches
+         ! a side may depend on those before it
+         call self%switching(0.0_wp, self%past, self%past(self%component), values)
+         call self%take_sides(values > 0.0_wp)
+      end do
    end subroutine put
-
-   !> The band of the Jacobian of a chain, and the equations of each delayed value.
-   pure subroutine set_band(self, states)
-      class(model_type), intent(inout) :: self
-      !> States of a block
-      integer, intent(in) :: states
-      integer :: block, k
-
-      associate (shape => self%shape, row => self%sizes%couplings(1, :), &
-                 column => self%sizes%couplings(2, :))
-         shape%reach = 1
-         do block = 1, shape%blocks
-            associate (beside => [self%left(block), self%right(block)])
-               shape%reach = max(shape%reach, maxval(abs(beside - block), mask=beside > 0))
-            end associate
-         end do
-         self%lower = min(self%n - 1, max(states - 1, states*shape%reach + maxval(row - column)))
-         self%upper = min(self%n - 1, max(states - 1, states*shape%reach + maxval(column - row)))
-         shape%upper = self%upper
-         self%rows = reshape([((states*(block - 1) + 1, states*block, k=1, shape%delays), &
-                               block=1, shape%blocks)], [2, shape%blocks*shape%delays])
-      end associate
-   end subroutine set_band
 
    !> Number of a parameter by its name; 0 if there is none.
    pure integer function number_of(self, name) result(number)
@@ -244,7 +221,7 @@ contains
       real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
 
-      call self%code%rhs(self%shape, self%numbers, self%place, self%left, self%right, &
+      call self%code%rhs(self%shape, self%given, self%place, self%left, self%right, &
                          t, y, z, dydt)
    end subroutine rhs
 
@@ -255,7 +232,7 @@ contains
       real(wp), contiguous, intent(out) :: by_y(:, :), by_z(:, :)
 
       if (associated(self%code%jacobian)) then
-         call self%code%jacobian(self%shape, self%numbers, self%place, self%left, self%right, &
+         call self%code%jacobian(self%shape, self%given, self%place, self%left, self%right, &
                                  t, y, z, size(by_y, 1), size(by_z, 1), by_y, by_z)
       else
          by_y = not_given
@@ -269,9 +246,27 @@ contains
       real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: values(self%exponentials)
 
-      call self%code%exponents(self%shape, self%numbers, self%place, self%left, self%right, &
+      call self%code%exponents(self%shape, self%given, self%place, self%left, self%right, &
                                t, y, z, values)
    end subroutine exponents
+
+   !> What is 0 where the equations are not smooth.
+   pure subroutine switching(self, t, y, z, values)
+      class(model_type), intent(in) :: self
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
+      real(wp), intent(out) :: values(self%switches)
+
+      call self%code%switching(self%shape, self%given, self%place, self%left, self%right, &
+                               t, y, z, values)
+   end subroutine switching
+
+   !> Go to other sides.
+   pure subroutine take_sides(self, above)
+      class(model_type), intent(inout) :: self
+      logical, intent(in) :: above(:)
+
+      self%given(size(self%numbers) + 1:) = merge(1.0_wp, 0.0_wp, above)
+   end subroutine take_sides
 
    !> Taylor coefficients of the solution.
    pure subroutine series(self, t, unit, degree, z, y)
@@ -281,7 +276,7 @@ contains
       real(wp), intent(in) :: z(0:degree, size(self%lag))
       real(wp), intent(inout) :: y(0:degree, self%n)
 
-      call self%code%series(self%shape, self%numbers, self%place, self%left, self%right, &
+      call self%code%series(self%shape, self%given, self%place, self%left, self%right, &
                             t, unit, degree, z, y)
    end subroutine series
 
@@ -295,7 +290,7 @@ contains
       real(wp), intent(in) :: dz(0:degree, size(self%lag), vectors)
       real(wp), intent(inout) :: dy(0:degree, self%n, vectors)
 
-      call self%code%tangent_series(self%shape, self%numbers, self%place, self%left, &
+      call self%code%tangent_series(self%shape, self%given, self%place, self%left, &
                                     self%right, t, unit, degree, z, y, y, vectors, dz, dy)
    end subroutine tangent_series
 

@@ -60,12 +60,14 @@ def by_state(model, values: np.ndarray, along: str, prefix: str = "") -> dict:
 def attributes_of(run) -> dict:
     """The model with its parameters, and how it was integrated."""
     definition = run.model.definition
+    switches = "; ".join(f"{term}: {count}" for term, count in run.switches.items())
     return {
         "model": definition["name"],
         "model_equations": "; ".join(f"{k}' = {v}" for k, v in definition["equations"].items()),
         **dict(zip(definition["parameters"], run.numbers.tolist(), strict=True)),
         **run.options,
         **run.counts,
+        **({"switches": switches} if switches else {}),
         "status": run.status,
         "source": f"delaykit {__version__}",
     }

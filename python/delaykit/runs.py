@@ -44,6 +44,8 @@ class Solution:
     """0: reached the end; 1: an event ended the run"""
     counts: dict[str, int]
     """Counts of the solver"""
+    switches: dict[str, int]
+    """How often each term that is not smooth switched"""
     options: dict = field(default_factory=dict)
     pieces: Pieces | None = None
     """Dense output, if it was asked for"""
@@ -183,6 +185,11 @@ def solution_of(own: Arguments, found: Results, events: list[Event], before) -> 
         y_events=[states[which == 1 + i] for i in range(len(events))],
         status=counts.pop("status", -1),
         counts=counts,
+        switches={
+            words[4]: int(words[5])
+            for words in found.description()
+            if words[::2][:2] == ["attribute", "switched"]
+        },
         pieces=pieces_of(own, found, before),
     )
 

@@ -9,6 +9,7 @@ module delaykit_runs
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use delaykit_handles, only: message_of, model_of, string_of
+   use delaykit_outcomes, only: put_events, put_outcome, put_past, put_samples, put_switched
    use model_chain, only: chain_ends, find_neighbours
    use model_problem, only: model_type
    use natural_units, only: in_own_units
@@ -233,6 +234,7 @@ contains
       end if
       call put_events(data, watcher)
       call put_outcome(data, total, now)
+      call put_switched(data, model, total)
       if (request%keep_all /= 0 .and. allocated(now%step_length)) call put_past(data, now)
    end subroutine run
 
@@ -308,76 +310,12 @@ contains
       total%evaluations = total%evaluations + outcome%evaluations
       total%factorisations = total%factorisations + outcome%factorisations
       total%breaking_points = total%breaking_points + outcome%breaking_points
+      if (.not. allocated(outcome%switched)) return
+      if (.not. allocated(total%switched)) then
+         allocate (total%switched(size(outcome%switched)), source=0_c_int64_t)
+      end if
+      total%switched = total%switched + outcome%switched
    end subroutine add
-
-   !> Times and states.
-   subroutine put_samples(data, time, values)
-      type(results_type), intent(inout) :: data
-      real(wp), intent(in) :: time(:), values(:, :)
-      integer :: rows
-
-      rows = data%dimension("t", size(time))
-      call data%column(rows, "t", time, "time")
-      call data%table([data%dimension("state", size(values, 1)), rows], "y", values, "states")
-   end subroutine put_samples
-
-   !> Events.
-   subroutine put_events(data, watcher)
-      type(results_type), intent(inout) :: data
-      type(event_table), intent(in) :: watcher
-      integer :: rows
-
-      if (watcher%received == 0) return
-      rows = data%dimension("event", watcher%received)
-      call data%column(rows, "event_time", watcher%time(:watcher%received)%hi, "time of the event")
-      call data%column(rows, "event_which", watcher%which(:watcher%received), &
-                       "number of the event, from 1")
-      call data%table([data%dimension("state", size(watcher%y, 1)), rows], "event_y", &
-                      watcher%y(:, :watcher%received), "state at the event")
-   end subroutine put_events
-
-   !> What the solver did, and where it ended.
-   subroutine put_outcome(data, outcome, now)
-      type(results_type), intent(inout) :: data
-      type(integration_result), intent(in) :: outcome
-      type(continuation_type), intent(in) :: now
-
-      call data%column(data%dimension("count", 7), "counts", &
-                       [real(wp) :: outcome%reason, outcome%accepted, outcome%rejected, &
-                        outcome%implicit_steps, outcome%evaluations, outcome%factorisations, &
-                        outcome%breaking_points], &
-                       "1 where an event ended the run, steps accepted, rejected and implicit, " &
-                       //"evaluations, factorisations, breaking points")
-      call data%attribute("method_at_end", trim(now%method))
-   end subroutine put_outcome
-
-   !> The past in polynomials, with which another run can begin: dense output.
-   subroutine put_past(data, now)
-      type(results_type), intent(inout) :: data
-      type(continuation_type), intent(in) :: now
-      integer :: kinks, nodes, rows, steps
-
-      rows = data%dimension("dense_pair", 2)
-      kinks = data%dimension("dense_kink", size(now%passages))
-      steps = data%dimension("dense_step", size(now%step_length))
-      nodes = data%dimension("dense_node", size(now%nodes, 1))
-      call data%column(rows, "dense_origin", now%origin, "initial time of the first run")
-      call data%column(rows, "dense_end", now%time, "final time")
-      call data%column(data%dimension("state", size(now%y)), "dense_state", now%y, "final state")
-      call data%table([rows, kinks], "dense_kink_time", now%kink, "where a derivative jumps")
-      call data%column(kinks, "dense_passages", now%passages, "passages through a delay")
-      call data%column(kinks, "dense_generation", now%generation, "passages since the cause")
-      call data%table([rows, steps], "dense_start", now%step_start, "start of the step")
-      call data%column(steps, "dense_length", now%step_length, "length of the step")
-      call data%column(steps, "dense_valid_for", now%valid_for, &
-                       "time for which its polynomial is valid")
-      call data%table([nodes, steps], "dense_nodes", now%nodes, "Newton nodes")
-      call data%table([data%dimension("dense_coefficient", size(now%coefficients, 1) &
-                                      *size(now%kept)), steps], "dense_coefficients", &
-                      reshape(now%coefficients, [size(now%coefficients, 1)*size(now%kept), &
-                                                 size(now%step_length)]), &
-                      "Newton coefficients, state after state")
-   end subroutine put_past
 
    !> Numbers that a caller owns.
    function reals_at(address, length) result(values)

@@ -8,7 +8,7 @@ from difflib import get_close_matches
 import jsonschema
 
 from scripts.config import check_models, si
-from scripts.config.checks import check_blocks, check_samples, place_of, wrong
+from scripts.config.checks import check_blocks, check_samples, check_smooth, place_of, wrong
 from scripts.files.read_config import ConfigError
 from scripts.namelists.laws import history_of, is_law
 from scripts.plans import studies
@@ -148,6 +148,8 @@ def _contradictions_of_scene(config: dict, place: str, scene: dict):
         yield wrong(place, scene, "t_transient", f"a finite number >= 0 and < t_end = {t_end}")
     yield from check_samples(place, scene, scene["blocks"])
     yield from check_blocks(config, place, scene)
+    if wanted:
+        yield from check_smooth(config, f"{place} exponents", scene)
     most = EQUATIONS * scene["blocks"]
     if wanted and delay == 0 and wanted["count"] > most:
         expected = f"a whole number >= 2 and <= {most} without delay"

@@ -12,6 +12,7 @@ from scripts.namelists.laws import (
     is_driven,
     is_law,
     parameters_of,
+    switch_of,
 )
 
 LEAST_LN_V, LARGEST_LN_V = -700.0, 700.0
@@ -80,6 +81,13 @@ def check_not_driven(config: dict, place: str, entry: dict) -> Iterator[str]:
     if is_driven(config, entry["law"]):
         expected = "a model without t in its equations: classes of motion are of these"
         yield f"{place}: model = {entry['law']!r}; expected {expected}"
+    yield from check_smooth(config, place, entry)
+
+
+def check_smooth(config: dict, place: str, entry: dict) -> Iterator[str]:
+    """A model of whose motions there are no exponents, since disturbances jump."""
+    if term := switch_of(config, entry["law"]):
+        yield f"{place}: model = {entry['law']!r}; expected a smooth model, without {term}"
 
 
 def check_histories(place: str, ranges: dict, rules: dict[str, dict] = HISTORY) -> Iterator[str]:

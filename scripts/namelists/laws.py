@@ -6,6 +6,7 @@ An entry of the configuration names its model under `law`, also a model of its u
 import contextlib
 import hashlib
 import json
+import os
 from collections.abc import Mapping
 from functools import cache, reduce
 from pathlib import Path
@@ -80,9 +81,19 @@ def has_rest(config: dict, name: str) -> bool:
 
 def is_driven(config: dict, name: str) -> bool:
     """Whether a model has t in its equations."""
-    return not is_law(config, name) and check_model(
-        f"config models {name}", name, [definition(name, models_of_user(config)[name])]
-    )
+    return _facts(config, name)[0]
+
+
+def switch_of(config: dict, name: str) -> str:
+    """The first term of a model that is not smooth; empty if all are."""
+    return _facts(config, name)[1]
+
+
+def _facts(config: dict, name: str) -> tuple[bool, str]:
+    if is_law(config, name):
+        return False, ""
+    place, own = f"config models {name}", definition(name, models_of_user(config)[name])
+    return check_model(place, name, [own])
 
 
 def names_of_models(config: dict) -> list[str]:
@@ -191,10 +202,10 @@ def spoken(law: str) -> str:
     return law.replace("_", " ")
 
 
-def check_model(place: str, name: str, parts: list[dict]) -> bool:
+def check_model(place: str, name: str, parts: list[dict]) -> tuple[bool, str]:
     """Refuse parts of a definition of which no model can be made; raise ConfigError saying why.
 
-    Otherwise whether the model has t in its equations.
+    Otherwise whether the model has t in its equations, and its first term that is not smooth.
     """
     if name in built_in():
         raise ConfigError(f"{place}: the project has a law of this name; expected another name")
@@ -204,11 +215,11 @@ def check_model(place: str, name: str, parts: list[dict]) -> bool:
             " expected another"
         )
     checked = CHECKED / _digest_of(parts)
-    driven = checked.with_suffix(".driven")
     if checked.exists():
-        return driven.exists()
+        return tuple(json.loads(checked.read_text(encoding="utf-8")))
     # needs SymPy, which takes half a second to load
     from generator.definition import TIME, ModelError, overlaid, read_model
+    from generator.fortran import in_words
     from generator.module import write_module
 
     try:
@@ -218,13 +229,15 @@ def check_model(place: str, name: str, parts: list[dict]) -> bool:
         reason = str(problem).removeprefix(f"model {name}: ")
         raise ConfigError(f"{place}: {reason}") from None
     has_time = any(one.has(TIME) for one in model.equations.values())
+    switches = [in_words(one.text, model.written) for one in model.switches]
+    facts = has_time, next(iter(switches), "")
     # where nothing can be written, the model is checked again
     with contextlib.suppress(OSError):
         CHECKED.mkdir(parents=True, exist_ok=True)
-        if has_time:
-            driven.touch()
-        checked.touch()
-    return has_time
+        unfinished = checked.with_suffix(f".{os.getpid()}")
+        unfinished.write_text(json.dumps(facts), encoding="utf-8")
+        unfinished.replace(checked)
+    return facts
 
 
 def check_users_models(config: dict) -> None:

@@ -45,6 +45,8 @@ contains
          return
       end if
       call read_history(path, model, pack(names, names /= ""), elements(values), history, error)
-      if (.not. allocated(error)) model%past = history%past(model, 1)
+      if (allocated(error)) return
+      ! copies, since it sets these
+      call model%set((model%numbers), history%past(model, 1), (model%keeps_delays))
    end subroutine read_histories
 end module history_input

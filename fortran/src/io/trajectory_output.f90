@@ -187,6 +187,9 @@ contains
       class(trajectory_writer_type), intent(inout) :: self
       type(integration_result), intent(in) :: outcome
       type(error_type), allocatable, intent(out) :: error
+      type(description_type) :: about
+      character(len=:), allocatable :: switches
+      integer :: i
 
       call self%flush()
       associate (file => self%file, scene => self%scene)
@@ -207,6 +210,15 @@ contains
          call file%attribute("steps_implicit", outcome%implicit_steps)
          call file%attribute("evaluations", outcome%evaluations)
          call file%attribute("breaking_points", int(outcome%breaking_points, int64))
+         if (allocated(outcome%switched)) then
+            about = scene%problem%describe()
+            switches = ""
+            do i = 1, size(outcome%switched)
+               if (i > 1) switches = switches//"; "
+               switches = switches//trim(about%switches(i))//": "//text(outcome%switched(i))
+            end do
+            if (switches /= "") call file%attribute("switches", switches)
+         end if
          call file%finish(error)
       end associate
    end subroutine finish

@@ -11,7 +11,8 @@ module attractors
    use dde_errors, only: error_type, raise
    use dde_kinds, only: wp
    use exponent_averages, only: exponent_type, without_sign
-   use lyapunov_spectrum, only: extend_growth, growth_settings_type, growth_type, measure_growth
+   use lyapunov_spectrum, only: expect_smooth, extend_growth, growth_settings_type, growth_type, &
+                                measure_growth
    use model_levels, only: rest_level
    use model_problem, only: model_type
    use motion_classes, only: chaos, contradicted, cycle_motion, fixed_point, leaves_cycle, &
@@ -70,6 +71,8 @@ contains
       type(integration_result) :: outcome
       type(search_type) :: search
 
+      call expect_smooth(model, error)
+      if (allocated(error)) return
       if (model%sizes%driven) then
          call raise(error, "attractors: the model has t in its equations; expected one without")
          return

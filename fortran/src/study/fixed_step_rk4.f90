@@ -48,6 +48,10 @@ contains
       integer :: step, steps
 
       outcome%reason = refused
+      if (problem%switches > 0) then
+         call raise(error, "rk4: the model is not smooth; expected a smooth one")
+         return
+      end if
       steps = max(1, nint(t_end/h))
       grid%h = t_end/steps
       grid%cubic = cubic

@@ -3,8 +3,10 @@
 !> arrays. No type with procedures and no allocatable array crosses, so that the two may come from
 !> different compilers. A digest of this file is the first thing that a program asks of a model.
 !>
-!> A model gives these under the names `model_NAME`, of which all from `relaxation_rate` on may be
-!> missing. Arrays are explained where `model_type` has them.
+!> A model gives these under the names `model_NAME`, of which `switching` and all from
+!> `relaxation_rate` on may be missing. Behind the parameters is, for each value of `switching`, the
+!> side on which the equations are: 1 where it is > 0, else 0. Arrays are explained where
+!> `model_type` has them.
 module model_border
    use, intrinsic :: iso_c_binding, only: c_char, c_int
    use dde_kinds, only: wp
@@ -112,7 +114,7 @@ module model_border
          real(wp), intent(out) :: by_y(rows_y, self%n), by_z(rows_z, self%values)
       end subroutine find_jacobian
 
-      !> Exponents of their exponential terms.
+      !> Exponents of their exponential terms, or `switching`, what is 0 where they are not smooth.
       pure subroutine find_exponents(self, parameters, place, left, right, t, y, z, exponents) &
          bind(c)
          import :: c_int, shape_type, wp

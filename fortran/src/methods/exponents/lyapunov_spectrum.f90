@@ -7,13 +7,15 @@ module lyapunov_spectrum
                   integration_result
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: int64, wp
+   use model_description, only: description_type
+   use model_problem, only: model_type
    use progress_receiver, only: progress_receiver_type
    use tangent_problem, only: tangent_problem_type
    use tangent_vectors, only: orthonormalise, start_vectors
    implicit none (type, external)
    private
-   public :: extend_growth, growth_settings_type, growth_type, interval_observer_type, &
-             measure_growth
+   public :: expect_smooth, extend_growth, growth_settings_type, growth_type, &
+             interval_observer_type, measure_growth
 
    !> Norm of the vectors after orthonormalisation. They need fewer digits than the solution: the
    !> absolute tolerance over this is their relative one.
@@ -143,7 +145,8 @@ contains
       real(wp) :: begun, growth(settings%vectors()), norm(settings%vectors()), share, start
       integer :: i, intervals, turning
 
-      call check(problem, settings, error)
+      call expect_smooth(problem, error)
+      if (.not. allocated(error)) call check(problem, settings, error)
       if (allocated(error)) return
       begun = 0.0_wp
       start = max(settings%interval, settings%t_begin - settings%t_turning)
@@ -322,6 +325,24 @@ contains
          growth = first_half + growth
       end if
    end subroutine pass
+
+   !> Refuse a problem that is not smooth.
+   subroutine expect_smooth(problem, error)
+      class(dde_problem_type), intent(in) :: problem
+      type(error_type), allocatable, intent(out) :: error
+      type(description_type) :: about
+      character(len=:), allocatable :: place
+
+      if (problem%switches == 0) return
+      place = ""
+      select type (problem)
+      class is (model_type)
+         about = problem%describe()
+         place = " at "//trim(about%switches(1))
+      end select
+      call raise(error, "exponents: the model is not smooth"//place//"; expected a smooth one, " &
+                 //"since disturbances jump there")
+   end subroutine expect_smooth
 
    !> Refuse what cannot be measured.
    pure subroutine check(problem, settings, error)
