@@ -28,20 +28,17 @@ module model_problem
       real(wp), allocatable, private :: given(:)
       !> States up to the initial time, shape (n)
       real(wp), allocatable :: past(:)
-      !> Where each delayed state of the definition is among the delayed values of the problem; 0
-      !> where its delay is 0
+      !> Place of each delayed state of the definition among the delayed values; 0: its delay is 0
       integer(c_int), allocatable :: place(:)
       !> Sizes, and the eigenvalue of disturbances of blocks that move alike
       type(shape_type) :: shape
-      !> Neighbours of the blocks of a chain on both sides; 0: the plate, which is at rest. Empty
-      !> for a model that is no chain.
+      !> Neighbours of the blocks of a chain on both sides; 0: the plate, at rest. Empty for others
       integer(c_int), allocatable :: left(:), right(:)
       !> What is beyond the last block of a chain, see `chain_ends`
       character(len=word_length) :: ends = "free"
       !> Whether delays of 0 are delayed values, too
       logical :: keeps_delays = .false.
-      !> Whether thresholds of methods count in units that follow from its motion; otherwise its
-      !> numbers are of order 1
+      !> Whether thresholds count in units of its motion; otherwise its numbers are of order 1
       logical :: own_units = .false.
    contains
       !> What the definition says
@@ -50,9 +47,7 @@ module model_problem
       procedure :: set
       !> Give the model other parameters
       procedure :: put
-      !> Number of a parameter by its name
       procedure :: number_of
-      !> Number of states of a block
       procedure :: states
       !> Whether it has blocks with neighbours
       procedure :: is_chain
@@ -64,6 +59,7 @@ module model_problem
       procedure :: exponents
       procedure :: switching
       procedure :: take_sides
+      procedure :: switch_name
       procedure :: series
       procedure :: tangent_series
       procedure :: relaxation_rate
@@ -117,8 +113,7 @@ contains
       call self%put(parameters)
    end subroutine set
 
-   !> Give a model other parameters; it keeps its past. Where it is not smooth it is on the sides of
-   !> its past.
+   !> Give a model other parameters; it keeps its past, and is on the sides of it.
    pure subroutine put(self, parameters)
       class(model_type), intent(inout) :: self
       !> Parameters, in the order of the definition
@@ -152,8 +147,8 @@ contains
       if (self%is_chain()) then
          call find_band(self%left, self%right, self%sizes%couplings, states, self%shape%delays, &
                         self%shape%reach, self%lower, self%upper, self%rows)
-         self%shape%upper = self%upper
       end if
+      self%shape%upper = self%upper
       do k = 1, self%switches
          ! a side may depend on those before it
          call self%switching(0.0_wp, self%past, self%past(self%component), values)
@@ -267,6 +262,17 @@ contains
 
       self%given(size(self%numbers) + 1:) = merge(1.0_wp, 0.0_wp, above)
    end subroutine take_sides
+
+   !> A term that is not smooth, as it is written.
+   function switch_name(self, number) result(name)
+      class(model_type), intent(in) :: self
+      integer, intent(in) :: number
+      character(len=:), allocatable :: name
+      type(description_type) :: about
+
+      about = self%describe()
+      name = trim(about%switches(number))
+   end function switch_name
 
    !> Taylor coefficients of the solution.
    pure subroutine series(self, t, unit, degree, z, y)

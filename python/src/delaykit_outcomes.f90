@@ -4,7 +4,6 @@ module delaykit_outcomes
    use dde, only: continuation_type, event_table, integration_result
    use dde_errors, only: text
    use dde_kinds, only: wp
-   use model_description, only: description_type
    use model_problem, only: model_type
    use results, only: results_type
    implicit none (type, external)
@@ -59,14 +58,10 @@ contains
       type(results_type), intent(inout) :: data
       type(model_type), intent(in) :: model
       type(integration_result), intent(in) :: outcome
-      type(description_type) :: about
       integer :: i
 
-      if (.not. allocated(outcome%switched)) return
-      about = model%describe()
-      do i = 1, size(outcome%switched)
-         call data%attribute("switched", trim(about%switches(i))//achar(9) &
-                             //text(outcome%switched(i)))
+      do i = 1, model%switches
+         call data%attribute("switched", model%switch_name(i)//achar(9)//text(outcome%switched(i)))
       end do
    end subroutine put_switched
 

@@ -310,10 +310,7 @@ contains
       total%evaluations = total%evaluations + outcome%evaluations
       total%factorisations = total%factorisations + outcome%factorisations
       total%breaking_points = total%breaking_points + outcome%breaking_points
-      if (.not. allocated(outcome%switched)) return
-      if (.not. allocated(total%switched)) then
-         allocate (total%switched(size(outcome%switched)), source=0_c_int64_t)
-      end if
+      if (.not. allocated(total%switched)) total%switched = 0*outcome%switched
       total%switched = total%switched + outcome%switched
    end subroutine add
 

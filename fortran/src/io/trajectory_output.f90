@@ -187,7 +187,6 @@ contains
       class(trajectory_writer_type), intent(inout) :: self
       type(integration_result), intent(in) :: outcome
       type(error_type), allocatable, intent(out) :: error
-      type(description_type) :: about
       character(len=:), allocatable :: switches
       integer :: i
 
@@ -210,15 +209,11 @@ contains
          call file%attribute("steps_implicit", outcome%implicit_steps)
          call file%attribute("evaluations", outcome%evaluations)
          call file%attribute("breaking_points", int(outcome%breaking_points, int64))
-         if (allocated(outcome%switched)) then
-            about = scene%problem%describe()
-            switches = ""
-            do i = 1, size(outcome%switched)
-               if (i > 1) switches = switches//"; "
-               switches = switches//trim(about%switches(i))//": "//text(outcome%switched(i))
-            end do
-            if (switches /= "") call file%attribute("switches", switches)
-         end if
+         switches = ""
+         do i = 1, scene%problem%switches
+            switches = switches//"; "//scene%problem%switch_name(i)//": "//text(outcome%switched(i))
+         end do
+         if (switches /= "") call file%attribute("switches", switches(3:))
          call file%finish(error)
       end associate
    end subroutine finish

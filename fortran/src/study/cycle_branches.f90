@@ -166,7 +166,8 @@ contains
             if (here(j)%kind /= period_doubling) cycle
             call orbit_of_double_period(how%family, here(j), first_amplitude, orbit, tangent, &
                                         failure)
-            call append(1, "period_doubling", here(j)%orbit%parameters(settings%line%along), tangent)
+            call append(1, "period_doubling", here(j)%orbit%parameters(settings%line%along), &
+                        tangent)
          end do
       end do
 

@@ -14,6 +14,7 @@
 !> `switching` and `take_sides`, with the number of switching functions in `switches`.
 module dde_problem
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use dde_errors, only: text
    use dde_kinds, only: wp
    implicit none (type, external)
    private
@@ -62,6 +63,8 @@ module dde_problem
       procedure :: switching => no_switching
       !> Go to other sides of the switching functions
       procedure :: take_sides => no_sides
+      !> What messages call a switching function
+      procedure :: switch_name => name_of_number
       !> Taylor series of the solution
       procedure :: series => no_series
       !> Taylor series of one component before the initial time
@@ -177,6 +180,15 @@ contains
       !> Whether f is that where each function is > 0, shape (switches)
       logical, intent(in) :: above(:)
    end subroutine no_sides
+
+   !> The name of a switching function; its number unless the extension gives one.
+   function name_of_number(self, number) result(name)
+      class(dde_problem_type), intent(in) :: self
+      integer, intent(in) :: number
+      character(len=:), allocatable :: name
+
+      name = "switching("//text(number)//")"
+   end function name_of_number
 
    !> Taylor series of the solution in powers of s = (t' - t)/unit: since dy/ds = unit f,
    !> coefficient k + 1 of y is unit/(k + 1) times coefficient k of f. Not a number unless the

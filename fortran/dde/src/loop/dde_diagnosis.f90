@@ -36,7 +36,7 @@ contains
          culprit = ""
          why = "interrupted"
       case (slides)
-         culprit = "switching("//text(run%sides%slides)//")"
+         culprit = run%context%problem%switch_name(run%sides%slides)
          why = "f pushes the solution back from both sides of the zero of "
       case (out_of_memory)
          culprit = ""

@@ -66,6 +66,7 @@ contains
                         continuation)
          return
       end if
+      allocate (outcome%switched(problem%switches), source=0_int64)
       call check(problem, t_start, t_end, options, error, sampler, watcher, continuation)
       if (allocated(error)) return
       call run%begin(problem, t_start, t_end, options, error, continuation)

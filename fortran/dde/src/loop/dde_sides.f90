@@ -5,6 +5,7 @@
 !> would slide along the zero (Filippov 1988, "Differential Equations with Discontinuous Righthand
 !> Sides", sec. 4): it cannot go on by steps.
 module dde_sides
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use dde_cursor, only: cursor_type
    use dde_event_search, only: event_search
    use dde_events, only: event_watcher_type
@@ -70,16 +71,17 @@ contains
       !> Number of switching functions
       integer, intent(in) :: switches
       real(wp), dimension(switches) :: g, rate
+      integer :: k
 
       allocate (self%above(switches), self%passed(switches), source=.false.)
       allocate (self%changes(switches), source=0_int64)
       if (switches == 0) return
-      call find_rates(context, y, ahead_of_start, g, rate)
-      self%above = g > 0.0_wp
-      call context%problem%take_sides(self%above)
-      call find_rates(context, y, ahead_of_start, g, rate)
-      self%above = self%above .or. .not. abs(g) > 0.0_wp .and. rate > 0.0_wp
-      call context%problem%take_sides(self%above)
+      ! a function may depend on the sides of those before it
+      do k = 0, switches
+         call find_rates(context, y, ahead_of_start, g, rate)
+         self%above = g > 0.0_wp .or. .not. abs(g) > 0.0_wp .and. rate > 0.0_wp
+         call context%problem%take_sides(self%above)
+      end do
    end subroutine begin
 
    !> Find how many places show where the functions pass zero: between these they are near lines.
@@ -197,14 +199,22 @@ contains
       !> The context, there
       type(step_context), intent(inout) :: context
       real(wp), intent(in) :: y(:)
-      real(wp), dimension(size(self%above)) :: g, before, after
-      logical :: back(size(self%above))
+      real(wp), dimension(size(self%above)) :: g, g_before, before, after
+      logical, dimension(size(self%above)) :: back, changed
+      integer :: k
 
-      call find_rates(context, y, ahead, g, before)
-      self%above = self%above .neqv. self%passed
-      self%changes = self%changes + merge(1, 0, self%passed)
-      call context%problem%take_sides(self%above)
-      call find_rates(context, y, ahead, g, after)
+      call find_rates(context, y, ahead, g_before, before)
+      changed = self%passed
+      do k = 1, size(self%above)
+         self%above = self%above .neqv. changed
+         self%changes = self%changes + merge(1, 0, changed)
+         call context%problem%take_sides(self%above)
+         call find_rates(context, y, ahead, g, after)
+         ! a function that depends on a side may jump beyond zero
+         changed = (self%above .neqv. g > 0.0_wp) .and. .not. self%passed &
+                   .and. abs(g - g_before) > 0.0_wp
+         if (.not. any(changed)) exit
+      end do
       associate (on => merge(1.0_wp, -1.0_wp, self%above))
          back = self%passed .and. on*before > 0.0_wp .and. on*after < -least_push*abs(before)
          if (self%idle > size(self%above)) back = self%passed
@@ -245,6 +255,10 @@ contains
          call problem%switching(cursor%inside(cursor%t), y, z(:, 1), g)
          call context%evaluate(cursor%inside(cursor%t), y, z(:, 1), slope)
          call problem%switching(cursor%inside(cursor%t + h), y + h*slope, z(:, 2), rate)
+         where (ieee_is_nan(g) .or. ieee_is_nan(rate))
+            g = 0.0_wp
+            rate = 0.0_wp
+         end where
          rate = (rate - g)/h
       end associate
    end subroutine find_rates
@@ -263,6 +277,7 @@ contains
          call self%step%delayed_at(context%problem, context%past, cursor, place, z)
          call context%problem%switching(cursor%inside(t), y, z(:, 1), g)
       end associate
+      where (ieee_is_nan(g)) g = 0.0_wp
       where ((self%above .neqv. g > 0.0_wp) .and. .not. abs(g) > self%slack)
          g = merge(tiny(g), -tiny(g), self%above)
       end where

@@ -7,8 +7,6 @@ module lyapunov_spectrum
                   integration_result
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: int64, wp
-   use model_description, only: description_type
-   use model_problem, only: model_type
    use progress_receiver, only: progress_receiver_type
    use tangent_problem, only: tangent_problem_type
    use tangent_vectors, only: orthonormalise, start_vectors
@@ -330,18 +328,10 @@ contains
    subroutine expect_smooth(problem, error)
       class(dde_problem_type), intent(in) :: problem
       type(error_type), allocatable, intent(out) :: error
-      type(description_type) :: about
-      character(len=:), allocatable :: place
 
       if (problem%switches == 0) return
-      place = ""
-      select type (problem)
-      class is (model_type)
-         about = problem%describe()
-         place = " at "//trim(about%switches(1))
-      end select
-      call raise(error, "exponents: the model is not smooth"//place//"; expected a smooth one, " &
-                 //"since disturbances jump there")
+      call raise(error, "exponents: the model is not smooth at "//problem%switch_name(1) &
+                 //"; expected a smooth one, since disturbances jump there")
    end subroutine expect_smooth
 
    !> Refuse what cannot be measured.
