@@ -172,6 +172,8 @@ def exponents(
     t_turning: time before t_transient is over in which the vectors turn. interval: longest time
     between two orthonormalisations.
     """
+    if not isinstance(count, int | np.integer):
+        raise ModelError(f"count: {count!r}; expected a whole number >= 1")
     model = model.reduced("jacobian")
     own = Arguments(model, parameters)
     histories = histories_group(own, history)

@@ -36,6 +36,7 @@ KINDS = {
     ),
     "a relay": ({"y": "-y - a*tanh(100*y(t - 1))"}, {"y": 0}),
     "no delay yet": ({"y": "-a*y(t - tau) - y**3"}, {"y": 0}),
+    "not smooth": ({"y": "-a*sign(y(t - 1))"}, None),
     "a long delay": ({"y": "-y - 2*a*tanh(y(t - long))"}, {"y": 0}),
 }
 """Equations, and where they are at rest. Parameters are 1, tau is 0."""
@@ -86,6 +87,7 @@ Y = brentq(lambda y: 2 * math.tanh(y) - y, 1, 3)
 R = brentq(lambda s: s + 1 - 2 / math.cosh(Y) ** 2 * math.exp(-s), -1, 0)
 """The other rest of y = 2 tanh y, and its rightmost root."""
 END = "a singularity?"
+ROUGH = ("exponents", "attractor")
 KNOWN = {
     ("driven", "exponents"): [W, W],
     ("driven", "attractor"): "the model has t in its equations; expected one without",
@@ -119,6 +121,8 @@ KNOWN = {
     ("one state, no delay", "attractor"): [1, -1],
     **{("an end", m): END for m in ("run", "exponents", "attractor", "section", "spectrum")},
     ("a relay", "attractor"): [2, 0],
+    ("not smooth", "run"): [-0.5],
+    **{("not smooth", m): "the model is not smooth at sign(y(t - 1))" for m in ROUGH},
     ("no delay yet", "exponents"): [-1],
     ("no delay yet", "attractor"): [1, -1],
     ("a long delay", "attractor"): [2, 0],

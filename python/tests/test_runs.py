@@ -239,37 +239,6 @@ REFUSED = {
 }
 
 
-NOT_SMOOTH = {
-    "exponents": lambda m: m.exponents(1.0),
-    "attractor": lambda m: m.attractor(1.0),
-    "attractor near": lambda m: m.attractor(1.0, near={"y": 0}),
-    "roots": lambda m: m.roots(near={"y": 0}),
-    "hopf": lambda m: m.hopf(("a", "lag"), ((0, 1), (0, 1)), near={"y": 0}),
-    "cycle": lambda m: m.cycle(m.integrate(1.0, 0.1), "a", (0, 1)),
-}
-
-
-@pytest.mark.parametrize("call", NOT_SMOOTH.values(), ids=NOT_SMOOTH)
-def test_derivatives_of_what_is_not_smooth(call):
-    """Each method names the term."""
-    model = dk.Model({"y": "1 - a*abs(y(t - lag))"}, {"a": 1, "lag": 1})
-    with pytest.raises((dk.ModelError, dk.RunError), match=r"smooth,? at abs\(y\(t - lag\)\)"):
-        call(model)
-
-
-def test_terms_that_are_not_smooth_of_sympy():
-    """On the sides on which a run begins, before it leaves them."""
-    y, p = sympy.symbols("y p", real=True)
-    late = sympy.Function("y")(sympy.Symbol("t") - 1)
-    terms = sympy.Max(y, p, 2) * sympy.Heaviside(y) + sympy.sign(-y) * sympy.Abs(late)
-    low = sympy.And(y < 5, sympy.Or(late > 9, ~(y > 3)))
-    rate = sympy.Piecewise((terms, low), (sympy.log(-y), True))
-    run = dk.Model({"y": rate}, {"p": 1}).integrate(1.0, 0.5)
-    # y' = 2 - 1
-    np.testing.assert_allclose(run.y[0], 1 + run.t, rtol=1e-12)
-    assert set(run.switches.values()) <= {0}
-
-
 @pytest.mark.parametrize(("make", "words"), REFUSED.values(), ids=REFUSED)
 def test_refused(mackey_glass, make, words):
     with pytest.raises(dk.ModelError, match=words):
