@@ -83,6 +83,11 @@ def check_size(config: dict, source: str) -> None:
             ) from None
 
 
+def given(settings) -> dict:
+    """What Snakemake was given by --configfile and --config. It reads files by YAML 1.1 itself."""
+    return merge({}, *map(read, settings.configfiles), dict(settings.config))
+
+
 def merge(config: dict, *overlays: dict) -> dict:
     """A configuration with others merged over it in turn, as Snakemake does it."""
     whole = copy.deepcopy(config)
