@@ -25,8 +25,8 @@ def describe(tables: dict[str, list[dict]]) -> dict:
         "title": f"At $gamma = {short(PAPER)}$, on {span([share['points'] for share in shares])}"
         " points a plane and from one history, whether there is chaos depends on where the delay"
         f" stands, {'not' if decides else 'and'} on the law of friction.",
-        "words": f"All laws have the linear stability of the paper's. {' '.join(words)} A delayed velocity weakens slip only as far as the block was fast one"
-        " delay before: hence cycles.",
+        "words": f"All laws have the linear stability of the paper's. {' '.join(words)} A delayed"
+        " velocity weakens slip only as far as the block was fast one delay before: hence cycles.",
     }
 
 
