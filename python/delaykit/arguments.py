@@ -156,6 +156,8 @@ class Arguments:
         """A message of the solver with names of states in place of numbers of components."""
 
         def name(found: re.Match) -> str:
+            if int(found[2]) > self.n:  # of a tangent vector
+                return found[0]
             block, state = divmod(int(found[2]) - 1, len(self.states))
             words = self.states[state] + "'" * (found[1] == "f(")
             return words + f" of block {1 + self.order[block]}" * (self.model.blocks > 1)

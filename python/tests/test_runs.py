@@ -205,6 +205,12 @@ def test_what_is_not_finite_is_named(slope):
         model.integrate({"a": [1, 2, 901, 1], "b": 1}, 1)
 
 
+def test_methods_name_states():
+    model = dk.Model({"a": "-a", "b": "log(-a)"})
+    with pytest.raises(dk.RunError, match=r"b' is NaN at t = 0.0, where b = 1.0"):
+        model.exponents({"a": 1, "b": 1}, 1, 1, 9)
+
+
 def test_a_ring_of_blocks():
     """A ring has no ends: a pattern moved by one block stays moved by one."""
     ring = dk.Model({"x": "k*second_difference(x) - x(t - 1)"}, {"k": 2}, blocks=5, ends="ring")
