@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from scripts.files.read_config import ConfigError, given, merge, parse, read
+from scripts.files.read_config import ConfigError, merge, parse, read, read_overlay
 from scripts.workflow.plan import read_plan
 
 
@@ -16,7 +16,7 @@ def test_files_of_the_command_line_are_read_by_the_same_rules(tmp_path):
     path = tmp_path / "mine.yaml"
     path.write_text("scenes: { mine: { t_end: 1e4, tau: 010, xi: 1 } }")
     settings = SimpleNamespace(configfiles=[path], config={"scenes": {"mine": {"xi": 2}}})
-    assert given(settings) == {"scenes": {"mine": {"t_end": 1e4, "tau": 10, "xi": 2}}}
+    assert read_overlay(settings) == {"scenes": {"mine": {"t_end": 1e4, "tau": 10, "xi": 2}}}
 
 
 def aliases(times: int) -> bytes:

@@ -83,7 +83,7 @@ def check_size(config: dict, source: str) -> None:
             ) from None
 
 
-def given(settings) -> dict:
+def read_overlay(settings) -> dict:
     """What Snakemake was given by --configfile and --config. It reads files by YAML 1.1 itself."""
     return merge({}, *map(read, settings.configfiles), dict(settings.config))
 
