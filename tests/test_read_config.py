@@ -1,5 +1,6 @@
 """Configuration files are read by YAML 1.2, and what cannot be read is named with its place."""
 
+import json
 import math
 import os
 from pathlib import Path
@@ -17,6 +18,12 @@ def test_files_of_the_command_line_are_read_by_the_same_rules(tmp_path):
     path.write_text("scenes: { mine: { t_end: 1e4, tau: 010, xi: 1 } }")
     settings = SimpleNamespace(configfiles=[path], config={"scenes": {"mine": {"xi": 2}}})
     assert read_overlay(settings) == {"scenes": {"mine": {"t_end": 1e4, "tau": 10, "xi": 2}}}
+
+
+def test_page_of_a_failed_run_gets_every_character(tmp_path):
+    path = tmp_path / "given.json"
+    path.write_text(json.dumps({"failed": "\x1b \U0001f389"}))
+    assert read(path) == {"failed": "\x1b \U0001f389"}
 
 
 def aliases(times: int) -> bytes:
