@@ -13,16 +13,17 @@ folders = [os.path.dirname(sys.executable), os.environ.get("PATH")]
 os.environ.update(PATH=os.pathsep.join(filter(None, folders)))
 sys.path.insert(0, str(workflow.basedir))
 
-from scripts.files.read_config import ConfigError
+from scripts.files.read_config import ConfigError, read_overlay
 from scripts.workflow import manifest, records, run_times
 from scripts.workflow.check_run import problem_of
 from scripts.workflow.failed_run import make_page
 from scripts.workflow.plan import read_plan
 
-given = dict(config)
-# of a run that failed, whose page is to be made: reasons by path, and all that is missing
-failed, unmade = config.pop("failed", {}), config.pop("unmade", [])
 try:
+    given = read_overlay(workflow.config_settings)
+    config = dict(given)
+    # of a run that failed, whose page is to be made: reasons by path, and all that is missing
+    failed, unmade = config.pop("failed", {}), config.pop("unmade", [])
     plan = read_plan(config).without(unmade)
 except ConfigError as problem:
     sys.exit(f"error: {problem}")

@@ -162,7 +162,7 @@ REFUSED = [
     ((*ROUTE, "window"), [0.5, 0.5], "two ascending"),
     ((*ROUTE, "window"), [0.6, 0.5], "two ascending"),
     ((*ROUTE, "window"), [-1.0, 0.5], "> -1.0"),
-    (("hopf_curves", "xi_of_epsilon", "abscissa_window"), [-0.5, 0.0], "> 0"),
+    (("hopf_curves", "xi_of_epsilon", "abscissa_window"), [-0.5, 0.0], "no Hopf point"),
     (("attractors", "histories", "theta"), [-1e308, 1e308], "two ascending numbers"),
     (("atlas", "planes", "xi_05", "ordinate_window"), [-0.1, 5.0], ">= 0.0"),
     # values that contradict others: the range is what the other value leaves
@@ -229,7 +229,11 @@ def test_unknown_keys_are_refused(whole):
 
 
 @pytest.mark.parametrize(
-    ("key", "hint"), [("taus", " (is it meant to be 'tau'?)"), ("colour", ""), (3, ""), (None, "")]
+    ("key", "hint"),
+    [
+        *(("taus", " (is it meant to be 'tau'?)"), ("ksi", " (is it meant to be 'xi'?)")),
+        *(("colour", ""), (3, ""), (None, "")),
+    ],
 )
 def test_unknown_key_may_be_misspelt(config, key, hint):
     config["scenes"]["torus"][key] = 1.0

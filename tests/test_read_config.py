@@ -1,13 +1,29 @@
 """Configuration files are read by YAML 1.2, and what cannot be read is named with its place."""
 
+import json
 import math
 import os
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
-from scripts.files.read_config import ConfigError, merge, parse, read
+from scripts.files.read_config import ConfigError, merge, parse, read, read_overlay
 from scripts.workflow.plan import read_plan
+
+
+def test_files_of_the_command_line_are_read_by_the_same_rules(tmp_path):
+    """Snakemake reads 1e4 as text and 010 as 8; --config is merged over the files."""
+    path = tmp_path / "mine.yaml"
+    path.write_text("scenes: { mine: { t_end: 1e4, tau: 010, xi: 1 } }")
+    settings = SimpleNamespace(configfiles=[path], config={"scenes": {"mine": {"xi": 2}}})
+    assert read_overlay(settings) == {"scenes": {"mine": {"t_end": 1e4, "tau": 10, "xi": 2}}}
+
+
+def test_page_of_a_failed_run_gets_every_character(tmp_path):
+    path = tmp_path / "given.json"
+    path.write_text(json.dumps({"failed": "\x1b \U0001f389"}))
+    assert read(path) == {"failed": "\x1b \U0001f389"}
 
 
 def aliases(times: int) -> bytes:

@@ -90,6 +90,12 @@ class Arguments:
                 raise ModelError(f"{what}: no value for {missing[0]}; expected one for each state")
             each = [number_of(f"{what} of {state}", value[state]) for state in self.states]
             return np.tile(each, self.model.blocks)
+        if isinstance(value, list | tuple) or getattr(value, "ndim", 0):
+            each = self.array(what, value)
+            if len(each) != len(self.states):
+                expected = f"one for each of {', '.join(self.states)}"
+                raise ModelError(f"{what}: {len(each)} numbers; expected {expected}")
+            return np.tile(each, self.model.blocks)
         return np.full(self.n, number_of(what, value))
 
     def component(self, what: str, name: str) -> tuple[int, bool]:
@@ -150,6 +156,8 @@ class Arguments:
         """A message of the solver with names of states in place of numbers of components."""
 
         def name(found: re.Match) -> str:
+            if int(found[2]) > self.n:  # of a tangent vector
+                return found[0]
             block, state = divmod(int(found[2]) - 1, len(self.states))
             words = self.states[state] + "'" * (found[1] == "f(")
             return words + f" of block {1 + self.order[block]}" * (self.model.blocks > 1)
@@ -196,12 +204,16 @@ class Arguments:
         )
 
     def over_time(self, given: Mapping) -> Mapping:
-        """Arrays over time, pairs (times, values) or DataArrays over t, as functions of time."""
+        """Arrays over time, pairs (times, values), Series or DataArrays, as functions of time."""
         found = {}
         for name, value in given.items():
             pair = value
             if hasattr(value, "dims") and value.dims == ("t",):
                 pair = (value.t.values, value.values)
+            elif hasattr(value, "to_numpy") and hasattr(value, "index"):
+                pair = (value.index, value.to_numpy())
+            elif isinstance(value, list) and value and np.iterable(value[0]):
+                pair = tuple(value)
             if isinstance(pair, tuple):
                 if len(pair) != 2:
                     raise ModelError(f"history of {name}: expected a pair (times, values)")

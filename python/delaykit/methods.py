@@ -38,17 +38,19 @@ OF_FILES = ("scene", "name", "parameters")
 SIGNS = ("negative", "zero", "positive", "unclear")
 
 
-def command(model, name: str, groups: Mapping, histories: Mapping | None = None) -> xr.Dataset:
+def command(
+    own: Arguments, name: str, groups: Mapping, histories: Mapping | None = None
+) -> xr.Dataset:
     """Run a command of the library with a namelist of these groups."""
     lists = {"settings": groups} | ({"histories": histories} if histories else {})
     with tempfile.TemporaryDirectory(prefix="delaykit") as folder:
         path = Path(folder, f"{name}.nml")
-        path.with_name(f"{model.definition['name']}.so").symlink_to(model.path)
+        path.with_name(f"{own.model.definition['name']}.so").symlink_to(own.model.path)
         f90nml.Namelist(lists).write(path)
         try:
             found = call(LIBRARY.dk_command, name.encode(), str(path).encode())
         except RunError as problem:
-            text = str(problem).replace(f"{path}: ", "")
+            text = own.in_names(str(problem).replace(f"{path}: ", ""))
             raise type(problem)(text, problem.partial) from None
     return dataset_of(found)
 
@@ -190,7 +192,7 @@ def exponents(
         },
         "exponents": {"count": count, "t_end": t_end, "batches": batches, **known},
     }
-    found = command(model, "exponents", groups, histories).isel(run=0)
+    found = command(own, "exponents", groups, histories).isel(run=0)
     signs = [SIGNS[1 + int(sign)] for sign in found.sign]
     found = found.drop_vars(["tolerance", "longest_step", "mean_step", "sign"]).rename(
         dimension="kaplan_yorke",
@@ -239,7 +241,7 @@ def attractor(
         },
         "solver": {"method": method, "tolerance": rtol, "most_steps": max_steps},
     }
-    found = command(model, "attractors", groups, histories).isel(point=0)
+    found = command(own, "attractors", groups, histories).isel(point=0)
     if problem := str(found.problem.item()):
         raise RunError(problem, found)
     return found
@@ -249,7 +251,7 @@ def roots(model, bound=-1.0, *, parameters=None, near=None) -> np.ndarray:
     """Characteristic roots at rest with a real part above the bound, the rightmost first."""
     own = Arguments(model.resting(near), parameters)
     groups = {"linear_stability": {"model": model_group(own), "root_bound": bound}}
-    found = command(own.model, "linear_stability", groups)
+    found = command(own, "linear_stability", groups)
     return found.root_real.values + 1j * found.root_imag.values
 
 
@@ -277,7 +279,7 @@ def hopf(model, along, window, *, parameters=None, near=None, cells=40) -> xr.Da
             "model": model_group(own, but=along),
         }
     }
-    return command(model, "hopf", groups)
+    return command(own, "hopf", groups)
 
 
 def cycle(
@@ -327,4 +329,4 @@ def cycle(
             "curves_along": list(curves),
             "curves_windows": list(np.ravel([*curves.values()])),
         }
-    return command(model, "cycles", {"cycles": group}, histories)
+    return command(own, "cycles", {"cycles": group}, histories)

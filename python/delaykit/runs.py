@@ -93,13 +93,15 @@ def integrate(
     """Integrate a model from t_start to t_end.
 
     history: before t_start, of each state or auxiliary a number or a function of t, as a dict (of
-        a model with one state without it); arrays over time as an xarray.Dataset or a dict of
-        pairs (times, values); or an earlier run with dense output, which goes on.
+        a model with one state without it); arrays over time as an xarray.Dataset, or a dict of
+        pairs (times, values) or pandas Series; or an earlier run with dense output, which goes on.
     initial: the state at t_start where it differs from the history (a jump).
     t_eval: times of the samples; otherwise they follow the steps, `samples_per_step` in each.
-    rtol, atol: tolerances of a step, numbers or a dict by state. Without atol it is 1e-6 rtol, but
-        at least 2e-14, times the largest value of each state so far: units do not matter.
-    events: texts such as "y = 1 rising" or "y' = 0 falling stop", or Event.
+    rtol, atol: tolerances of a step: numbers, or by state a dict or an array. Without atol it is
+        1e-6 rtol, but at least 2e-14, times the largest value of each state so far: units do not
+        matter.
+    events: texts such as "y = 1 rising" or "y' = 0 falling stop", or Event. A level that the state
+        has at t_start, or that a dose crosses, is no event.
     breaks: times at which the equations or the history jump.
     doses: pairs (time, {state: change}).
     max_bytes: most memory of the past; stiff runs with explicit steps fill it, and dense output.

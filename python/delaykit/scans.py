@@ -79,7 +79,7 @@ def scan(
         for key in list(options)
         if key in model.definition["parameters"]
     }
-    known = {*signature(integrate).parameters, "state", "t_transient"} - {"model"}
+    known = [*list(signature(integrate).parameters)[1:], "state", "t_transient"]
     for key in options:
         check_name("option", key, [*model.definition["parameters"], *known])
     if not arrays:

@@ -16,6 +16,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import delaykit as dk
 import numpy as np
+import pandas
 import pytest
 import sympy
 from scipy.integrate import quad
@@ -77,6 +78,22 @@ def test_a_history_in_an_array(sine):
     times = np.linspace(-2, 0, 400)
     run = sine.integrate((times, np.sin(times)), 10, t_eval=[5, 10], rtol=1e-7, atol=1e-7)
     np.testing.assert_allclose(run.y[0], np.sin([5, 10]), atol=1e-5)
+
+
+@pytest.mark.parametrize("kind", [tuple, list, lambda pair: pandas.Series(pair[1], pair[0])])
+def test_a_history_in_lists_or_a_series(sine, kind):
+    history = {"y": kind([[-2, -1, 0], [1, 1, 1]])}
+    found, expected = (sine.integrate(one, 3, t_eval=[3]).y for one in (history, 1))
+    np.testing.assert_allclose(found, expected, rtol=1e-9)
+
+
+def test_tolerances_in_an_array(sine):
+    assert sine.integrate(1, 1, atol=np.array([1e-7])).options["atol"] == [1e-7]
+
+
+def test_a_level_at_the_start_or_crossed_by_a_dose_is_no_event():
+    run = dk.Model({"y": "-y"}).integrate(1, 2, events=["y = 1", "y = 0.5"], doses=[(1, {"y": 1})])
+    assert [len(times) for times in run.t_events] == [1, 1]
 
 
 def test_a_function_without_delays():
@@ -188,6 +205,12 @@ def test_what_is_not_finite_is_named(slope):
         model.integrate({"a": [1, 2, 901, 1], "b": 1}, 1)
 
 
+def test_methods_name_states():
+    model = dk.Model({"a": "-a", "b": "log(-a)"})
+    with pytest.raises(dk.RunError, match=r"b' is NaN at t = 0.0, where b = 1.0"):
+        model.exponents({"a": 1, "b": 1}, 1, 1, 9)
+
+
 def test_a_ring_of_blocks():
     """A ring has no ends: a pattern moved by one block stays moved by one."""
     ring = dk.Model({"x": "k*second_difference(x) - x(t - 1)"}, {"k": 2}, blocks=5, ends="ring")
@@ -230,6 +253,7 @@ REFUSED = {
     ),
     "after the end": (lambda m: dense(m, 1.2, 1).sol([0, 2]), "t = 2.0; expected -inf <= t <= 1"),
     "dose": (lambda m: m.run(1, 1, doses=[(2, {"y": 1})]), "time of a dose"),
+    "tolerances": (lambda m: m.run(1, 1, atol=[1, 1]), "atol: 2 numbers; expected one"),
     "tolerance": (lambda m: m.run(1, 1, rtol={"y": 1, "z": 1}), "rtol of the state 'z'"),
     "equation": (lambda m: dk.Model({"y": "y(t -"}).run(1, 1), "equation of y"),
     "function": (lambda m: dk.Model({"y": "eval(y)"}).run(1, 1), "one of exp"),

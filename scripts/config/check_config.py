@@ -82,7 +82,9 @@ def in_words(error: jsonschema.ValidationError) -> str:
     if error.validator == "additionalProperties" and isinstance(error.instance, dict):
         known = list(error.schema.get("properties", {}))
         unknown = sorted(set(error.instance) - set(known), key=str)
-        meant = {near for key in unknown for near in get_close_matches(str(key), known, n=1)}
+        # xi is written ksi, too
+        spelt = [str(key).replace("ksi", "xi") for key in unknown]
+        meant = {near for key in spelt for near in get_close_matches(key, known, n=1)}
         hint = f" (is it meant to be {' and '.join(map(repr, sorted(meant)))}?)" if meant else ""
         return f"{place_of(path)}: unknown key {unknown}; allowed: {', '.join(known)}{hint}"
     if error.validator == "required":

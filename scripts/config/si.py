@@ -8,11 +8,18 @@ import math
 import re
 from collections.abc import Iterator
 
+from snakemake.logging import logger
+
 UNITS = {"a": "", "b": "", "sigma": "Pa", "D_c": "m", "v0": "m/s", "k": "Pa/m", "M": "kg/m^2"}
 OF_SLAB = {"G": "Pa", "W": "m", "rho": "kg/m^3"}
 """Units of what stands under `si`; those of a slab in place of k and M."""
 LEAST, MOST = 1e-30, 1e30
 """Bounds of these numbers, so that their products are neither zero nor infinite."""
+USUAL = {
+    **{"a": (1e-4, 1), "b": (1e-4, 1), "sigma": (1e3, 1e10), "D_c": (1e-8, 100), "v0": (1e-13, 10)},
+    **{"k": (1e2, 1e15), "M": (1e-3, 1e10), "G": (1e3, 1e12), "W": (1e-4, 1e6), "rho": (1e2, 1e5)},
+}
+"""Wide ranges of faults and laboratories: what is outside is likely an error, as mPa for MPa."""
 SCALED = {
     **dict.fromkeys(("tau", "t_end", "t_transient", "sample_interval"), "s"),
     **{"theta": "Pa", "u": "m", "v": "m/s"},
@@ -96,6 +103,8 @@ def fill_in_parameters(config: dict, texts: list[tuple[str, str, str]]) -> Itera
         if problems := list(_problems(f"{place} si", scene["si"])):
             yield from problems
             continue
+        for line in doubts(place, scene):
+            logger.warning(line)
         values = in_si(scene["si"])
         for key, value in parameters_of(values).items():
             if (given := scene.setdefault(key, value)) != value:
@@ -111,6 +120,19 @@ def fill_in_parameters(config: dict, texts: list[tuple[str, str, str]]) -> Itera
                     if math.isnan(part[key]):
                         expected = f"a finite number, alone or with a unit such as {SCALED[key]}"
                         yield f"{where}: {key} = {text!r}; expected {expected}"
+
+
+def doubts(place: str, scene: dict) -> Iterator[str]:
+    """What may be meant otherwise in a scene in SI, with its value in SI."""
+    for key, value in _read(scene["si"]).items():
+        least, most = USUAL[key]
+        if not least <= value <= most:
+            unit, met = (UNITS | OF_SLAB)[key], scene["si"][key]
+            words = f"faults and laboratories have {least:g} to {most:g} {unit}".strip()
+            yield f"{place} si: {key} = {met!r} is {f'{value:g} {unit}'.strip()}; {words}"
+    if isinstance(tau := scene.get("tau"), int | float) and tau > 0:
+        seconds = tau * units_of(in_si(scene["si"]))["s"]
+        yield f"{place}: tau = {tau} has no unit: it is {tau} D_c/v0 = {seconds:g} s"
 
 
 def _problems(place: str, si) -> Iterator[str]:

@@ -128,8 +128,10 @@ def end_in_words(v: xr.DataArray, motion: dict) -> str:
         far = short(abs(v - 1).max(), 2)
         return f"at the end v is {far} or less from steady sliding, :math:`v = 1`"
     least, most = (short(motion.get(f"{end}_maximum", math.nan)) for end in ("smallest", "largest"))
-    if most == "nan":
-        return f"at the end {name} is between {short(v.min())} and {short(v.max())}"
+    # at rest the maxima are of the transient
+    if most == "nan" or motion["class"] == "fixed point":
+        least, most = short(v.min()), short(v.max())
+        return f"at the end {name} is {most if least == most else f'between {least} and {most}'}"
     words = f"maxima of {name} are {most if least == most else f'between {least} and {most}'}"
     frequency = motion.get("f1", math.nan)
     if motion["class"] == "cycle" and not math.isnan(frequency):

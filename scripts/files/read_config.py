@@ -1,6 +1,7 @@
 """Read configuration files by the rules of YAML 1.2, in which 1e-9 is a number and 010 is ten."""
 
 import copy
+import json
 from pathlib import Path
 
 from ruamel.yaml import YAML
@@ -40,6 +41,9 @@ def read(path: str | Path) -> dict:
 def parse(text: str, source: str = "text"):
     """The value that a text stands for; raise ConfigError naming its source and the line."""
     try:
+        # YAML takes the two halves of a rare character for two characters
+        if source.endswith(".json"):
+            return json.loads(text)
         return YAML(typ="safe", pure=True).load(text)
     except RecursionError:
         raise ConfigError(f"{source}: nested too deep; expected {DEEPEST} levels at most") from None
@@ -81,6 +85,11 @@ def check_size(config: dict, source: str) -> None:
                 f"{source}: {key}: too large or an alias of itself; expected at most {MOST_VALUES} "
                 f"values, with aliases written out, and {DEEPEST} levels"
             ) from None
+
+
+def read_overlay(settings) -> dict:
+    """What Snakemake was given by --configfile and --config. It reads files by YAML 1.1 itself."""
+    return merge({}, *map(read, settings.configfiles), dict(settings.config))
 
 
 def merge(config: dict, *overlays: dict) -> dict:

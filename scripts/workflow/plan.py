@@ -67,10 +67,11 @@ class Plan:
         lines = []
         if self.claims and ledger.exists():
             claims = json.loads(ledger.read_text())
-            for ours, kind in ((False, "claims"), (True, "questions of ours")):
+            for ours, whose in ((False, ""), (True, " of ours")):
                 these = [claim["verdict"] for claim in claims if (claim["whose"] == OURS) == ours]
                 words = ", ".join(f"{n} {verdict}" for verdict, n in Counter(these).most_common())
-                lines += [f"{len(these)} {kind}: {words}"] * bool(these)
+                what = ("question" if ours else "claim") + "s" * (len(these) != 1) + whose
+                lines += [f"{len(these)} {what}: {words}"] * bool(these)
             lines.append(f"see {ledger.with_suffix('.tsv')}")
         lines += [f"open {page}"] * page.exists()
         return "\n".join(lines)

@@ -28,7 +28,8 @@ def describe(tables: dict[str, list[dict]]) -> dict:
     bound = 10.0 ** math.ceil(math.log10(max(fault["depth"], stiffest)))
     return {
         "title": "At the $gamma$ of real faults the interval of $epsilon$ in which a delay makes"
-        f" stable sliding unstable is narrower than {bound:.0e}.",
+        f" stable sliding unstable is at most {short(fault['depth'], 2)} wide for $xi ="
+        f" {short(fault['xi'])}$, and narrower than {bound:.0e} up to $xi = {short(STIFFEST)}$.",
         "words": f"Without delay steady sliding becomes unstable at"
         f" $epsilon = {short(paper['without_delay'])}$ for $xi = {short(paper['xi'])}$ and"
         f" $gamma = {short(paper['gamma'])}$. Delays lower this least $epsilon$ by"

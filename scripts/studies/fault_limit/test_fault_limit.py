@@ -113,7 +113,7 @@ def test_finding_has_the_numbers_of_the_tables():
     }
     found = describe(tables)
     # 10^3 (1 + 10)/(2 10^16) = 5.5e-13
-    assert found["title"].endswith("narrower than 1e-12.")
+    assert found["title"].endswith("wide for $xi = 0.5$, and narrower than 1e-12 up to $xi = 10$.")
     for words in ("$epsilon = 0.25$ for $xi = 0.5$", "by 0.048.", "9.3e-18 for", "5.5e-13 for"):
         assert words in found["words"]
     assert "Along the Hopf curves of 2 planes" in found["words"]

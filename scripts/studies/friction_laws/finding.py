@@ -22,12 +22,11 @@ def describe(tables: dict[str, list[dict]]) -> dict:
         for gamma, of in counts.items()
     ]
     return {
-        "title": f"At $gamma = {short(PAPER)}$ whether there is chaos depends on where the delay"
+        "title": f"At $gamma = {short(PAPER)}$, on {span([share['points'] for share in shares])}"
+        " points a plane and from one history, whether there is chaos depends on where the delay"
         f" stands, {'not' if decides else 'and'} on the law of friction.",
-        "words": f"All laws have the linear stability of the paper's. Planes have"
-        f" {span([share['points'] for share in shares])} points, each with one history."
-        f" {' '.join(words)} A delayed velocity weakens slip only as far as the block was fast one"
-        " delay before: hence cycles.",
+        "words": f"All laws have the linear stability of the paper's. {' '.join(words)} A delayed"
+        " velocity weakens slip only as far as the block was fast one delay before: hence cycles.",
     }
 
 

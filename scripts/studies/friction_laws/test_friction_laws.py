@@ -15,5 +15,6 @@ def test_finding_follows_the_table(holds):
     }
     rows = [{**plane, "law": law, "class": kind} for law, kind in laws.items()]
     found = describe({"friction_laws": rows})
+    assert "points a plane and from one history, whether" in found["title"]
     assert ("not on the law of friction" in found["title"]) is holds
     assert f"points if the delay stands in the logarithm, and {1 - holds} if" in found["words"]

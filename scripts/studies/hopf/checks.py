@@ -13,4 +13,5 @@ def contradictions(config: dict) -> Iterator[str]:
         yield from check_rest(config, place, plane)
         # below epsilon = 0 steady sliding of the block is stable
         if plane["abscissa"] == "epsilon" and plane["abscissa_window"][1] <= 0:
-            yield wrong(place, plane, "abscissa_window", "an end > 0")
+            expected = "an end > 0: up to epsilon = 0 there is no Hopf point"
+            yield wrong(place, plane, "abscissa_window", expected)

@@ -24,6 +24,7 @@ from made_up_results import (
 from scripts.drawing.write_captions import render
 from scripts.namelists.laws import PAPER
 from scripts.namelists.parameters import HISTORY
+from scripts.page.captions import as_html
 from scripts.plans import studies
 from scripts.studies.routes import figure, plan
 from scripts.studies.routes.claims import (
@@ -240,6 +241,16 @@ def test_caption_of_a_route():
     assert "15 points. In runs near and up each class first appears at this value" in words
     assert "maxima of v on the attractor." in words
     assert "motions at 2 of 5 values of :math:`\\tau`: 0.3 and 0.5." in words
+
+
+def test_letters_of_routes_are_no_numbers_of_a_list(tmp_path):
+    """The table of the paper's routes: a letter in brackets begins a list in reStructuredText."""
+    run = survey_run(["cycle", "chaos"], epsilon=[0.1, 0.2], period=[1, 0])
+    given = figure.numbers([route_rows_of(Path("mine/own.nc"), run)], [run])
+    text = (studies.FOLDER / "routes" / "caption.rst").read_text()
+    path = tmp_path / "routes.rst"
+    path.write_text(render(text, None, paper=True, **given))
+    assert "<p>(a)</p>" in as_html(path)
 
 
 def test_caption_of_a_route_of_a_model_that_is_not_the_block():

@@ -265,7 +265,10 @@ def motion_in_words(row: dict) -> str:
     if has_problem(row):
         return f"without a class ({row['problem']}): (d) and (e) are empty"
     if row["class"] == UNDECIDED:
-        return f"of no class that can be decided ({row['reason']})"
+        others = "theta or u" if is_of_block(row) else "another state"
+        hint = f": the history disturbs too little, disturb {others}"
+        words = row["reason"] + hint * (row["reason"] == "unstable rest")
+        return f"of no class that can be decided ({words})"
     if row["class"] == "chaos":
         return "chaotic"
     several = f" with {row['period']:g} points in its section"

@@ -52,6 +52,12 @@ def test_run_without_a_class_has_no_hint():
     assert scene.unsettled(run_with(1.1), row_of("undecided", largest_maximum=math.nan)) == ""
 
 
+def test_rest_that_is_not_disturbed_is_said():
+    """By v alone, which follows theta and u at once at large gamma."""
+    words = scene.motion_in_words(row_of("undecided", reason="unstable rest", problem=""))
+    assert "the history disturbs too little, disturb theta or u" in words
+
+
 @pytest.mark.parametrize(
     ("motion", "kind", "bin_width", "words"),
     [

@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 from scripts.config.check_config import checked
-from scripts.config.si import in_si, parameters_of
+from scripts.config.si import doubts, in_si, parameters_of
 from scripts.files.read_config import ConfigError
 from scripts.studies.si.events_table import columns_of
 from scripts.studies.si.table import row_of
@@ -82,6 +82,22 @@ def test_scene_is_refused(config, changes, words):
     assert words in line
 
 
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({}, None),
+        ({"tau": 2.2}, "scene 'mine': tau = 2.2 has no unit: it is 2.2 D_c/v0 = 2.2e+07 s"),
+        (
+            {"si": SI | {"sigma": "50 mPa"}},
+            "scene 'mine' si: sigma = '50 mPa' is 0.05 Pa; faults and laboratories have 1000 to",
+        ),
+    ],
+)
+def test_what_may_be_meant_otherwise_is_said(changes, words):
+    lines = list(doubts("scene 'mine'", SCENE | changes))
+    assert [line.startswith(words or "none") for line in lines] == [True] * (words is not None)
+
+
 def test_table_of_a_clock():
     """A mass of 1 kg on 4 pi^2 N/m swings once a second; 7 L/v0 of 3 s are 21 s."""
     si = {"a": 1, "b": 3, "sigma": "1 Pa", "D_c": "6 m", "v0": "2 m/s", "M": "1 kg/m^2"}
@@ -95,6 +111,9 @@ def test_table_of_a_clock():
 def test_stress_drops_by_what_the_plate_does_not_make_up_for():
     """5 cm in 2e7 s are 3 cm more than the plate goes, at 30 MPa/m."""
     event = {"onset": 1.0, "duration": 2.0, "slip": 5.0, "peak_velocity": 30.0}
-    events = xr.Dataset({name: ("event", [value]) for name, value in event.items()})
+    # the second is rounding at rest
+    rest = {**event, "peak_velocity": 1 + 1e-9}
+    events = xr.Dataset({name: ("event", [event[name], rest[name]]) for name in event})
+    assert {len(column) for column in columns_of(events, SI).values()} == {1}
     found = [float(column[0]) for column in columns_of(events, SI).values()]
     assert found == pytest.approx([1e7, 2e7, 0.05, 3e-8, 9e5])
