@@ -56,7 +56,7 @@ def draw(table: list[dict], others: list[dict], date: str) -> Figure:
         axes.remove()
     drawn = [row for row in (*table, *others) if row["error_max"] >= 0 and row["seconds"] > 0]
     runs = rows_by(drawn, "scene", "solver")
-    for axes, scene in zip(grid.flat, scenes, strict=False):
+    for i, (axes, scene) in enumerate(zip(grid.flat, scenes, strict=False)):
         for solver, style in styles.items():
             shown = runs.get((scene, solver), [])
             axes.plot(
@@ -66,7 +66,8 @@ def draw(table: list[dict], others: list[dict], date: str) -> Figure:
                 **style,
                 label=solver.replace("_", " "),
             )
-        axes.set_title(f"{scene.replace('_', ' ')}, $t$ up to {until[scene]:g}")
+        words = f"{scene.replace('_', ' ')}, $t$ up to {until[scene]:g}"
+        axes.set_title(f"$\\bf{{{'abcdefgh'[i % 8]}}}$  {words}" if len(scenes) > 1 else words)
         axes.set(xscale="log", yscale="log")
     for axes in grid[:, 0]:
         axes.set_ylabel("largest error")
