@@ -18,10 +18,10 @@ def mark_scenes(axes: Axes, scenes: dict[str, dict], place: dict, along: str) ->
     """
     first, last = axes.get_xlim()
     letter = LETTER / (72 * axes.figure.get_figwidth() * axes.get_position().width)
-    known = {name: one for name, one in scenes.items() if along in one}
+    known = {name: one for name, one in scenes.items() if first <= one.get(along, np.nan) <= last}
     there = [(one[along], name) for name, one in known.items() if is_on(one, place, along)]
     taken = first
-    for x, name in sorted(pair for pair in there if first <= pair[0] <= last):
+    for x, name in sorted(there):
         width = letter * len(name) * (last - first)
         is_left = x - width >= taken
         taken = x if is_left else x + width

@@ -47,17 +47,13 @@ def columns_of(panels: int, height: float) -> int:
 
 def move_offsets(figure: Figure) -> bool:
     """Factor and offset of an axis into its label, once drawn: else they lie over it or a title."""
-    found = [
-        (axis, offset)
-        for axes in figure.axes
-        for axis in (axes.xaxis, axes.yaxis)
-        if (offset := axis.get_offset_text()).get_text() and offset.get_visible()
-    ]
-    for axis, offset in found:
+    each = [axis for axes in figure.axes for axis in (axes.xaxis, axes.yaxis)]
+    found = [axis for axis in each if axis.offsetText.get_visible() and axis.offsetText.get_text()]
+    for axis in found:
         # other ticks could have another factor
         axis.set_major_locator(FixedLocator(axis.get_majorticklocs()))
-        axis.label.set_text(f"{axis.label.get_text()}\n({offset.get_text()})".strip())
-        offset.set_visible(False)
+        axis.label.set_text(f"{axis.label.get_text()}\n({axis.offsetText.get_text()})".strip())
+        axis.offsetText.set_visible(False)
     return bool(found)
 
 

@@ -22,8 +22,7 @@ from scripts.tables.motion_rows import UNDECIDED, count_in_words, has_problem, p
 HEIGHT, OF_RUN = 2.1, 0.12
 """Of a route without its strips, and of each strip, in inches."""
 COLOURS = ("C6", "C2", "C3", "C7", "C5", "#d0609a", "0.5", "C4")
-MARKS = ("o", "s", "D", "^", "v", "p", "h")
-"""Of runs, which thus differ; no colour is that of a class."""
+"""Of runs; no colour is that of a class."""
 SWEEPS = {"up": "-", "down": "--"}
 """Lines through the largest maxima of sweeps: where they part there is hysteresis."""
 DOTS = (3.2, 1.4)
@@ -53,22 +52,20 @@ def draw(tables: list[list[dict]], runs: list[xr.Dataset], scenes: dict[str, dic
     )
     for axes in grid[3 * (len(tables) // columns) :, len(tables) % columns :].flat:
         axes.remove()
-    looks: dict[str, dict] = {}
+    colours: dict[str, str] = {}
     for i, (rows, by_run) in enumerate(zip(tables, routes, strict=True)):
         along = parameter_of(rows)
         line, column = divmod(i, columns)
         above, middle, below = grid[3 * line : 3 * line + 3, column]
         sizes = np.linspace(*DOTS, len(by_run))
         for (run, of_run), size in zip(by_run.items(), sizes, strict=True):
-            look = looks.setdefault(run, look_of(run, len(looks)))
-            style = {**look, "ms": size, "mew": 0, "ls": ""}
+            colour = colours.setdefault(run, COLOURS[len(colours) % len(COLOURS)])
+            style = {"color": colour, "ms": size, "mew": 0}
             data = next(following)
-            draw_maxima(above, data, of_run, along, style)
-            if run in SWEEPS:
-                draw_largest(above, of_run, along, look)
+            draw_maxima(above, data, of_run, along, SWEEPS.get(run, ""), style)
             keys = (along, "exponent_1", "error_1")
             exponents = ([row[key] for row in of_run] for key in keys)
-            below.errorbar(*exponents, elinewidth=0.5, **style)
+            below.errorbar(*exponents, fmt="o", lw=0.5, **style)
         draw_strips(middle, by_run, along)
         meaning = data[along].attrs.get("long_name", "") if along in data else ""
         label(above, middle, below, parameters.axis_of(along, meaning, rows[0]))
@@ -78,7 +75,10 @@ def draw(tables: list[list[dict]], runs: list[xr.Dataset], scenes: dict[str, dic
         words = f"{parameters.in_words(rows[0], along)}{between}{count_in_words(rows)}"
         letter = f"$\\bf{{{'abcdefgh'[i % 8]}}}$  " if len(tables) > 1 else ""
         above.set_title(f"{letter}{words}")
-    dots = [Line2D([], [], ms=3, lw=0.6, label=run, **look) for run, look in looks.items()]
+    dots = [
+        Line2D([], [], ls=SWEEPS.get(run, ""), lw=0.6, marker="o", ms=3, color=colour, label=run)
+        for run, colour in colours.items()
+    ]
     all_rows = [row for rows in tables for row in rows]
     figure.legend(handles=dots + legend_of(all_rows), loc="outside lower center", ncols=5)
     return figure
@@ -105,32 +105,23 @@ def label(above: Axes, strips: Axes, below: Axes, abscissa: str) -> None:
     below.set(xlabel=abscissa, ylabel="exponent\n$\\lambda_1$")
 
 
-def draw_maxima(axes: Axes, run: xr.Dataset, rows: list[dict], along: str, style: dict) -> None:
-    """A dot for each maximum kept, and at v = 1 for steady sliding, whose maxima are transient."""
+def draw_maxima(
+    axes: Axes, run: xr.Dataset, rows: list[dict], along: str, line: str, style: dict
+) -> None:
+    """A dot for each maximum kept, and at v = 1 for steady sliding, whose maxima are transient.
+
+    A kind of line joins the largest.
+    """
     there = np.array([row["class"] != "fixed point" for row in rows])
     places, maxima = maxima_of(run.isel(point=there), along)
     rests = [row for row in rows if row["class"] == "fixed point" and is_of_block(row)]
     rest = [row[along] for row in rests]
-    axes.plot(
-        np.append(places, rest),
-        np.append(maxima, np.ones(len(rest))),
-        rasterized=True,
-        **style,
-    )
-
-
-def look_of(run: str, number: int) -> dict:
-    """Colour and marker of a run by its number, and the line of a sweep."""
-    colour, mark = COLOURS[number % len(COLOURS)], MARKS[number % len(MARKS)]
-    return {"color": colour, "marker": mark, "ls": SWEEPS.get(run, "")}
-
-
-def draw_largest(axes: Axes, rows: list[dict], along: str, look: dict) -> None:
-    """A line through the largest maxima of a sweep, of steady sliding at v = 1."""
-    rests = {"fixed point": 1.0 if is_of_block(rows[0]) else np.nan}
-    ordered = sorted(rows, key=lambda row: row[along])
-    top = [rests.get(row["class"], row["largest_maximum"]) for row in ordered]
-    axes.plot([row[along] for row in ordered], top, **look, ms=0, lw=0.6)
+    x, y = np.append(places, rest), np.append(maxima, np.ones(len(rest)))
+    axes.plot(x, y, "o", rasterized=True, **style)
+    if line:
+        each = np.unique(x)
+        top = [y[x == place].max() for place in each]
+        axes.plot(each, top, color=style["color"], ls=line, lw=0.6)
 
 
 def numbers(tables: list[list[dict]], runs: list[xr.Dataset]) -> dict:
