@@ -5,6 +5,8 @@ import re
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
+from scripts.drawing.style import PAGE
+
 
 def words_in(figure: Figure) -> str:
     return "\n".join(text.get_text() for text in figure.findobj(Text))
@@ -31,12 +33,11 @@ LEAST_SIZE, LARGEST_SIZE = 7, 12
 
 
 def assert_on_page(figure: Figure) -> None:
-    """At printed size it is as wide as a text of two columns at most, nothing is cut off, and all
-    words can be read.
-    """
+    """At printed size it is on one page, nothing is cut off, and all words can be read."""
     figure.canvas.draw()
     box, (width, height) = figure.get_tightbbox(), figure.get_size_inches()
-    assert width <= 7.0
+    assert width <= PAGE[0]
+    assert height <= PAGE[1]
     assert min(box.x0, box.y0) >= -0.02
     assert box.x1 <= width + 0.02
     assert box.y1 <= height + 0.02

@@ -84,7 +84,7 @@ def test_page_is_as_wide_as_the_window(seen):
 
 
 def test_page_is_accessible(seen):
-    """By the rules of axe, contrast among them."""
+    """By the rules of axe, contrast among them, in the light and in the dark."""
     assert seen["axe"] == []
 
 

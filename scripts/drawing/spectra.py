@@ -29,7 +29,7 @@ def label_peaks(axes: Axes, spectrum: xr.Dataset, frequency_shown: float, letter
         lines = [name_of(peak)] if named else []
         lines.append(f"{place[0]:.4f}")
         half = 0.5 * letter * frequency_shown * max(map(characters, lines))
-        centre = max(place[0], half)
+        centre = min(max(place[0], half), frequency_shown - half)
         if any(abs(centre - other) < half + its_half for other, its_half in taken):
             taken.append((place[0], 0.0))
             continue

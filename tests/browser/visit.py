@@ -167,6 +167,9 @@ def visit(chrome: Chrome, page: Path) -> dict:
         emulate(chrome, width)
         seen["too_wide"][width] = too_wide(chrome)
     seen["axe"] = violations(chrome)
+    dark = {"features": [{"name": "prefers-color-scheme", "value": "dark"}]}
+    chrome.execute_cdp_cmd("Emulation.setEmulatedMedia", dark)
+    seen["axe"] += violations(chrome)
     emulate(chrome, 700, media="print")
     seen["too_wide"]["print"] = too_wide(chrome)
     messages = [entry["message"] for entry in chrome.get_log("browser")]

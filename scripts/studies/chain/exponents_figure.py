@@ -3,6 +3,7 @@
 import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from scripts.drawing import parameters
 from scripts.drawing.style import INK
@@ -53,6 +54,8 @@ def draw(motions: list[dict]) -> Figure:
         xlabel=r"(number of the exponent $-$ 1/2)/blocks", ylabel="exponent (per unit of time)"
     )
     counts.set(xlabel="blocks", ylabel="positive exponents", xlim=(0, None), ylim=(0, None))
+    for axis in (counts.xaxis, counts.yaxis):
+        axis.set_major_locator(MaxNLocator(5, integer=True))
     for axes, letter in zip((spectra, counts), "ab", strict=True):
         axes.set_title(f"$\\bf{{{letter}}}$")
     figure.legend(loc="outside lower center", ncols=1, fontsize=7)

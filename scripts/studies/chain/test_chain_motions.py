@@ -114,6 +114,8 @@ def test_figure_has_a_line_for_each_chaotic_chain():
     spectra, counts = exponents_figure.draw(rows).axes
     lines = [line.get_xdata().tolist() for line in spectra.lines[:2]]
     assert lines == [[0.25, 0.75, 1.25], [0.125, 0.375, 0.625]]
+    ticks = [*counts.xaxis.get_majorticklocs(), *counts.yaxis.get_majorticklocs()]
+    assert ticks == list(map(round, ticks))
     (line,) = counts.lines
     assert (list(line.get_xdata()), list(line.get_ydata())) == ([2, 4], [1, 3])
     (bars,) = counts.collections

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from scripts.drawing import parameters
 from scripts.drawing.along_parameter import mark_scenes, maxima_of
 from scripts.drawing.special_points import STYLES, in_words, words_of
-from scripts.drawing.style import FAINT, INK
+from scripts.drawing.style import FAINT, INK, PAGE, columns_of
 from scripts.drawing.wording import count, counted_at, place_in_words, short, words_of_state
 from scripts.namelists.laws import is_of_block
 from scripts.studies.cycles.branches import most_of, parts_of
@@ -47,12 +47,15 @@ def draw(
     scenes: dict[str, dict],
 ) -> Figure:
     """One line below the other; `directions` of the sweeps by line, in the order of `sweeps`."""
-    figure, panels = plt.subplots(
-        len(cycles), 1, figsize=(6.7, HEIGHT * len(cycles) + 0.6), squeeze=False
-    )
+    columns = columns_of(len(cycles), HEIGHT)
+    lines = -(-len(cycles) // columns)
+    height = min(PAGE[1], HEIGHT * lines + 0.7)
+    figure, panels = plt.subplots(lines, columns, figsize=(PAGE[0], height), squeeze=False)
+    for axes in panels.flat[len(cycles) :]:
+        axes.remove()
     drawn: dict[str, Artist] = {}
     following = iter(sweeps)
-    for i, (axes, line, on_line) in enumerate(zip(panels[:, 0], cycles, directions, strict=True)):
+    for i, (axes, line, on_line) in enumerate(zip(panels.flat, cycles, directions, strict=False)):
         along = line.attrs["along"]
         if is_of_block(line.attrs):
             axes.axhline(1, **SLIDING)
@@ -65,7 +68,7 @@ def draw(
         draw_points(axes, line, along)
         drawn |= {str(artist.get_label()): artist for artist in axes.lines}
         abscissa = parameters.axis_of(along, line[along].attrs.get("long_name", ""), line.attrs)
-        unit = " (units of $v_0$)" * is_of_block(line.attrs)
+        unit = "\n(units of $v_0$)" * is_of_block(line.attrs)
         axes.set(xlabel=abscissa, ylabel=f"maxima of ${line.attrs['signal']}${unit}")
         # the names of scenes stand above the dots
         axes.margins(x=0.01, y=0.18)
@@ -73,7 +76,8 @@ def draw(
         if is_of_block(line.attrs):
             axes.set_ylim(bottom=0)
         mark_scenes(axes, scenes, line.attrs, along)
-        words = f"{parameters.in_words(line.attrs, along)}: {count_in_words(line)}"
+        between = ": " if columns == 1 else "\n"
+        words = f"{parameters.in_words(line.attrs, along)}{between}{count_in_words(line)}"
         axes.set_title(f"$\\bf{{{'abcdefgh'[i % 8]}}}$  {words}")
     names = [style["label"] for style in (*LINES, *SWEEPS.values(), SLIDING, HOPF)]
     handles = [drawn[name] for name in (*names, *map(in_words, STYLES)) if name in drawn]

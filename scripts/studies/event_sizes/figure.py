@@ -30,6 +30,8 @@ from scripts.studies.event_sizes.names_of_laws import (
 )
 
 MARKS = ["o", "s", "^", "D", "v", "P"]
+LIGHTEST = 0.65
+"""Grey of the last threshold."""
 BINS = np.geomspace(0.3, WINDOW, 10)
 """Times after a main shock between which events are counted."""
 
@@ -104,11 +106,12 @@ def draw_law(axes: Axes, sizes: list[float], row: dict, colour: str) -> None:
 
 
 def styles_of(laws: list[dict]) -> dict[str, dict]:
-    """A colour for each threshold, and a kind of line, by definition."""
+    """A grey for each threshold, as colours are chains, and a kind of line, by definition."""
     thresholds = list(dict.fromkeys(row["threshold"] for row in laws))
+    greys = dict(zip(thresholds, np.linspace(0, LIGHTEST, len(thresholds)), strict=True))
     return {
         definition_of(row): {
-            "color": f"C{thresholds.index(row['threshold'])}",
+            "color": f"{greys[row['threshold']]:.2f}",
             "ls": "-" if row["joined"] == "yes" else ":",
         }
         for row in laws

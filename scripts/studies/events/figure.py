@@ -5,6 +5,7 @@ import xarray as xr
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from scripts.drawing import parameters
 from scripts.drawing.wording import short
@@ -51,6 +52,7 @@ def draw_recurrence(first: Axes, shares: Axes, times: np.ndarray) -> None:
     shown = times[:EVENTS_SHOWN]
     first.plot(1 + np.arange(shown.size), shown, ls="", marker="o", ms=2, mew=0)
     first.set_ylim(0, 1.15 * shown.max())
+    first.xaxis.set_major_locator(MaxNLocator(5, integer=True))
     bins = np.linspace(0, 1.15 * times.max(), BINS)
     shares.hist(times, bins=bins, weights=1 / times.size + 0 * times)
     shares.set_ylim(0, None)

@@ -47,10 +47,9 @@ def draw(runs: list[xr.Dataset], table: list[dict]) -> Figure:
 
 def legend_of(exponents: int) -> list[Line2D]:
     """The exponents by their colours, the largest first."""
+    look = {"marker": "o", "ms": 2.5, "lw": 0.8}
     return [
-        Line2D(
-            [], [], marker="o", ms=2.5, lw=0.8, color=f"C{i % COLOURS}", label=rf"$\lambda_{i + 1}$"
-        )
+        Line2D([], [], color=f"C{i % COLOURS}", label=rf"$\lambda_{{{i + 1}}}$", **look)
         for i in range(exponents)
     ]
 

@@ -39,7 +39,7 @@ def draw(table: list[dict]) -> Figure:
     right.loglog(gamma, depth, color="C1", label="computed")
     right.loglog(gamma, formula, color=INK, ls=":", label=r"$\xi^3 (1 + \xi)/(2 \gamma^4)$")
     right.set(
-        ylabel=r"$\varepsilon$ without delay $-$ least $\varepsilon$", ylim=(0.1 * depth[-1], 10)
+        ylabel=r"$\varepsilon$ without delay $-$ least $\varepsilon$", ylim=(0.1 * depth[-1], 1e3)
     )
     right.legend(loc="lower left")
     for axes, words in (

@@ -10,7 +10,7 @@ from scripts.config.si import in_si, units_of
 from scripts.drawing import parameters
 from scripts.drawing.class_map import draw_classes, legend_of
 from scripts.drawing.si_axes import TIMES, add_axis
-from scripts.drawing.style import INK
+from scripts.drawing.style import INK, PAGE
 from scripts.drawing.wording import place_in_words
 from scripts.namelists.laws import spoken
 from scripts.studies.friction_laws.table import planes_of, rows_of_planes, scenes_of, shares_of
@@ -30,7 +30,7 @@ def draw(table: list[dict], natural_fault: dict, laboratory: dict) -> Figure:
     figure, panels = plt.subplots(
         len(laws) + 2,
         len(planes),
-        figsize=(6.7, 1.5 + 1.55 * (len(laws) + 2)),
+        figsize=(PAGE[0], min(PAGE[1], 1.5 + 1.3 * (len(laws) + 2))),
         squeeze=False,
         height_ratios=[1] * len(laws) + [1.2, 1.2],
     )
@@ -45,17 +45,21 @@ def draw(table: list[dict], natural_fault: dict, laboratory: dict) -> Figure:
             chaotic = sum(row["class"] == "chaos" for row in here)
             words = f"{spoken(law)}\nchaos at {chaotic} of {len(here)}"
             axes.set_title(f"$\\bf{{{next(letters)}}}$  {words}", fontsize=7)
+            axes.tick_params(labelbottom=law == laws[-1])
         line[0].set_ylabel(DELAY)
     for column, (gamma, xi) in enumerate(planes):
         words = parameters.in_words({"gamma": gamma, "xi": xi}, "tau", "epsilon")
         by_law = {law: shown[gamma, xi, law] for law in laws}
-        place = {"xycoords": "axes fraction", "ha": "center", "annotation_clip": False}
-        maps[0][column].annotate(words, (0.5, 1.42), fontsize=8, **place)
+        # above the two lines of the title
+        place = {"xytext": (0, 28), "textcoords": "offset points", "annotation_clip": False}
+        maps[0][column].annotate(words, (0.5, 1), xycoords="axes fraction", ha="center", **place)
         maps[-1][column].set_xlabel(r"sensitivity $\varepsilon$")
         draw_over_delay(fastest[column], by_law, "largest_maximum")
         fastest[column].semilogy()
         fastest[column].axhline(1, color=INK, lw=0.5)
+        fastest[column].tick_params(labelbottom=False)
         draw_over_delay(recurrence[column], by_law, "recurrence_variation")
+        recurrence[column].set_xlabel(DELAY)
         if gamma >= LEAST_OF_FAULTS:
             years = unit_of_time(natural_fault) / TIMES["years"]
             add_axis(fastest[column], years, "years on a fault")
@@ -92,7 +96,6 @@ def draw_over_delay(axes: Axes, by_law: dict[str, list[dict]], column: str) -> N
             color=f"C{number}",
             label=spoken(law),
         )
-    axes.set_xlabel(DELAY)
 
 
 def unit_of_time(si: dict) -> float:

@@ -18,6 +18,8 @@ from scripts.tables.motion_rows import axes_of
 
 DARKEST = 0.3
 """How much darker than white the most unstable roots are."""
+CLOSE = 0.14
+"""Names above the window are joined if they are closer, as a share of its width."""
 MARKERS = {
     "generalised_hopf": ("D", "generalised Hopf point"),
     "double_hopf": ("s", "double Hopf point"),
@@ -92,25 +94,23 @@ def mark_special_points(axes: Axes, curves: xr.Dataset) -> list[Line2D]:
 
 
 def label_branches(axes: Axes, ends: list[tuple[float, float, int, str]]) -> None:
-    """Name each piece where it leaves the window: to the right, or above."""
-    (_, right), (_, top) = axes.get_xlim(), axes.get_ylim()
+    """Name each piece where it leaves the window: to the right, or above, there close ones once."""
+    (left, right), (_, top) = axes.get_xlim(), axes.get_ylim()
+    style = {"textcoords": "offset points", "fontsize": 7, "annotation_clip": False}
     lowest = 0.0
-    for y, x, branch, colour in sorted(ends):
-        at_right = x > 0.99 * right
-        height = max(y, lowest) if at_right else top
-        if at_right:
-            lowest = height + 0.035 * top
-        axes.annotate(
-            f"$k$ = {branch}",
-            (x, height),
-            xytext=(3, 0) if at_right else (0, 3),
-            textcoords="offset points",
-            ha="left" if at_right else "center",
-            va="center" if at_right else "bottom",
-            color=colour,
-            fontsize=7,
-            annotation_clip=False,
-        )
+    for y, x, branch, colour in sorted(end for end in ends if end[1] > 0.99 * right):
+        place = (x, max(y, lowest))
+        lowest = place[1] + 0.035 * top
+        words = f"$k$ = {branch}"
+        axes.annotate(words, place, xytext=(3, 0), va="center", color=colour, **style)
+    above = sorted((x, branch, colour) for _, x, branch, colour in ends if x <= 0.99 * right)
+    far = np.diff([x for x, *_ in above]) > CLOSE * (right - left)
+    for group in np.split(np.arange(len(above)), np.flatnonzero(far) + 1) if above else []:
+        xs, branches, colours = zip(*(above[i] for i in group), strict=True)
+        words = f"$k$ = {', '.join(map(str, dict.fromkeys(branches)))}"
+        colour = colours[0] if len(set(branches)) == 1 else INK
+        place = (float(np.mean(xs)), top)
+        axes.annotate(words, place, xytext=(0, 3), ha="center", color=colour, **style)
 
 
 def numbers(curves: xr.Dataset, scenes: dict[str, dict]) -> dict:

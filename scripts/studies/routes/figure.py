@@ -12,21 +12,23 @@ from matplotlib.lines import Line2D
 from scripts.drawing import parameters
 from scripts.drawing.along_parameter import mark_scenes, maxima_of
 from scripts.drawing.class_map import draw_strips, legend_of
-from scripts.drawing.style import FAINT
+from scripts.drawing.style import FAINT, PAGE, columns_of
 from scripts.drawing.wording import joined, place_in_words, short
 from scripts.files.tsv import rows_by
 from scripts.namelists.laws import is_of_block
 from scripts.tables.attractor_tables import same_attractor
 from scripts.tables.motion_rows import UNDECIDED, count_in_words, has_problem, parameter_of
 
-HEIGHT, OF_RUN = 1.75, 0.12
+HEIGHT, OF_RUN = 2.1, 0.12
 """Of a route without its strips, and of each strip, in inches."""
-COLOURS = ("C6", "C2", "C3", "C7")
-"""Of runs; none is that of a class."""
-DOTS = (2.8, 2.2, 1.6, 1.0)
-"""Sizes of the dots of runs in points. Later runs lie on top and are smaller, so that dots at the
-same place are all seen."""
-ROOM = 0.25
+COLOURS = ("C6", "C2", "C3", "C7", "C5", "#d0609a", "0.5", "C4")
+"""Of runs; no colour is that of a class."""
+SWEEPS = {"up": "-", "down": "--"}
+"""Lines through the largest maxima of sweeps: where they part there is hysteresis."""
+DOTS = (3.2, 1.4)
+"""Sizes of the dots of the first and the last run in points. Later runs lie on top and are smaller,
+so that dots at the same place are all seen."""
+ROOM = 0.35
 """Free part of the axis of maxima above the largest of them, where the names of scenes stand."""
 LOGARITHMIC = 100
 """The axis of maxima is logarithmic where their ratio is larger."""
@@ -37,21 +39,30 @@ def draw(tables: list[list[dict]], runs: list[xr.Dataset], scenes: dict[str, dic
     routes = [rows_by(rows, "run") for rows in tables]
     strips = list(map(len, routes))
     following = iter(runs)
+    most = max(strips)
+    columns = columns_of(len(tables), HEIGHT + OF_RUN * most)
+    lines = -(-len(tables) // columns)
+    height = min(PAGE[1], (HEIGHT + OF_RUN * most) * lines + 0.5)
     figure, grid = plt.subplots(
-        3 * len(tables),
-        1,
-        figsize=(6.7, HEIGHT * len(tables) + OF_RUN * sum(strips) + 0.5),
-        height_ratios=[ratio for runs_there in strips for ratio in (6, runs_there, 3.4)],
+        3 * lines,
+        columns,
+        figsize=(PAGE[0], height),
+        squeeze=False,
+        height_ratios=[6, most, 3.4] * lines,
     )
+    for axes in grid[3 * (len(tables) // columns) :, len(tables) % columns :].flat:
+        axes.remove()
     colours: dict[str, str] = {}
     for i, (rows, by_run) in enumerate(zip(tables, routes, strict=True)):
         along = parameter_of(rows)
-        above, middle, below = grid[3 * i : 3 * i + 3]
-        for number, (run, of_run) in enumerate(by_run.items()):
+        line, column = divmod(i, columns)
+        above, middle, below = grid[3 * line : 3 * line + 3, column]
+        sizes = np.linspace(*DOTS, len(by_run))
+        for (run, of_run), size in zip(by_run.items(), sizes, strict=True):
             colour = colours.setdefault(run, COLOURS[len(colours) % len(COLOURS)])
-            style = {"color": colour, "ms": DOTS[min(number, len(DOTS) - 1)], "mew": 0}
+            style = {"color": colour, "ms": size, "mew": 0}
             data = next(following)
-            draw_maxima(above, data, of_run, along, style)
+            draw_maxima(above, data, of_run, along, SWEEPS.get(run, ""), style)
             keys = (along, "exponent_1", "error_1")
             exponents = ([row[key] for row in of_run] for key in keys)
             below.errorbar(*exponents, fmt="o", lw=0.5, **style)
@@ -60,11 +71,12 @@ def draw(tables: list[list[dict]], runs: list[xr.Dataset], scenes: dict[str, dic
         label(above, middle, below, parameters.axis_of(along, meaning, rows[0]))
         above.set_ylabel(f"maxima of ${data.attrs['signal']}$")
         mark_scenes(above, scenes, rows[0], along)
-        words = f"{parameters.in_words(rows[0], along)}: {count_in_words(rows)}"
+        between = ": " if columns == 1 else "\n"
+        words = f"{parameters.in_words(rows[0], along)}{between}{count_in_words(rows)}"
         letter = f"$\\bf{{{'abcdefgh'[i % 8]}}}$  " if len(tables) > 1 else ""
         above.set_title(f"{letter}{words}")
     dots = [
-        Line2D([], [], ls="", marker="o", ms=3, color=colour, label=run)
+        Line2D([], [], ls=SWEEPS.get(run, ""), lw=0.6, marker="o", ms=3, color=colour, label=run)
         for run, colour in colours.items()
     ]
     all_rows = [row for rows in tables for row in rows]
@@ -93,19 +105,23 @@ def label(above: Axes, strips: Axes, below: Axes, abscissa: str) -> None:
     below.set(xlabel=abscissa, ylabel="exponent\n$\\lambda_1$")
 
 
-def draw_maxima(axes: Axes, run: xr.Dataset, rows: list[dict], along: str, style: dict) -> None:
-    """A dot for each maximum kept, and at v = 1 for steady sliding, whose maxima are transient."""
+def draw_maxima(
+    axes: Axes, run: xr.Dataset, rows: list[dict], along: str, line: str, style: dict
+) -> None:
+    """A dot for each maximum kept, and at v = 1 for steady sliding, whose maxima are transient.
+
+    A kind of line joins the largest.
+    """
     there = np.array([row["class"] != "fixed point" for row in rows])
     places, maxima = maxima_of(run.isel(point=there), along)
     rests = [row for row in rows if row["class"] == "fixed point" and is_of_block(row)]
     rest = [row[along] for row in rests]
-    axes.plot(
-        np.append(places, rest),
-        np.append(maxima, np.ones(len(rest))),
-        "o",
-        rasterized=True,
-        **style,
-    )
+    x, y = np.append(places, rest), np.append(maxima, np.ones(len(rest)))
+    axes.plot(x, y, "o", rasterized=True, **style)
+    if line:
+        each = np.unique(x)
+        top = [y[x == place].max() for place in each]
+        axes.plot(each, top, color=style["color"], ls=line, lw=0.6)
 
 
 def numbers(tables: list[list[dict]], runs: list[xr.Dataset]) -> dict:

@@ -43,6 +43,8 @@ POWER = 0.999
 """Share of the power below the end of the frequency axis, which is half as far again."""
 HARMONICS = 7
 """Harmonics of the first fundamental frequency that the axis shows at least."""
+MOST_HARMONICS = 40.5
+"""The axis ends at this multiple of the first or highest line: more make a bar of stick-slip."""
 MOST_MISSING = 2.0
 """By this factor a run may miss the largest v of a torus or of chaos."""
 LEAST_SCALE = 1e-3
@@ -148,7 +150,10 @@ def frequency_shown(spectrum: xr.Dataset) -> float:
     end = 1.5 * float(frequency[np.searchsorted(total, POWER * total[-1])])
     bases = spectrum.base_frequency.values
     least = (HARMONICS + 0.5) * float(bases[0]) if bases.size else 0.0
-    return min(max(end, least), float(frequency[-1]))
+    # more lines would run together to a bar
+    highest = spectrum.peak_frequency.values[spectrum.peak_power.values.argsort()[-1:]]
+    most = MOST_HARMONICS * float(min([*bases[:1], *highest], default=np.inf))
+    return min(max(end, least), most, float(frequency[-1]))
 
 
 def draw_section(axes: Axes, attractors: xr.Dataset, row: dict) -> None:

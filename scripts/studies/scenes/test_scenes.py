@@ -100,3 +100,11 @@ def test_section_of_a_cycle_is_its_last_period():
     scene.draw_section(torus, xr.Dataset(points), row_of("torus"))
     assert [len(axes.lines[0].get_xdata()) for axes in (cycle, torus)] == [2, 7]
     plt.close(figure)
+
+
+def test_lines_of_stick_slip_are_told_apart():
+    """Of a thousand lines of equal height the axis shows the first 40."""
+    frequency = 0.01 * np.arange(10_001)
+    seen = spectrum(x1=1.0).assign_coords(frequency=frequency, base_frequency=[0.1])
+    seen["power"] = ("frequency", np.where(np.arange(10_001) % 10 == 0, 1.0, 1e-9))
+    assert scene.frequency_shown(seen) == pytest.approx(4.05)

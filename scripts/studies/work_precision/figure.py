@@ -1,6 +1,7 @@
 """The drawing of plans/work_precision.py, and the numbers of its caption."""
 
 from collections import Counter
+from textwrap import fill
 
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
@@ -9,6 +10,8 @@ from scripts.drawing.wording import count, short
 from scripts.files.tsv import rows_by
 
 MARKERS = "osD^vx+ph<>"
+LINE = 30
+"""Letters of a title above a panel."""
 ENOUGH = 1e-15
 """Errors below this are rounding and not drawn lower."""
 GREYS = ("0.0", "0.4", "0.65")
@@ -56,7 +59,7 @@ def draw(table: list[dict], others: list[dict], date: str) -> Figure:
         axes.remove()
     drawn = [row for row in (*table, *others) if row["error_max"] >= 0 and row["seconds"] > 0]
     runs = rows_by(drawn, "scene", "solver")
-    for axes, scene in zip(grid.flat, scenes, strict=False):
+    for i, (axes, scene) in enumerate(zip(grid.flat, scenes, strict=False)):
         for solver, style in styles.items():
             shown = runs.get((scene, solver), [])
             axes.plot(
@@ -66,7 +69,8 @@ def draw(table: list[dict], others: list[dict], date: str) -> Figure:
                 **style,
                 label=solver.replace("_", " "),
             )
-        axes.set_title(f"{scene.replace('_', ' ')}, $t$ up to {until[scene]:g}")
+        words = fill(f"{scene.replace('_', ' ')}, $t$ up to {until[scene]:g}", LINE)
+        axes.set_title(f"$\\bf{{{'abcdefgh'[i % 8]}}}$  {words}" if len(scenes) > 1 else words)
         axes.set(xscale="log", yscale="log")
     for axes in grid[:, 0]:
         axes.set_ylabel("largest error")
