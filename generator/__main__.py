@@ -13,7 +13,8 @@ import sys
 from pathlib import Path
 
 from .compile import COMPILER, FLAGS, CompileError, compile_module
-from .definition import ModelError, read_files
+from .definition import read_files
+from .model import ModelError
 from .module import write_module
 
 

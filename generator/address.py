@@ -9,7 +9,7 @@ values are in the same order. What blocks keep between orders has a slot for eac
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from .definition import Model
+from .model import Model
 
 
 @dataclass(frozen=True)

@@ -1,30 +1,26 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A model as its author writes it: parameters, states, equations with delayed states, as text.
 
-Expressions are read by Python's own parser and never evaluated: a definition cannot run commands.
+Expressions are those of expressions.py.
 """
 
 import ast
-import math
-import operator as operators
 import random
 import re
 import unicodedata
 from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
 
 import sympy
 from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
 
-from .branches import NAMES, either
-from .fortran import CONSTANTS, FUNCTIONS, SHORT, WORD, in_words
+from .expressions import Expression
+from .fortran import FUNCTIONS, WORD, in_words
+from .model import TIME, Delayed, Model, ModelError, Observed, Parameter, Switch
 from .saturation import limited
 
-TIME = sympy.Symbol("t", real=True)
-MODE = sympy.Symbol("self%mode", real=True)
-"""Of a chain whose blocks move alike: minus a second difference over the state."""
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,47}\Z")
 LONGEST_NAME = 48
 """Bytes of a name, which is a letter and then letters, digits and _, in any alphabet."""
@@ -42,162 +38,12 @@ INTEGRAL = re.compile(r"(\w+)( ?\+ ?t)?")
 NUMBER = re.compile(r"-?\d+\.?\d*(e[+-]?\d+)?")
 TEXTS = ("fast", "event", "section", "integral")
 """Keys of a text with names."""
-LARGEST_EXPONENT = 700
-"""The argument of exp is refused beyond this, unless `domain` says otherwise or the exponential
-stands in a bounded quotient (saturation.py): exp(709.8) is the largest number."""
-LARGEST_POWER = 256
-"""Largest exponent that is a number: 9**9**9 has more digits than there is memory for."""
-LARGEST_LOGARITHM = 700
-"""Largest logarithm of a power of numbers: ((9**64)**64)**64 has a million digits."""
-OPERATORS = {
-    **{ast.Add: operators.add, ast.Sub: operators.sub, ast.Mult: operators.mul},
-    **{ast.Div: operators.truediv, ast.Pow: operators.pow},
-}
-ORDERS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="}
 LARGEST = 10**308
 """Largest number, and 1/LARGEST is the least."""
 TRIALS, DIGITS = 5, 40
 """Values of the parameters at which a steady state is tested, and digits of these tests."""
 LONGEST_TEXT, LONGEST_UNIT, LONGEST_EQUATION = 500, 60, 50_000
 """Letters of texts that stand in files of results."""
-
-
-class ModelError(ValueError):
-    """What is wrong with a definition: what, where, and what is expected."""
-
-
-@dataclass(frozen=True)
-class Parameter:
-    """A number that stands in the equations."""
-
-    name: str
-    meaning: str
-    unit: str = "nondimensional"
-    above: float | None = None
-    at_least: float | None = None
-    default: float | None = None
-
-
-@dataclass(frozen=True)
-class Delayed:
-    """A state some time ago."""
-
-    state: str
-    lag: sympy.Expr
-    symbol: sympy.Symbol
-
-
-@dataclass(frozen=True)
-class Switch:
-    """A place where equations are not smooth: where an expression passes 0."""
-
-    value: sympy.Expr
-    text: str
-    """The term as written."""
-    symbol: sympy.Symbol
-    """1 where the expression is > 0, else 0."""
-
-
-@dataclass
-class Observed:
-    """What is looked at in motions: the signal, a state or an exponential of one; its levels."""
-
-    signal: str
-    event: float | None = None
-    """An event lasts while the signal is above this; None: above its value at rest."""
-    section: float | None = None
-    """The section is where the signal rises through this; None: through its value at rest."""
-    integral: str | None = None
-    """The state that grows by the integral of the signal over an event ..."""
-    with_time: bool = False
-    """... less the time of the event, or by the integral alone."""
-    coordinates: tuple[str, ...] = ()
-    """States that are the coordinates of points of the section, at most two."""
-
-
-@dataclass
-class Model:
-    """A system y' = f(t, y, z) in symbols."""
-
-    name: str
-    about: str
-    source: str
-    parameters: list[Parameter]
-    states: dict[str, str]
-    """Meanings by name, in the order of the state vector."""
-    auxiliary: dict[str, str]
-    """For each name that stands for exp(state), the state."""
-    texts: dict[str, str]
-    """The equation of each state as written, with definitions filled in by name."""
-    definitions: dict[str, str]
-    equations: dict[str, sympy.Expr]
-    delayed: list[Delayed] = field(default_factory=list)
-    steady_state: dict[str, sympy.Expr] | None = None
-    """Of each state an expression of parameters, or its own symbol where it is computed."""
-    near: dict[str, sympy.Expr] | None = None
-    """Where the computation of the steady state starts."""
-    fast: str | None = None
-    observed: Observed | None = None
-    domain: dict[str, tuple[float, float]] = field(default_factory=dict)
-    differences: dict[str, sympy.Symbol] = field(default_factory=dict)
-    """Second difference along the chain of each state of which the equations take one."""
-    switches: list[Switch] = field(default_factory=list)
-    written: dict[str, str] = field(default_factory=dict)
-    """Names of the definition by those that stand for them here and in the generated code."""
-
-    def symbol(self, name: str) -> sympy.Symbol:
-        """The symbol of a parameter, a state or an auxiliary."""
-        return sympy.Symbol(name, real=True)
-
-    @property
-    def signed(self) -> dict[sympy.Symbol, sympy.Symbol]:
-        """For the symbol of each parameter that is never negative one that is known not to be."""
-        names = [
-            one.name
-            for one in self.parameters
-            if any(bound is not None and bound >= 0 for bound in (one.above, one.at_least))
-        ]
-        return {self.symbol(name): sympy.Symbol(name, nonnegative=True) for name in names}
-
-    @property
-    def variables(self) -> set[sympy.Symbol]:
-        """Symbols that change in time."""
-        names = [*self.states, *self.auxiliary]
-        others = [*(one.symbol for one in self.delayed), *self.differences.values()]
-        return {TIME, *map(self.symbol, names), *others}
-
-    @property
-    def sides(self) -> set[sympy.Symbol]:
-        """Symbols that are constant between two switches."""
-        return {one.symbol for one in self.switches}
-
-    def by_state(self, expression: sympy.Expr, state: str) -> sympy.Expr:
-        """The derivative by a state, of which auxiliaries are functions."""
-        expression = self.plain(expression)
-        result = expression.diff(self.symbol(state))
-        for name, of in self.auxiliary.items():
-            if of == state:
-                result += self.symbol(name) * expression.diff(self.symbol(name))
-        return result
-
-    def plain(self, expression: sympy.Expr) -> sympy.Expr:
-        """An expression without expm1 and log1p, and with the names of exponentials."""
-        names = {sympy.exp(self.symbol(w)): self.symbol(v) for v, w in self.auxiliary.items()}
-        return sympy.expand_func(expression).xreplace(names)
-
-    def at_steady_state(self, expression: sympy.Expr) -> sympy.Expr:
-        """An expression with all states, now and before, at the steady state."""
-        values = {self.symbol(name): value for name, value in self.steady_state.items()}
-        for name, state in self.auxiliary.items():
-            values[self.symbol(name)] = sympy.exp(self.steady_state[state])
-        for one in self.delayed:
-            values[one.symbol] = self.steady_state[one.state]
-        values |= dict.fromkeys(self.differences.values(), sympy.S.Zero)
-        found = expression.subs(values)
-        if found.has(sympy.zoo, sympy.nan, sympy.oo):
-            where = f"model {self.name}: {expression} at the steady state"
-            raise ModelError(in_words(f"{where}: {found}; expected a number", self.written))
-        return found
 
 
 def read_files(paths: Iterable[Path], name: str | None = None) -> Model:
@@ -460,7 +306,7 @@ class _Reader:
             tree = ast.parse(str(text).strip(), mode="eval")
         except (SyntaxError, ValueError):
             self.refuse(place, text, "an expression such as -v*(theta + log(v(t - tau)))")
-        value = _Expression(self, place, str(text).strip()).value(tree.body)
+        value = Expression(self, place, str(text).strip()).value(tree.body)
         self.expect_real(place, text, value)
         return value
 
@@ -507,178 +353,3 @@ class _Reader:
         symbol = sympy.Symbol(f"side_{len(switches) + 1}", real=True)
         switches.append(Switch(value, text, symbol))
         return symbol
-
-
-class _Expression:
-    """Turns the parsed text of one expression into symbols."""
-
-    def __init__(self, reader: _Reader, place: str, text: str):
-        self.reader, self.place, self.text = reader, place, text
-
-    def refuse(self, node: ast.AST, expected: str):
-        self.reader.refuse(self.place, self.segment(node), expected)
-
-    def value(self, node: ast.AST) -> sympy.Expr:
-        match node:
-            case ast.Constant(value=int() | float()) if not isinstance(node.value, bool):
-                digits = ast.get_source_segment(self.text, node).replace("_", "")
-                is_zero = not set("123456789") & set(digits.lower().partition("e")[0])
-                if not math.isfinite(float(digits)) or (float(digits) == 0) != is_zero:
-                    self.refuse(node, "a number from 1e-308 to 1e308")
-                # the decimal digits as written are exact
-                return sympy.Rational(digits)
-            case ast.Name(id=name):
-                return self.named(node, name)
-            case ast.UnaryOp(op=ast.USub(), operand=one):
-                return -self.value(one)
-            case ast.UnaryOp(op=ast.UAdd(), operand=one):
-                return self.value(one)
-            case ast.BinOp(left=left, op=operator, right=right):
-                return self.combined(node, operator, self.value(left), self.value(right))
-            case ast.Call(func=ast.Name(id=name), args=args, keywords=[]):
-                return self.called(node, name, args)
-        self.refuse(node, "numbers, names, + - * / **, and functions")
-
-    def named(self, node: ast.Name, name: str) -> sympy.Expr:
-        model = self.reader.model
-        if name == "t":
-            return TIME
-        if name in model.definitions:
-            return self.reader.definition(name)
-        known = [*(one.name for one in model.parameters), *model.states, *model.auxiliary]
-        if name in known:
-            return model.symbol(name)
-        if name in CONSTANTS:
-            return CONSTANTS[name]
-        self.refuse(node, f"one of {', '.join([*known, *model.definitions])}")
-
-    def combined(self, node, operator, left: sympy.Expr, right: sympy.Expr) -> sympy.Expr:
-        if type(operator) not in OPERATORS:
-            self.refuse(node, "+ - * / **")
-        if isinstance(operator, ast.Pow) and left is not sympy.E:
-            if right.free_symbols & self.reader.model.variables:
-                self.refuse(node, "a power with a constant exponent; write exp(b*log(a))")
-            if right.is_number and abs(right) > LARGEST_POWER:
-                self.refuse(node, f"an exponent of size <= {LARGEST_POWER}")
-            size = abs(right) * sympy.log(abs(left)) if left.is_number and left != 0 else 0
-            if right.is_number and abs(sympy.N(size)) > LARGEST_LOGARITHM:
-                self.refuse(node, f"a power below exp({LARGEST_LOGARITHM})")
-        return OPERATORS[type(operator)](left, right)
-
-    def called(self, node: ast.Call, name: str, args: list[ast.AST]) -> sympy.Expr:
-        model = self.reader.model
-        if name in {*model.states, *model.auxiliary}:
-            return self.delayed(node, name, args)
-        if name == "derivative" and len(args) == 2 and isinstance(args[1], ast.Name):
-            return model.by_state(self.value(args[0]), args[1].id)
-        if name == "second_difference":
-            return self.second_difference(node, args)
-        if name[:1].lower() + name[1:] in NAMES:
-            return self.branched(node, name[:1].lower() + name[1:], args)
-        known = {**FUNCTIONS, **SHORT}
-        if name not in known or len(args) != 1 + (name == "atan2"):
-            expected = f"one of {', '.join(known)} of one argument (atan2: 2), {', '.join(NAMES)}"
-            self.refuse(node, f"{expected}, or STATE(t - delay): others have no series here")
-        argument, *others = map(self.value, args)
-        for auxiliary, state in model.auxiliary.items():
-            of, value = model.symbol(state), model.symbol(auxiliary)
-            if name == "log" and argument == value:
-                return of
-            if name == "exp" and argument in (of, -of):
-                return value ** (1 if argument == of else -1)
-        return known[name](argument, *others)
-
-    def branched(self, node: ast.Call, name: str, args: list[ast.AST]) -> sympy.Expr:
-        """A function that is smooth on each side of a switch."""
-        match name, args:
-            case "abs" | "sign", [one]:
-                value = self.value(one)
-                direction = 2 * self.side(self.segment(node), value) - 1
-                return direction * value if name == "abs" else direction
-            case "heaviside", [one] | [one, _]:
-                return self.side(self.segment(node), self.value(one))
-            case "min" | "max", [first, _, *_]:
-                texts, found = [self.segment(first)], self.value(first)
-                for one in args[1:]:
-                    value = self.value(one)
-                    texts.append(self.segment(one))
-                    above = self.side(f"{name}({', '.join(texts)})", found - value)
-                    larger = above if name == "max" else 1 - above
-                    found = larger * found + (1 - larger) * value
-                return found
-            case "where", [condition, one, other]:
-                return either(self.condition(condition), self.value(one), self.value(other))
-            case "piecewise", [*rest, ast.Tuple(elts=[last, ast.Constant(value=True)])]:
-                found = self.value(last)
-                for pair in reversed(rest):
-                    if not isinstance(pair, ast.Tuple) or len(pair.elts) != 2:
-                        self.refuse(pair, "(VALUE, CONDITION)")
-                    found = either(self.condition(pair.elts[1]), self.value(pair.elts[0]), found)
-                return found
-        self.refuse(
-            node,
-            "abs, sign, heaviside of one argument, min, max of two or more, "
-            "where(CONDITION, VALUE, VALUE), Piecewise((VALUE, CONDITION), ..., (VALUE, True))",
-        )
-
-    def segment(self, node: ast.AST) -> str:
-        """The text of a part."""
-        return ast.get_source_segment(self.text, node) or self.text
-
-    def side(self, text: str, value: sympy.Expr) -> sympy.Expr:
-        return self.reader.side(self.place, text, value)
-
-    def condition(self, node: ast.AST) -> sympy.Expr:
-        """1 where a condition holds, 0 elsewhere."""
-        match node:
-            case ast.Constant(value=bool()):
-                return sympy.Integer(node.value)
-            case ast.UnaryOp(op=ast.Not() | ast.Invert(), operand=one):
-                return 1 - self.condition(one)
-            case ast.BinOp(op=ast.BitAnd() | ast.BitOr(), left=one, right=other):
-                return self.joined(node.op, [one, other])
-            case ast.BoolOp(op=operator, values=parts):
-                return self.joined(operator, parts)
-            case ast.Compare(left=first, ops=operators, comparators=others):
-                pairs = zip([first, *others], operators, others, strict=False)
-                return sympy.Mul(*(self.compared(node, *pair) for pair in pairs))
-        self.refuse(node, "a condition of < <= > >=, and, or, not")
-
-    def joined(self, operator, parts: list[ast.AST]) -> sympy.Expr:
-        """All conditions, or one of them."""
-        found = list(map(self.condition, parts))
-        if isinstance(operator, ast.And | ast.BitAnd):
-            return sympy.Mul(*found)
-        return 1 - sympy.Mul(*(1 - one for one in found))
-
-    def compared(self, node: ast.AST, left: ast.AST, operator, right: ast.AST) -> sympy.Expr:
-        """Two numbers in their order."""
-        if type(operator) not in ORDERS:
-            self.refuse(node, "< <= > >=: motions have exactly this value for no time")
-        order = ORDERS[type(operator)]
-        text = f"{self.segment(left)} {order} {self.segment(right)}"
-        value = self.value(left) - self.value(right)
-        if value == 0:
-            return sympy.Integer("=" in order)
-        return self.side(text, value if ">" in order else -value)
-
-    def delayed(self, node: ast.Call, name: str, args: list[ast.AST]) -> sympy.Expr:
-        model = self.reader.model
-        lag = TIME - self.value(args[0]) if len(args) == 1 else TIME
-        if lag == 0:
-            return model.symbol(name)
-        # one whose sign depends on the parameters is seen with their values, before a run
-        changing = model.variables | model.sides
-        if lag.free_symbols & changing or lag.subs(model.signed).is_nonpositive:
-            self.refuse(node, f"{name}(t - DELAY) with a delay >= 0 of numbers and parameters")
-        if name in model.auxiliary:
-            return sympy.exp(self.reader.delayed(model.auxiliary[name], lag))
-        return self.reader.delayed(name, lag)
-
-    def second_difference(self, node: ast.Call, args: list[ast.AST]) -> sympy.Expr:
-        model = self.reader.model
-        match args:
-            case [ast.Name(id=state)] if state in model.states:
-                symbol = sympy.Symbol(f"{state}_difference", real=True)
-                return model.differences.setdefault(state, symbol)
-        self.refuse(node, f"the second difference of one of the states {', '.join(model.states)}")

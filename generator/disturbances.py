@@ -15,10 +15,10 @@ from dataclasses import dataclass, field
 from functools import partial
 
 from .address import Address
-from .definition import Model
 from .flow import Flow, exponential_lines, integral_of
 from .fortran import indented
 from .graph import Node, in_order
+from .model import Model
 from .recurrences import Constants, Recurrences, weighted_sum
 
 

@@ -8,9 +8,9 @@ Then no estimate of an error shows when a comes back: the solver follows the exp
 import sympy
 
 from .address import Address
-from .definition import Model
 from .flow import Procedure
 from .fortran import text_of, within
+from .model import Model
 from .pointwise import of_all_blocks
 
 LARGEST_ALGEBRAIC = 4

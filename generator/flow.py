@@ -14,11 +14,14 @@ from dataclasses import dataclass
 import sympy
 
 from .address import Address
-from .definition import LARGEST_EXPONENT, TIME, Model
 from .fortran import indented, text_of, within
 from .graph import Graph, Node, convolutions
+from .model import TIME, Model
 from .recurrences import Constants, fetch_parameters
 
+LARGEST_EXPONENT = 700
+"""The argument of exp is refused beyond this, unless `domain` says otherwise or the exponential
+stands in a bounded quotient (saturation.py): exp(709.8) is the largest number."""
 REFUSED = {
     sympy.log: ".not. {} > 0.0_wp",
     sympy.exp: f"{{}} > {LARGEST_EXPONENT}.0_wp",

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import sympy
 from sympy.codegen.cfunctions import expm1, log1p
 
-from .definition import Model
 from .fortran import within
+from .model import Model
 
 
 @dataclass(eq=False)

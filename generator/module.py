@@ -9,10 +9,11 @@ import sympy
 
 from . import pointwise, rest
 from .address import couplings
-from .definition import LONGEST_TEXT, TIME, Model
+from .definition import LONGEST_TEXT
 from .exponents import exponents_of, exponents_procedure
 from .flow import Flow, Procedure, flow_of, rate_of_auxiliary, with_parameters
 from .fortran import FUNCTIONS, in_words, text_of, wrapped
+from .model import TIME, Model
 from .series import series_procedure
 from .slow import Balance, balance_of
 from .tangents import tangent_series_procedure

@@ -4,9 +4,9 @@
 import sympy
 
 from .address import Address
-from .definition import Model
 from .flow import Procedure, guard_names, refusals, with_parameters
 from .fortran import indented, text_of
+from .model import Model
 from .recurrences import fetch_parameters, names_of_parameters
 from .slow import Balance
 

@@ -21,9 +21,9 @@ from dataclasses import dataclass, field
 
 import sympy
 
-from .definition import Model
 from .fortran import text_of
 from .graph import Node
+from .model import Model
 
 
 @dataclass

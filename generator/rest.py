@@ -8,9 +8,9 @@ their place where there are any.
 
 import sympy
 
-from .definition import MODE, Model
 from .flow import Procedure, refusals, with_parameters
 from .fortran import indented, text_of
+from .model import MODE, Model
 
 
 def at(model: Model, array: str = "state") -> dict[sympy.Expr, str]:

@@ -8,7 +8,6 @@ within a tile or in the next ones.
 """
 
 from .address import Address
-from .definition import Model
 from .flow import (
     Procedure,
     exponential_lines,
@@ -20,6 +19,7 @@ from .flow import (
 )
 from .fortran import indented
 from .graph import in_order
+from .model import Model
 from .recurrences import Constants, Recurrences
 from .slow import Balance, inertia_lines
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import sympy
 
-from .definition import Model
+from .model import Model
 from .recurrences import Constants, weighted_sum
 
 

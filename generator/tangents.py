@@ -8,11 +8,11 @@ i + k reach, where neighbours are up to `reach` places apart.
 from functools import partial
 
 from .address import Address
-from .definition import Model
 from .disturbances import Disturbances, base_series, lane_inputs
 from .flow import Procedure, exponential_lines, flow_of, flow_with, integral_of
 from .fortran import indented
 from .graph import in_order
+from .model import Model
 from .recurrences import Constants
 from .slow import Balance, inertia_lines
 

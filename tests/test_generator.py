@@ -14,9 +14,10 @@ import sympy
 
 from conftest import ROOT
 from generator.compile import compile_module
-from generator.definition import ModelError, overlaid, read_model
+from generator.definition import overlaid, read_model
 from generator.flow import flow_of
 from generator.fortran import FUNCTIONS, in_words, literal, text_of, wrapped
+from generator.model import ModelError
 from generator.module import write_module
 from generator.rest import characteristic_terms
 from generator.slow import balance_of

@@ -18,8 +18,9 @@ import pytest
 from hypothesis import HealthCheck, Phase, given, seed, settings
 
 from generator.compile import compile_module
-from generator.definition import ModelError, read_model
+from generator.definition import read_model
 from generator.fortran import FUNCTIONS, SHORT, in_words
+from generator.model import ModelError
 from generator.module import write_module
 
 DEGREE, VECTORS = 8, 5

@@ -58,8 +58,8 @@ def compiled(definition: dict, extent: str) -> Path:
         return path
     # SymPy takes half a second, which an object in the cache does not need
     from delaykit.generator.compile import CompileError, compile_module
-    from delaykit.generator.definition import ModelError as DefinitionError
     from delaykit.generator.definition import read_model
+    from delaykit.generator.model import ModelError as DefinitionError
     from delaykit.generator.module import write_module
 
     try:

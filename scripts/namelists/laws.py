@@ -218,8 +218,9 @@ def check_model(place: str, name: str, parts: list[dict]) -> tuple[bool, str]:
     if checked.exists():
         return tuple(json.loads(checked.read_text(encoding="utf-8")))
     # needs SymPy, which takes half a second to load
-    from generator.definition import TIME, ModelError, overlaid, read_model
+    from generator.definition import overlaid, read_model
     from generator.fortran import in_words
+    from generator.model import TIME, ModelError
     from generator.module import write_module
 
     try:

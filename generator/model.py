@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A model in symbols: a system y' = f(t, y, z) with parameters and delayed states."""
+
+from dataclasses import dataclass, field
+
+import sympy
+
+from .fortran import in_words
+
+TIME = sympy.Symbol("t", real=True)
+MODE = sympy.Symbol("self%mode", real=True)
+"""Of a chain whose blocks move alike: minus a second difference over the state."""
+
+
+class ModelError(ValueError):
+    """What is wrong with a definition: what, where, and what is expected."""
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A number that stands in the equations."""
+
+    name: str
+    meaning: str
+    unit: str = "nondimensional"
+    above: float | None = None
+    at_least: float | None = None
+    default: float | None = None
+
+
+@dataclass(frozen=True)
+class Delayed:
+    """A state some time ago."""
+
+    state: str
+    lag: sympy.Expr
+    symbol: sympy.Symbol
+
+
+@dataclass(frozen=True)
+class Switch:
+    """A place where equations are not smooth: where an expression passes 0."""
+
+    value: sympy.Expr
+    text: str
+    """The term as written."""
+    symbol: sympy.Symbol
+    """1 where the expression is > 0, else 0."""
+
+
+@dataclass
+class Observed:
+    """What is looked at in motions: the signal, a state or an exponential of one; its levels."""
+
+    signal: str
+    event: float | None = None
+    """An event lasts while the signal is above this; None: above its value at rest."""
+    section: float | None = None
+    """The section is where the signal rises through this; None: through its value at rest."""
+    integral: str | None = None
+    """The state that grows by the integral of the signal over an event ..."""
+    with_time: bool = False
+    """... less the time of the event, or by the integral alone."""
+    coordinates: tuple[str, ...] = ()
+    """States that are the coordinates of points of the section, at most two."""
+
+
+@dataclass
+class Model:
+    """A system y' = f(t, y, z) in symbols."""
+
+    name: str
+    about: str
+    source: str
+    parameters: list[Parameter]
+    states: dict[str, str]
+    """Meanings by name, in the order of the state vector."""
+    auxiliary: dict[str, str]
+    """For each name that stands for exp(state), the state."""
+    texts: dict[str, str]
+    """The equation of each state as written, with definitions filled in by name."""
+    definitions: dict[str, str]
+    equations: dict[str, sympy.Expr]
+    delayed: list[Delayed] = field(default_factory=list)
+    steady_state: dict[str, sympy.Expr] | None = None
+    """Of each state an expression of parameters, or its own symbol where it is computed."""
+    near: dict[str, sympy.Expr] | None = None
+    """Where the computation of the steady state starts."""
+    fast: str | None = None
+    observed: Observed | None = None
+    domain: dict[str, tuple[float, float]] = field(default_factory=dict)
+    differences: dict[str, sympy.Symbol] = field(default_factory=dict)
+    """Second difference along the chain of each state of which the equations take one."""
+    switches: list[Switch] = field(default_factory=list)
+    written: dict[str, str] = field(default_factory=dict)
+    """Names of the definition by those that stand for them here and in the generated code."""
+
+    def symbol(self, name: str) -> sympy.Symbol:
+        """The symbol of a parameter, a state or an auxiliary."""
+        return sympy.Symbol(name, real=True)
+
+    @property
+    def signed(self) -> dict[sympy.Symbol, sympy.Symbol]:
+        """For the symbol of each parameter that is never negative one that is known not to be."""
+        names = [
+            one.name
+            for one in self.parameters
+            if any(bound is not None and bound >= 0 for bound in (one.above, one.at_least))
+        ]
+        return {self.symbol(name): sympy.Symbol(name, nonnegative=True) for name in names}
+
+    @property
+    def variables(self) -> set[sympy.Symbol]:
+        """Symbols that change in time."""
+        names = [*self.states, *self.auxiliary]
+        others = [*(one.symbol for one in self.delayed), *self.differences.values()]
+        return {TIME, *map(self.symbol, names), *others}
+
+    @property
+    def sides(self) -> set[sympy.Symbol]:
+        """Symbols that are constant between two switches."""
+        return {one.symbol for one in self.switches}
+
+    def by_state(self, expression: sympy.Expr, state: str) -> sympy.Expr:
+        """The derivative by a state, of which auxiliaries are functions."""
+        expression = self.plain(expression)
+        result = expression.diff(self.symbol(state))
+        for name, of in self.auxiliary.items():
+            if of == state:
+                result += self.symbol(name) * expression.diff(self.symbol(name))
+        return result
+
+    def plain(self, expression: sympy.Expr) -> sympy.Expr:
+        """An expression without expm1 and log1p, and with the names of exponentials."""
+        names = {sympy.exp(self.symbol(w)): self.symbol(v) for v, w in self.auxiliary.items()}
+        return sympy.expand_func(expression).xreplace(names)
+
+    def at_steady_state(self, expression: sympy.Expr) -> sympy.Expr:
+        """An expression with all states, now and before, at the steady state."""
+        values = {self.symbol(name): value for name, value in self.steady_state.items()}
+        for name, state in self.auxiliary.items():
+            values[self.symbol(name)] = sympy.exp(self.steady_state[state])
+        for one in self.delayed:
+            values[one.symbol] = self.steady_state[one.state]
+        values |= dict.fromkeys(self.differences.values(), sympy.S.Zero)
+        found = expression.subs(values)
+        if found.has(sympy.zoo, sympy.nan, sympy.oo):
+            where = f"model {self.name}: {expression} at the steady state"
+            raise ModelError(in_words(f"{where}: {found}; expected a number", self.written))
+        return found
