@@ -121,7 +121,7 @@ contains
          if (problem%exponentials > 0 .and. accepted(error_estimate)) then
             call exponents%judge(run%context, run%step, error_estimate)
          end if
-         if (accepted(error_estimate)) then
+         if (problem%switches > 0 .and. accepted(error_estimate)) then
             call run%sides%judge(run%context, run%step, error_estimate)
          end if
          if (outcome%accepted == 0 .and. .not. accepted(error_estimate)) then

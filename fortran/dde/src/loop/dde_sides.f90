@@ -97,7 +97,6 @@ contains
       type(passages_type) :: passages
       integer :: i, stride
 
-      if (size(self%above) == 0) return
       passages = new_passages(self, context, step)
       between = reshape([(functions_at(odd(i)), i=1, size(odd))], shape(between))
       stride = most_places/least_places
@@ -166,7 +165,6 @@ contains
       logical :: ended
 
       self%passed = .false.
-      if (size(self%above) == 0) return
       passages = new_passages(self, context, step)
       passages%look_every = step%h/self%places
       allocate (passages%direction(size(self%above)), source=0)

@@ -59,7 +59,9 @@ contains
 
       ended = .false.
       share = 1.0_wp
-      call run%sides%end_step(run%context, run%step, run%now, step_end, share)
+      if (size(run%sides%above) > 0) then
+         call run%sides%end_step(run%context, run%step, run%now, step_end, share)
+      end if
       if (present(watcher) .and. share > 0.0_wp) then
          call run%search%search_step(watcher, run%step, run%now, step_end, share, ended)
          if (ended) run%sides%passed = .false.
