@@ -2,6 +2,7 @@
 !> What the definition of a compiled model says, read from the lines of its description.
 module model_description
    use, intrinsic :: iso_c_binding, only: c_char
+   use dde_errors, only: text_of => text
    use dde_kinds, only: wp
    use model_border, only: describe_line, letters => line_length
    implicit none (type, external)
@@ -92,6 +93,9 @@ module model_description
       character(len=line_length), allocatable :: switches(:)
       !> Sizes of the definition
       type(sizes_type) :: sizes
+   contains
+      !> What it calls a value of the problem
+      procedure :: name_of
    end type description_type
 
 contains
@@ -184,6 +188,23 @@ contains
          if (observed%is_exponential) level = log(level)
       end subroutine read_level
    end function observed_of
+
+   !> What it calls a value of the problem, of a kind that `dde_problem_type` has; its number in a
+   !> chain.
+   pure function name_of(self, kind, number) result(name)
+      class(description_type), intent(in) :: self
+      character(len=*), intent(in) :: kind
+      integer, intent(in) :: number
+      character(len=:), allocatable :: name
+
+      if (kind == "switching") then
+         name = trim(self%switches(number))
+      else if (size(self%sizes%couplings) > 0) then
+         name = kind//"("//text_of(number)//")"
+      else
+         name = trim(self%states(number))//trim(merge("'", " ", kind == "f"))
+      end if
+   end function name_of
 
    !> A line of a description, if there is one, in words.
    logical function has_line(lines, number, words) result(there)

@@ -49,7 +49,6 @@ module model_problem
       procedure :: put
       procedure :: number_of
       procedure :: states
-      !> Whether it has blocks with neighbours
       procedure :: is_chain
       procedure :: initial
       procedure :: history
@@ -59,7 +58,7 @@ module model_problem
       procedure :: exponents
       procedure :: switching
       procedure :: take_sides
-      procedure :: switch_name
+      procedure :: name_of
       procedure :: series
       procedure :: tangent_series
       procedure :: relaxation_rate
@@ -263,16 +262,17 @@ contains
       self%given(size(self%numbers) + 1:) = merge(1.0_wp, 0.0_wp, above)
    end subroutine take_sides
 
-   !> A term that is not smooth, as it is written.
-   function switch_name(self, number) result(name)
+   !> What the definition calls a value.
+   function name_of(self, kind, number) result(name)
       class(model_type), intent(in) :: self
+      character(len=*), intent(in) :: kind
       integer, intent(in) :: number
       character(len=:), allocatable :: name
       type(description_type) :: about
 
       about = self%describe()
-      name = trim(about%switches(number))
-   end function switch_name
+      name = about%name_of(kind, number)
+   end function name_of
 
    !> Taylor coefficients of the solution.
    pure subroutine series(self, t, unit, degree, z, y)

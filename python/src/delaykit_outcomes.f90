@@ -61,7 +61,8 @@ contains
       integer :: i
 
       do i = 1, model%switches
-         call data%attribute("switched", model%switch_name(i)//achar(9)//text(outcome%switched(i)))
+         call data%attribute("switched", model%name_of("switching", i)//achar(9) &
+                             //text(outcome%switched(i)))
       end do
    end subroutine put_switched
 

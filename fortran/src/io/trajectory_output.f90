@@ -211,7 +211,8 @@ contains
          call file%attribute("breaking_points", int(outcome%breaking_points, int64))
          switches = ""
          do i = 1, scene%problem%switches
-            switches = switches//"; "//scene%problem%switch_name(i)//": "//text(outcome%switched(i))
+            switches = switches//"; "//scene%problem%name_of("switching", i)//": " &
+                       //text(outcome%switched(i))
          end do
          if (switches /= "") call file%attribute("switches", switches(3:))
          call file%finish(error)

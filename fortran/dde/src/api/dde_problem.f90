@@ -63,8 +63,8 @@ module dde_problem
       procedure :: switching => no_switching
       !> Go to other sides of the switching functions
       procedure :: take_sides => no_sides
-      !> What messages call a switching function
-      procedure :: switch_name => name_of_number
+      !> What messages call a value of the problem
+      procedure :: name_of => numbered
       !> Taylor series of the solution
       procedure :: series => no_series
       !> Taylor series of one component before the initial time
@@ -181,14 +181,16 @@ contains
       logical, intent(in) :: above(:)
    end subroutine no_sides
 
-   !> The name of a switching function; its number unless the extension gives one.
-   function name_of_number(self, number) result(name)
+   !> What messages call a value: its kind and number, unless the extension names it.
+   function numbered(self, kind, number) result(name)
       class(dde_problem_type), intent(in) :: self
+      !> y, a component; f, its slope; or switching, a switching function
+      character(len=*), intent(in) :: kind
       integer, intent(in) :: number
       character(len=:), allocatable :: name
 
-      name = "switching("//text(number)//")"
-   end function name_of_number
+      name = kind//"("//text(number)//")"
+   end function numbered
 
    !> Taylor series of the solution in powers of s = (t' - t)/unit: since dy/ds = unit f,
    !> coefficient k + 1 of y is unit/(k + 1) times coefficient k of f. Not a number unless the

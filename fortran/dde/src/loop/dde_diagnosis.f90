@@ -36,7 +36,7 @@ contains
          culprit = ""
          why = "interrupted"
       case (slides)
-         culprit = run%context%problem%switch_name(run%sides%slides)
+         culprit = run%context%problem%name_of("switching", run%sides%slides)
          why = "f pushes the solution back from both sides of the zero of "
       case (out_of_memory)
          culprit = ""
@@ -80,9 +80,9 @@ contains
          rounding = epsilon(1.0_wp)*(abs(run%step%y(i)) + h*abs(slope(i)))
          tolerance = run%context%tolerance%of_component(i, run%step%y(i))
          if (tolerance >= rounding) cycle
-         words = "the tolerance "//text(tolerance)//" of y("//text(i)//") = " &
-                 //text(run%step%y(i))//" is below its rounding error "//text(rounding) &
-                 //"; a larger one expected"
+         words = "the tolerance "//text(tolerance)//" of " &
+                 //run%context%problem%name_of("y", i)//" = "//text(run%step%y(i)) &
+                 //" is below its rounding error "//text(rounding)//"; a larger one expected"
          return
       end do
    end subroutine find_below_rounding
@@ -105,7 +105,7 @@ contains
             t = run%now%hi + (place - 1)*h
             do i = 1, size(problem%lag)
                if (ieee_is_finite(z(i, place))) cycle
-               words = "component "//text(problem%component(i))//" is "//text(z(i, place)) &
+               words = problem%name_of("y", problem%component(i))//" is "//text(z(i, place)) &
                        //" at t = "//text(t - problem%lag(i))
                if (cursor%before_origin(i)) words = "the history of "//words
                return
@@ -113,8 +113,8 @@ contains
             call problem%rhs(cursor%inside(t), y, z(:, place), slope)
             do i = 1, problem%n
                if (ieee_is_finite(slope(i))) cycle
-               words = "f("//text(i)//") is "//text(slope(i))//" at t = "//text(t)//", where y(" &
-                       //text(i)//") = "//text(y(i))
+               words = problem%name_of("f", i)//" is "//text(slope(i))//" at t = "//text(t) &
+                       //", where "//problem%name_of("y", i)//" = "//text(y(i))
                return
             end do
             y = y + h*slope

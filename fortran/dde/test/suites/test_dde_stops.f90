@@ -119,7 +119,7 @@ contains
          call expect_stop(falls_out(0.0_wp), 0.0_wp, "f(1) is NaN at t = 1.0", 1.0_wp, 1.0_wp)
          call expect_stop(falls_out(5.0_wp), 3.0_wp, "stopped at t = 3.0 of 5.0 after 0 steps", &
                           3.0_wp, 5.0_wp)
-         call expect_stop(problem, 0.0_wp, "the history of component 1 is NaN at t = -1.0", &
+         call expect_stop(problem, 0.0_wp, "the history of y(1) is NaN at t = -1.0", &
                           0.0_wp, 0.0_wp)
       end do
 

@@ -330,7 +330,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       if (problem%switches == 0) return
-      call raise(error, "exponents: the model is not smooth at "//problem%switch_name(1) &
+      call raise(error, "exponents: the model is not smooth at "//problem%name_of("switching", 1) &
                  //"; expected a smooth one, since disturbances jump there")
    end subroutine expect_smooth
 
