@@ -218,6 +218,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(error_type), allocatable :: failure
       type(multipliers_type) :: better
+      type(newton_type) :: anew
       type(orbit_change_type) :: direction(size(along))
       type(periodic_orbit_type) :: adapted, reference
       real(wp) :: before
@@ -226,7 +227,7 @@ contains
       call find_multipliers(newton%linear, refinement%multipliers, multipliers, error)
       if (allocated(error)) return
       intervals = orbit%intervals()
-      newton = newton_type()
+      newton = anew
       before = huge(before)
       do round = 1, refinement%most_rounds
          if (multipliers%trivial_error <= refinement%accuracy) then
