@@ -42,7 +42,7 @@ def compile_module(text: str, path: Path, compiler: str = COMPILER, flags: str =
             shutil.copy(SUPPORT / "shared" / name, folder)
         Path(folder, "model.f90").write_text(text, encoding="utf-8")
         names = [KINDS.name, *shared, "model.f90"]
-        command = [compiler, *flags.split(), "-fPIC", "-shared", "-Wl,-Bsymbolic", "-s"]
+        command = [compiler, *flags.split(), "-fPIC", "-shared", "-Wl,-Bsymbolic,-s"]
         made = subprocess.run(
             [*command, *names, "-o", "model.so"], cwd=folder, capture_output=True, text=True
         )
