@@ -145,7 +145,7 @@ contains
    end subroutine sweep_attractors
 
    !> The model at a point.
-   pure type(model_type) function model_at(model, numbers, past) result(there)
+   type(model_type) function model_at(model, numbers, past) result(there)
       type(model_type), intent(in) :: model
       !> Parameters, and states before the initial time
       real(wp), intent(in) :: numbers(:), past(:)

@@ -65,7 +65,7 @@ contains
    end subroutine measure_transverse_growth
 
    !> The block whose disturbances are those of a mode.
-   pure type(model_type) function of_mode(model, s) result(block)
+   type(model_type) function of_mode(model, s) result(block)
       !> A chain of one block with kappa = 1
       type(model_type), intent(in) :: model
       !> 1 + kappa mu of the mode
