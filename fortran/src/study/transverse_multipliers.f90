@@ -246,7 +246,7 @@ contains
    end subroutine find_zero
 
    !> A model that keeps delays of 0.
-   pure type(model_type) function kept(model) result(keeping)
+   type(model_type) function kept(model) result(keeping)
       type(model_type), intent(in) :: model
 
       keeping = model

@@ -4,8 +4,8 @@
 module test_chains
    use block_builder, only: build_block, paper_law
    use dde_kinds, only: wp
-   use expectations, only: expect_close
-   use mctc_env_testing, only: check, error_type, new_unittest, unittest_type
+   use expectations, only: expect, expect_close
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use model_chain, only: blocks_in_order, chain_ends, find_neighbours, mode_eigenvalue
    use model_problem, only: model_type
    use pseudo_random, only: uniform
@@ -44,16 +44,16 @@ contains
       integer, allocatable :: left(:), right(:)
       integer :: i, k, n
 
-      call check(error, all(blocks_in_order(5, "ring") == [1, 5, 2, 4, 3]), "five folded")
+      call expect(error, all(blocks_in_order(5, "ring") == [1, 5, 2, 4, 3]), "five folded")
       if (allocated(error)) return
       do k = 1, size(chain_ends)
          do n = 3, 9
             associate (order => blocks_in_order(n, chain_ends(k)))
-               call check(error, all([(any(order == i), i=1, n)]), "each block once")
+               call expect(error, all([(any(order == i), i=1, n)]), "each block once")
                if (allocated(error)) return
                call find_neighbours(n, chain_ends(k), left, right)
-               call check(error, maxval(abs([left, right] - [([(i, i=1, n)], k=1, 2)]), &
-                                        mask=[left, right] > 0) <= 2, "near neighbours")
+               call expect(error, maxval(abs([left, right] - [([(i, i=1, n)], k=1, 2)]), &
+                                         mask=[left, right] > 0) <= 2, "near neighbours")
                if (allocated(error)) return
             end associate
          end do
