@@ -21,10 +21,11 @@ module dde_sides
    real(wp), parameter :: ahead = 1.0e-4_wp, ahead_of_start = 1.0e-10_wp
    !> A passage as near to an end of the step, in units of the spacing of times, is there.
    real(wp), parameter :: near = 16.0_wp
-   !> Places of a step at which the functions are looked at, powers of two. A sine of many periods
-   !> may look straight at even places, hardly ever at odd ones, too.
+   !> Even places of a step at which the functions are looked at, powers of two. A sine of many
+   !> periods may look straight there, hardly ever at odd ones, too: fractions of roots of primes.
    integer, parameter :: least_places = 8, most_places = 128
-   real(wp), parameter :: odd(5) = [0.118_wp, 0.382_wp, 0.55_wp, 0.764_wp, 0.854_wp]
+   real(wp), parameter :: odd(6) = sqrt([2.0_wp, 3.0_wp, 5.0_wp, 7.0_wp, 11.0_wp, 13.0_wp]) &
+                                   - [1.0_wp, 1.0_wp, 2.0_wp, 2.0_wp, 3.0_wp, 3.0_wp]
    !> Largest distance of functions from a line, over their largest value.
    real(wp), parameter :: most_bend = 0.1_wp
    !> Least rate at which a solution is pushed back, over that at which it came.
