@@ -84,7 +84,7 @@ def test_changed_files_of_the_project_make_their_results_anew(scratch):
 def test_results_of_an_older_program_are_computed_again(scratch):
     """Also where the build of the new one was interrupted, which leaves no program."""
     result = "results/references/stability/strong.tsv"
-    change(scratch, "fortran/app/reference_command.f90")
+    change(scratch, "fortran/src/commands/reference_command.f90")
     lock = scratch.folder / "build" / "lock"
     lock.unlink()
     lock.mkdir()

@@ -1,19 +1,31 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Quantiles of Student's distribution without a library.
+!> Quantiles of Student's distribution without a library. A program that has more digits of them
+!> sets `student_quantile`.
 module student_distribution
    use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: student_quantile
 
+   abstract interface
+      !> The value that a variable of Student's distribution exceeds with a probability.
+      pure real(wp) function find_quantile(probability, freedom) result(value)
+         import :: wp
+         implicit none (type, external)
+         real(wp), value :: probability, freedom
+      end function find_quantile
+   end interface
+
+   procedure(find_quantile), pointer :: student_quantile => quantile_by_halving
+
 contains
 
    !> The value that a variable of Student's distribution exceeds with a probability, by halving.
-   pure real(wp) function student_quantile(probability, freedom) result(value)
+   pure real(wp) function quantile_by_halving(probability, freedom) result(value)
       !> The probability, 0..1/2
-      real(wp), intent(in) :: probability
+      real(wp), value :: probability
       !> Degrees of freedom, a whole number > 0
-      real(wp), intent(in) :: freedom
+      real(wp), value :: freedom
       real(wp) :: above, below
       integer :: i
 
@@ -30,7 +42,7 @@ contains
             above = value
          end if
       end do
-   end function student_quantile
+   end function quantile_by_halving
 
    !> The probability beyond a value >= 0 (Abramowitz and Stegun 1964, 26.7.3 and 26.7.4).
    pure real(wp) function beyond(value, freedom) result(probability)

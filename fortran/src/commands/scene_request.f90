@@ -1,17 +1,16 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> A scene: a model with its parameters and its history, from the section `scene` of a namelist.
-module scene_input
+module scene_request
    use dde, only: integration_options
    use dde_errors, only: error_type
    use dde_kinds, only: wp
-   use history_input, only: read_histories
    use model_attributes, only: put_history, put_model
    use model_history, only: history_type
    use model_problem, only: model_type
    use natural_units, only: in_own_units
    use model_settings, only: model_settings_type
-   use namelist_input, only: element_length, namelist_file_type, word_length
-   use output_file, only: output_file_type
+   use request, only: element_length, request_type, word_length
+   use results, only: results_type
    use value_checks, only: absent, check_number, missing, most_samples
    implicit none (type, external)
    private
@@ -54,47 +53,46 @@ module scene_input
 contains
 
    !> Read and check a scene.
-   subroutine read_scene(path, opened, error)
-      character(len=*), intent(in) :: path
+   subroutine read_scene(given, opened, error)
+      class(request_type), intent(inout) :: given
       type(scene_type), intent(out) :: opened
-      !> The file cannot be read, or a value is out of range
+      !> It cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
-      type(namelist_file_type) :: file
       type(scene_settings_type) :: scene
       namelist /settings/ scene
 
-      call file%open(path)
-      read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
-      write (file%copy, nml=settings, delim="quote")
-      call file%close(error)
-      call opened%open(path, scene, error)
-      call check_number(error, path//": scene '"//trim(scene%name)//"'", "sample_interval", &
-                        scene%sample_interval, &
+      read (given%lines, nml=settings, iostat=given%status, iomsg=given%reason)
+      write (given%copy, nml=settings, delim="quote")
+      call given%check(error)
+      call opened%open(given, scene, error)
+      call check_number(error, given%place//"scene '"//trim(scene%name)//"': ", &
+                        "sample_interval", scene%sample_interval, &
                         at_least=scene%t_end/most_samples*scene%model%blocks)
    end subroutine read_scene
 
    !> Open the model of a scene and read its history; keep an earlier error.
-   subroutine open_scene(self, path, settings, error)
+   subroutine open_scene(self, given, settings, error)
       class(scene_type), intent(inout) :: self
-      character(len=*), intent(in) :: path
+      class(request_type), intent(inout) :: given
       type(scene_settings_type), intent(in) :: settings
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
 
       if (allocated(error)) return
       self%scene_settings_type = settings
-      call self%model%open(path//": scene '"//trim(self%name)//"'", self%problem, error)
-      call read_histories(path, self%problem, self%history, error)
+      call self%model%open(given%place//"scene '"//trim(self%name)//"': ", self%problem, error, &
+                           opened=given%model)
+      call given%read_histories(self%problem, self%history, error)
    end subroutine open_scene
 
    !> Write name, model and history of a scene.
-   subroutine put_scene(self, file)
+   subroutine put_scene(self, data)
       class(scene_type), intent(in) :: self
-      type(output_file_type), intent(inout) :: file
+      class(results_type), intent(inout) :: data
 
-      call file%attribute("scene", trim(self%name))
-      call put_model(file, self%problem)
-      call put_history(file, self%problem, self%history)
+      call data%attribute("scene", trim(self%name))
+      call put_model(data, self%problem)
+      call put_history(data, self%problem, self%history)
    end subroutine put_scene
 
    !> Method and tolerances for the solver.
@@ -105,4 +103,4 @@ contains
                                     absolute=self%tolerance)
       options = in_own_units(self%problem, options)
    end function options_of_scene
-end module scene_input
+end module scene_request

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Points at which attractors are looked for, from the section `points` of a namelist: a grid in at
 !> most two parameters and a list of histories, or a sweep along one parameter.
-module points_input
+module points_request
    use attractor_points, only: point_type
    use dde_errors, only: error_type
    use dde_kinds, only: wp
@@ -9,7 +9,7 @@ module points_input
    use model_history, only: history_type
    use model_problem, only: model_type
    use model_settings, only: model_settings_type
-   use namelist_input, only: word_length
+   use request, only: request_type, word_length
    use value_checks, only: check_choice, check_count, missing_count
    implicit none (type, external)
    private
@@ -51,21 +51,22 @@ contains
 
    !> Open the model at the first corner of the grid. Refuse parameters without a meaning at both
    !> corners; keep an earlier error.
-   subroutine open_points(self, place, model, error)
+   subroutine open_points(self, given, model, error)
       class(points_settings_type), intent(in) :: self
-      !> File and section, for messages
-      character(len=*), intent(in) :: place
+      class(request_type), intent(in) :: given
       type(model_type), intent(out) :: model
       type(error_type), allocatable, intent(inout) :: error
       type(model_settings_type) :: corner
+      character(len=:), allocatable :: place
       integer :: i, j
 
+      place = given%place//"points: "
       do i = 2, 1, -1
          corner = self%model
          do j = 1, size(self%axes)
             call corner%put(trim(self%axes(j)%along), self%axes(j)%window(i))
          end do
-         if (.not. allocated(error)) call corner%open(place, model, error)
+         if (.not. allocated(error)) call corner%open(place, model, error, opened=given%model)
       end do
       call check_count(error, place, "refinements", self%refinements, at_least=0)
       call check_count(error, place, "kept", self%kept, at_least=0, at_most=100000)
@@ -120,4 +121,4 @@ contains
       share = [(real(i - 1, wp)/max(1, axis%count - 1), i=axis%part(1), axis%part(2))]
       values = (1.0_wp - share)*axis%window(1) + share*axis%window(2)
    end function values_on
-end module points_input
+end module points_request

@@ -1,23 +1,22 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What the program `measure` reads and writes: cases and what to measure; a row a run, with its
-!> samples.
-module measure_files
+!> Measured runs: cases solved by several methods at several tolerances, with what each run gave and
+!> what it cost, a row a run, with its samples. A run that fails is a row with its reason.
+module measure_command
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use cases_input, only: case_settings_type, lines_of_case, most_cases, open_cases
+   use cases_request, only: case_settings_type, lines_of_case, most_cases, open_cases
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
    use measured_case, only: case_type
-   use measured_run, only: baseline_methods, run_type
+   use measured_run, only: baseline_methods, measure_run, run_type, time_runs
    use model_attributes, only: put_places
    use model_description, only: description_type, model_length => word_length
    use model_history, only: shown_name
-   use namelist_input, only: element_length, elements, namelist_file_type
-   use output_file, only: output_file_type
-   use results, only: joined
+   use request, only: element_length, elements, request_type
+   use results, only: joined, results_type
    use value_checks, only: absent, check_count, missing, missing_count
    implicit none (type, external)
    private
-   public :: measure_settings_type, read_measure, write_measured_runs
+   public :: run_measure
 
    !> Most tolerances or lengths of steps.
    integer, parameter :: most = 100
@@ -45,26 +44,55 @@ module measure_files
 
 contains
 
+   !> Run the command.
+   subroutine run_measure(given, data, error)
+      class(request_type), intent(inout) :: given
+      class(results_type), intent(inout), target :: data
+      type(error_type), allocatable, intent(out) :: error
+      type(case_type), allocatable :: cases(:)
+      type(measure_settings_type) :: settings
+      type(run_type), allocatable :: runs(:)
+      integer :: i, j, last, n
+
+      call read_measure(given, cases, settings, error)
+      if (allocated(error)) return
+      n = size(settings%runs())
+      allocate (runs(n*size(cases)))
+      call given%progress%begin("measured runs", parts=2*size(cases))
+      do i = 1, size(cases)
+         call given%progress%begin_part(2*i - 1)
+         last = n*i
+         runs(last - n + 1:last) = settings%runs()
+         do j = 1, n
+            call measure_run(cases(i), 0.0_wp, settings%most_steps, runs(last - n + j))
+            call given%progress%advance(j, n)
+         end do
+         call given%progress%begin_part(2*i)
+         call time_runs(cases(i), settings%most_steps, settings%repeats, settings%least_seconds, &
+                        runs(last - n + 1:last), given%progress)
+      end do
+      call put_runs(data, cases, runs)
+   end subroutine run_measure
+
    !> Read and check cases and settings.
-   subroutine read_measure(path, measured, measure, error)
-      character(len=*), intent(in) :: path
+   subroutine read_measure(given, measured, measure, error)
+      class(request_type), intent(inout) :: given
       type(case_type), allocatable, intent(out) :: measured(:)
       type(measure_settings_type), intent(out) :: measure
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
       type(case_settings_type), allocatable :: cases(:)
-      type(namelist_file_type) :: file
       namelist /settings/ cases, measure
 
       allocate (cases(most_cases))
-      call file%open(path, lines_of_case*most_cases)
-      read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
+      call given%make_room(lines_of_case*most_cases)
+      read (given%lines, nml=settings, iostat=given%status, iomsg=given%reason)
       ! gfortran cannot write a namelist with an array of no elements that have derived types
       cases = cases(:max(1, count(cases%name /= "")))
-      write (file%copy, nml=settings, delim="quote")
-      call file%close(error)
-      call open_cases(path, cases, measured, error)
-      call check_count(error, path, "repeats", measure%repeats, at_least=0)
+      write (given%copy, nml=settings, delim="quote")
+      call given%check(error)
+      call open_cases(given, cases, measured, error)
+      call check_count(error, given%place, "repeats", measure%repeats, at_least=0)
    end subroutine read_measure
 
    !> Each method at each of its tolerances or lengths of steps.
@@ -82,16 +110,13 @@ contains
       end do
    end function runs_of_methods
 
-   !> Write all runs of all cases, which have one model; a case with fewer samples than another is
+   !> All runs of all cases, which have one model; a case with fewer samples than another is
    !> filled up with NaN.
-   subroutine write_measured_runs(path, cases, runs, error)
-      character(len=*), intent(in) :: path
+   subroutine put_runs(data, cases, runs)
+      class(results_type), intent(inout) :: data
       type(case_type), intent(in) :: cases(:)
       !> Runs of the cases, of each as many
       type(run_type), intent(in) :: runs(:)
-      !> Error if the file could not be written
-      type(error_type), allocatable, intent(out) :: error
-      type(output_file_type) :: file
       real(wp), allocatable :: table(:, :)
       character(len=reason_length) :: reasons(size(runs))
       integer :: i, j, most_samples, of(size(runs)), run, sample
@@ -103,44 +128,44 @@ contains
       end do
       most_samples = maxval([(size(runs(i)%samples, 2), i=1, size(runs))])
 
-      call file%create(path, "Measured runs of a model")
-      run = file%dimension("run", size(runs), coordinates="case method setting")
-      sample = file%dimension("sample", most_samples, coordinates="time")
-      call file%words(run, "case", cases(of)%name, "name of the case")
-      call file%words(run, "method", runs%method, "method")
-      call file%words(run, "status", runs%status, "ok, or why the run ended before t_end")
-      call file%words(run, "reason", reasons, "the same in the solver's words")
-      call file%column(run, "setting", runs%setting, &
+      call data%attribute("title", "Measured runs of a model")
+      run = data%dimension("run", size(runs), coordinates="case method setting")
+      sample = data%dimension("sample", most_samples, coordinates="time")
+      call data%words(run, "case", cases(of)%name, "name of the case")
+      call data%words(run, "method", runs%method, "method")
+      call data%words(run, "status", runs%status, "ok, or why the run ended before t_end")
+      call data%words(run, "reason", reasons, "the same in the solver's words")
+      call data%column(run, "setting", runs%setting, &
                        "tolerance, or length of the steps of rk4 methods")
-      call file%words(run, "model", [(model_name(cases(of(i))), i=1, size(runs))], &
+      call data%words(run, "model", [(model_name(cases(of(i))), i=1, size(runs))], &
                       "name of the model")
       associate (model => cases(1)%model, history => cases(1)%history)
-         call file%attribute("parameters", joined(model%names))
-         call put_places(file, run, model, [(cases(of(i))%model%numbers, i=1, size(runs))])
+         call data%attribute("parameters", joined(model%names))
+         call put_places(data, run, model, [(cases(of(i))%model%numbers, i=1, size(runs))])
          do j = 1, size(history%names)
-            call file%column(run, "history_"//trim(history%names(j)), &
+            call data%column(run, "history_"//trim(history%names(j)), &
                              [(cases(of(i))%history%values(j, 1, 1), i=1, size(runs))], &
                              trim(history%names(j))//" for t <= 0")
          end do
       end associate
-      call file%column(run, "t_end", cases(of)%t_end, "last time asked for")
-      call file%column(run, "t_reached", runs%outcome%t, "last time reached")
-      call file%column(run, "steps_accepted", real(runs%outcome%accepted, wp), "steps accepted")
-      call file%column(run, "steps_rejected", real(runs%outcome%rejected, wp), "steps rejected")
-      call file%column(run, "steps_implicit", real(runs%outcome%implicit_steps, wp), &
+      call data%column(run, "t_end", cases(of)%t_end, "last time asked for")
+      call data%column(run, "t_reached", runs%outcome%t, "last time reached")
+      call data%column(run, "steps_accepted", real(runs%outcome%accepted, wp), "steps accepted")
+      call data%column(run, "steps_rejected", real(runs%outcome%rejected, wp), "steps rejected")
+      call data%column(run, "steps_implicit", real(runs%outcome%implicit_steps, wp), &
                        "implicit steps accepted")
-      call file%column(run, "evaluations", real(runs%outcome%evaluations, wp), &
+      call data%column(run, "evaluations", real(runs%outcome%evaluations, wp), &
                        "right-hand sides evaluated")
-      call file%column(run, "factorisations", real(runs%outcome%factorisations, wp), &
+      call data%column(run, "factorisations", real(runs%outcome%factorisations, wp), &
                        "matrices factorised")
-      call file%column(run, "switches", real(runs%outcome%switches, wp), "changes of method")
+      call data%column(run, "switches", real(runs%outcome%switches, wp), "changes of method")
       name = shown_name(cases(1)%model, cases(1)%model%sizes%observed%component)
-      call file%attribute("signal", name)
-      call file%column(run, "least_"//name, runs%least, &
+      call data%attribute("signal", name)
+      call data%column(run, "least_"//name, runs%least, &
                        "smallest "//name//" on a grid 8 times that of samples")
-      call file%column(run, "most_"//name, runs%most, &
+      call data%column(run, "most_"//name, runs%most, &
                        "largest "//name//" on a grid 8 times that of samples")
-      call file%column(run, "seconds", runs%seconds, &
+      call data%column(run, "seconds", runs%seconds, &
                        "CPU time of the solver alone, median of repeats", "s")
 
       allocate (table(most_samples, size(runs)))
@@ -148,15 +173,14 @@ contains
       do i = 1, size(runs)
          table(:size(runs(i)%samples, 2), i) = cases(of(i))%sample_times()
       end do
-      call file%table([sample, run], "time", table, "time of the sample")
+      call data%table([sample, run], "time", table, "time of the sample")
       do j = 1, size(runs(1)%samples, 1)
          do i = 1, size(runs)
             table(:size(runs(i)%samples, 2), i) = runs(i)%samples(j, :)
          end do
          name = shown_name(cases(1)%model, j)
-         call file%table([sample, run], name, table, name//" of the sample")
+         call data%table([sample, run], name, table, name//" of the sample")
       end do
-      call file%finish(error)
 
    contains
 
@@ -169,5 +193,5 @@ contains
          about = case%model%describe()
          word = about%name
       end function model_name
-   end subroutine write_measured_runs
-end module measure_files
+   end subroutine put_runs
+end module measure_command

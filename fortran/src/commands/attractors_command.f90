@@ -1,26 +1,25 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What the program `attractors` reads and writes: how attractors are found and judged, and at which
-!> points; what was found there.
-module attractors_files
+!> Attractors of a model on a grid of its parameters, from one history or several, or along a sweep,
+!> with their classes.
+module attractors_command
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use attractor_points, only: finding_type, point_type
+   use attractor_points, only: find_attractors, finding_type, point_type, sweep_attractors
    use attractors, only: attractor_settings_type, most_with_zeros
    use dde, only: integration_options
    use dde_errors, only: error_type, text
    use dde_kinds, only: int64, wp
    use exponent_averages, only: sign_of
-   use history_input, only: read_histories
    use model_attributes, only: put_model, put_places
    use model_history, only: history_type, shown_name, signal_name
    use model_problem, only: model_type
    use motion_classes, only: class_names, cycle_motion, fixed_point, reason_names
-   use namelist_input, only: namelist_file_type, word_length
-   use output_file, only: output_file_type
-   use points_input, only: points_settings_type
+   use points_request, only: points_settings_type
+   use request, only: request_type, word_length
+   use results, only: results_type
    use value_checks, only: check_count, check_number, missing, missing_count, most_samples
    implicit none (type, external)
    private
-   public :: read_attractors, write_attractors
+   public :: run_attractors
 
    !> How the solver takes steps.
    type :: solver_settings_type
@@ -37,9 +36,35 @@ module attractors_files
 
 contains
 
+   !> Run the command.
+   subroutine run_attractors(given, data, error)
+      class(request_type), intent(inout) :: given
+      class(results_type), intent(inout), target :: data
+      type(error_type), allocatable, intent(out) :: error
+      type(attractor_settings_type) :: settings
+      type(finding_type), allocatable :: findings(:)
+      type(integration_options) :: options
+      type(points_settings_type) :: points
+      type(history_type) :: history
+      type(model_type) :: model
+      type(point_type), allocatable :: list(:)
+
+      call read_attractors(given, settings, options, points, model, history, error)
+      if (allocated(error)) return
+      list = points%list(model, history)
+      call given%progress%begin("attractors of "//trim(points%name))
+      if (points%sweep == "none") then
+         call find_attractors(model, list, settings, options, findings, given%progress, &
+                              points%columns(), points%refinements)
+      else
+         call sweep_attractors(model, list, settings, options, findings, given%progress)
+      end if
+      call put_attractors(data, points, model, history, list, settings, options, findings)
+   end subroutine run_attractors
+
    !> Read and check all sections.
-   subroutine read_attractors(path, observation, options, points, model, history, error)
-      character(len=*), intent(in) :: path
+   subroutine read_attractors(given, observation, options, points, model, history, error)
+      class(request_type), intent(inout) :: given
       !> How attractors are judged
       type(attractor_settings_type), intent(out) :: observation
       !> Method, tolerances and limits
@@ -51,34 +76,33 @@ contains
       type(history_type), intent(out) :: history
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
-      type(namelist_file_type) :: file
       type(solver_settings_type) :: solver
+      character(len=:), allocatable :: place
       namelist /settings/ observation, solver, points
 
-      call file%open(path)
-      read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
-      write (file%copy, nml=settings, delim="quote")
-      call file%close(error)
+      read (given%lines, nml=settings, iostat=given%status, iomsg=given%reason)
+      write (given%copy, nml=settings, delim="quote")
+      call given%check(error)
+      place = given%place//"observation: "
       options = integration_options(method=trim(solver%method), relative=solver%tolerance, &
                                     absolute=solver%tolerance, most_steps=solver%most_steps)
-      call check_count(error, path//": observation", "exponents", observation%exponents, &
+      call check_count(error, place, "exponents", observation%exponents, &
                        at_least=2, at_most=1000)
-      call check_number(error, path//": observation", "interval", observation%interval, &
+      call check_number(error, place, "interval", observation%interval, &
                         above=0.0_wp)
-      call check_number(error, path//": observation", "t_path", observation%t_path, &
+      call check_number(error, place, "t_path", observation%t_path, &
                         at_least=0.0_wp)
-      call check_number(error, path//": observation", "sample_interval", &
+      call check_number(error, place, "sample_interval", &
                         observation%sample_interval, above=0.0_wp, &
                         at_least=max(0.0_wp, observation%t_path, &
                                                   observation%t_observed)/most_samples)
-      call points%open(path//": points", model, error)
-      call read_histories(path, model, history, error)
+      call points%open(given, model, error)
+      call given%read_histories(model, history, error)
    end subroutine read_attractors
 
-   !> Write what was found at each point.
-   subroutine write_attractors(path, points, model, history, list, settings, options, findings, &
-                               error)
-      character(len=*), intent(in) :: path
+   !> What was found at each point.
+   subroutine put_attractors(data, points, model, history, list, settings, options, findings)
+      class(results_type), intent(inout) :: data
       !> Where attractors were looked for, and what is kept of each
       type(points_settings_type), intent(in) :: points
       type(model_type), intent(in) :: model
@@ -88,61 +112,58 @@ contains
       !> Method and tolerances
       type(integration_options), intent(in) :: options
       type(finding_type), intent(in) :: findings(:)
-      !> Error if the file could not be written
-      type(error_type), allocatable, intent(out) :: error
-      type(output_file_type) :: file
       character(len=*), parameter :: ordinals(3) = ["first ", "second", "third "]
       real(wp), dimension(size(findings)) :: least, mean_time, most, variation
       character(len=:), allocatable :: name
       integer :: i, k, rows
 
       name = signal_name(model)
-      call file%create(path, "Attractors of a model")
-      call file%attribute("name", trim(points%name))
-      call put_model(file, model, points%axes%along)
-      call file%attribute("axes", trim(points%axes(1)%along)//" "//trim(points%axes(2)%along))
-      call file%attribute("sweep", trim(points%sweep))
-      call file%attribute("refinements", int(points%refinements, int64))
-      call file%attribute("method", trim(options%method))
-      call file%attribute("tolerance", options%relative)
-      call file%attribute("t_transient", settings%t_transient)
-      call file%attribute("t_observed", settings%t_observed)
-      call file%attribute("t_lasting", settings%t_lasting)
-      call file%attribute("t_turning", settings%t_turning)
-      call file%attribute("interval", settings%interval)
-      call file%attribute("zero_level", settings%zero_level)
-      call file%attribute("longest_bar", settings%longest_bar)
-      call file%attribute("sample_interval", settings%sample_interval)
-      rows = file%dimension("point", size(findings))
-      call put_places(file, rows, model, [(list(i)%numbers, i=1, size(list))])
+      call data%attribute("title", "Attractors of a model")
+      call data%attribute("name", trim(points%name))
+      call put_model(data, model, points%axes%along)
+      call data%attribute("axes", trim(points%axes(1)%along)//" "//trim(points%axes(2)%along))
+      call data%attribute("sweep", trim(points%sweep))
+      call data%attribute("refinements", int(points%refinements, int64))
+      call data%attribute("method", trim(options%method))
+      call data%attribute("tolerance", options%relative)
+      call data%attribute("t_transient", settings%t_transient)
+      call data%attribute("t_observed", settings%t_observed)
+      call data%attribute("t_lasting", settings%t_lasting)
+      call data%attribute("t_turning", settings%t_turning)
+      call data%attribute("interval", settings%interval)
+      call data%attribute("zero_level", settings%zero_level)
+      call data%attribute("longest_bar", settings%longest_bar)
+      call data%attribute("sample_interval", settings%sample_interval)
+      rows = data%dimension("point", size(findings))
+      call put_places(data, rows, model, [(list(i)%numbers, i=1, size(list))])
       associate (found => findings%attractor)
          if (model%shape%blocks > 1) then
-            call file%column(rows, "history", list%history, "number of the history")
+            call data%column(rows, "history", list%history, "number of the history")
          else if (allocated(history%values)) then
             do k = 1, size(history%names)
-               call file%column(rows, "history_"//trim(history%names(k)), &
+               call data%column(rows, "history_"//trim(history%names(k)), &
                                 history%values(k, 1, list%history), &
                                 trim(history%names(k))//" for t <= 0")
             end do
          end if
-         call file%answers(rows, "computed", findings%computed, "whether the motion was " &
+         call data%answers(rows, "computed", findings%computed, "whether the motion was " &
                            //"computed; if not, class and period are those of the neighbours")
-         call file%flags(rows, "class", found%class, class_names, "class of the motion")
-         call file%flags(rows, "reason", found%reason, reason_names, "why the class is undecided")
+         call data%flags(rows, "class", found%class, class_names, "class of the motion")
+         call data%flags(rows, "reason", found%reason, reason_names, "why the class is undecided")
          call put_found("time", found%time, "time until the class was certain, or the limit")
-         call file%flags(rows, "by_exponents", found%by_exponents, class_names, &
+         call data%flags(rows, "by_exponents", found%by_exponents, class_names, &
                          "class by Lyapunov exponents")
-         call file%flags(rows, "by_section", found%by_section, class_names, &
+         call data%flags(rows, "by_section", found%by_section, class_names, &
                          "class by the section")
-         call file%flags(rows, "by_spectrum", found%by_spectrum, class_names, &
+         call data%flags(rows, "by_spectrum", found%by_spectrum, class_names, &
                          "class by the spectrum of "//name)
          call put_exponents()
-         call file%column(rows, "period", found%period, "points of a cycle in the section, 0: none")
+         call data%column(rows, "period", found%period, "points of a cycle in the section, 0: none")
          call put_found("roughness", found%roughness, &
                         "of the section as a function of two phases, of three on a 3-torus, "// &
                         "0: smooth, 1: random")
          do i = 1, 3
-            call file%column(rows, "base_"//text(i), found%bases(i), &
+            call data%column(rows, "base_"//text(i), found%bases(i), &
                              trim(ordinals(i))//" fundamental frequency of "//name//", 0: none")
          end do
          call put_found("line_share", found%line_share, &
@@ -151,17 +172,16 @@ contains
             call reach(findings(i), least(i), most(i))
             call recur(findings(i), mean_time(i), variation(i))
          end do
-         call file%column(rows, "smallest_maximum", least, "smallest maximum of "//name)
-         call file%column(rows, "largest_maximum", most, "largest maximum of "//name)
-         call file%column(rows, "recurrence_time", mean_time, &
+         call data%column(rows, "smallest_maximum", least, "smallest maximum of "//name)
+         call data%column(rows, "largest_maximum", most, "largest maximum of "//name)
+         call data%column(rows, "recurrence_time", mean_time, &
                           "mean time between passages of the section")
-         call file%column(rows, "recurrence_variation", variation, &
+         call data%column(rows, "recurrence_variation", variation, &
                           "standard deviation of this time over its mean")
       end associate
-      call put_kept(file, model, points%kept, findings, rows)
-      if (settings%t_path > 0.0_wp) call put_paths(file, model, settings%t_path, findings, rows)
-      call put_problems(file, findings, rows)
-      call file%finish(error)
+      call put_kept(data, model, points%kept, findings, rows)
+      if (settings%t_path > 0.0_wp) call put_paths(data, model, settings%t_path, findings, rows)
+      call put_problems(data, findings, rows)
 
    contains
 
@@ -172,7 +192,7 @@ contains
          real(wp), intent(in) :: values(:)
          character(len=*), intent(in) :: long_name
 
-         call file%column(rows, name, merge(values, ieee_value(1.0_wp, ieee_quiet_nan), &
+         call data%column(rows, name, merge(values, ieee_value(1.0_wp, ieee_quiet_nan), &
                                             findings%computed .and. values >= 0.0_wp), long_name)
       end subroutine put_found
 
@@ -193,12 +213,12 @@ contains
             signs(:n, k) = sign_of(findings(k)%attractor%exponents, settings%zero_level, &
                                    settings%longest_bar)
          end do
-         dimensions = [file%dimension("exponent", size(values, 1)), rows]
-         call file%table(dimensions, "lyapunov_exponent", values, "Lyapunov exponents, descending")
-         call file%table(dimensions, "lyapunov_error", bars, "standard errors of the exponents")
-         call file%table(dimensions, "sign", signs, "sign of the exponent, 2: unclear")
+         dimensions = [data%dimension("exponent", size(values, 1)), rows]
+         call data%table(dimensions, "lyapunov_exponent", values, "Lyapunov exponents, descending")
+         call data%table(dimensions, "lyapunov_error", bars, "standard errors of the exponents")
+         call data%table(dimensions, "sign", signs, "sign of the exponent, 2: unclear")
       end subroutine put_exponents
-   end subroutine write_attractors
+   end subroutine put_attractors
 
    !> Smallest and largest maximum of the signal, of a cycle the last quarter: the others may belong
    !> to the approach; NaN where there is none.
@@ -244,8 +264,8 @@ contains
    end subroutine recur
 
    !> The last maxima and points of the section, if any are wanted; NaN where there are fewer.
-   subroutine put_kept(file, model, kept, findings, rows)
-      type(output_file_type), intent(inout) :: file
+   subroutine put_kept(data, model, kept, findings, rows)
+      class(results_type), intent(inout) :: data
       type(model_type), intent(in) :: model
       integer, intent(in) :: kept
       type(finding_type), intent(in) :: findings(:)
@@ -269,8 +289,8 @@ contains
             second_coordinate(:n, i) = found%motion%section(2, first:)
          end associate
       end do
-      dimensions = [file%dimension("kept", kept), rows]
-      call file%table(dimensions, "maximum", maxima, &
+      dimensions = [data%dimension("kept", kept), rows]
+      call data%table(dimensions, "maximum", maxima, &
                       "maxima of "//signal_name(model)//", in order of time")
       call put_coordinate(1, first_coordinate)
       call put_coordinate(2, second_coordinate)
@@ -292,13 +312,13 @@ contains
                name = "peak"
             end if
          end associate
-         call file%table(dimensions, "section_"//name, values, name//" in the section")
+         call data%table(dimensions, "section_"//name, values, name//" in the section")
       end subroutine put_coordinate
    end subroutine put_kept
 
    !> Paths one after another, and how many points each has; 0 at rest.
-   subroutine put_paths(file, model, t_path, findings, rows)
-      type(output_file_type), intent(inout) :: file
+   subroutine put_paths(data, model, t_path, findings, rows)
+      class(results_type), intent(inout) :: data
       type(model_type), intent(in) :: model
       real(wp), intent(in) :: t_path
       type(finding_type), intent(in) :: findings(:)
@@ -307,7 +327,7 @@ contains
       character(len=:), allocatable :: name
       integer :: dimension, i, lengths(size(findings)), shown(2)
 
-      call file%attribute("t_path", t_path)
+      call data%attribute("t_path", t_path)
       lengths = 0
       do i = 1, size(findings)
          associate (found => findings(i)%attractor)
@@ -321,25 +341,25 @@ contains
             line(:, before + 1:before + lengths(i)) = findings(i)%attractor%path
          end associate
       end do
-      call file%column(rows, "path_length", lengths, "number of points of the path", &
+      call data%column(rows, "path_length", lengths, "number of points of the path", &
                        lengths_along="path_point")
       ! a dimension of length zero would be an unlimited one
       if (sum(lengths) == 0) return
-      dimension = file%dimension("path_point", sum(lengths), prefix="path_")
-      call file%column(dimension, "time", line(1, :), "time from the beginning of the path")
+      dimension = data%dimension("path_point", sum(lengths), prefix="path_")
+      call data%column(dimension, "time", line(1, :), "time from the beginning of the path")
       associate (observed => model%sizes%observed)
          shown = [maxval(observed%coordinates), observed%component]
       end associate
       do i = 1, 2
          if (shown(i) == 0) cycle
          name = shown_name(model, shown(i))
-         call file%column(dimension, name, line(i + 1, :), name//" along the path")
+         call data%column(dimension, name, line(i + 1, :), name//" along the path")
       end do
    end subroutine put_paths
 
    !> Why no attractor was found, blank where one was.
-   subroutine put_problems(file, findings, rows)
-      type(output_file_type), intent(inout) :: file
+   subroutine put_problems(data, findings, rows)
+      class(results_type), intent(inout) :: data
       type(finding_type), intent(in) :: findings(:)
       integer, intent(in) :: rows
       character(len=longest_problem) :: words(size(findings))
@@ -349,6 +369,6 @@ contains
       do i = 1, size(findings)
          if (allocated(findings(i)%problem)) words(i) = findings(i)%problem%message
       end do
-      call file%words(rows, "problem", words, "why no attractor was found")
+      call data%words(rows, "problem", words, "why no attractor was found")
    end subroutine put_problems
-end module attractors_files
+end module attractors_command

@@ -6,7 +6,7 @@ module results
    use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: attribute_type, joined, results_type, variable_type
+   public :: attribute_type, joined, results_type, variable_type, written_type
 
    !> Letters of a name.
    integer, parameter :: name_length = 64
@@ -39,6 +39,8 @@ module results
       type(attribute_type), allocatable :: attributes(:)
       !> NaN is a missing value
       real(wp), allocatable :: reals(:)
+      !> Digits after the first of these in a table of text
+      integer :: digits = 19
       integer, allocatable :: integers(:)
       !> Words of one length, filled up with null characters
       character(len=:), allocatable :: letters
@@ -53,9 +55,26 @@ module results
       type(error_type), allocatable :: error
    contains
       generic :: column => column_of_reals, column_of_integers
-      procedure :: answers, attribute, dimension, flags, table, words
+      procedure :: answers, attribute, dimension, flags, table, words, write_values
       procedure, private :: add, column_of_integers, column_of_reals
    end type results_type
+
+   !> Results that are written to a file.
+   type, abstract, extends(results_type) :: written_type
+      !> Path of the file
+      character(len=:), allocatable :: path
+   contains
+      procedure(end_file), deferred :: finish, discard
+   end type written_type
+
+   abstract interface
+      !> Write what is left and give the file its name, or leave nothing behind.
+      subroutine end_file(self)
+         import :: written_type
+         implicit none (type, external)
+         class(written_type), intent(inout) :: self
+      end subroutine end_file
+   end interface
 
 contains
 
@@ -109,7 +128,7 @@ contains
    end subroutine attribute
 
    !> A variable of real numbers over one dimension.
-   subroutine column_of_reals(self, dimension, name, values, long_name, units)
+   subroutine column_of_reals(self, dimension, name, values, long_name, units, digits)
       class(results_type), intent(inout) :: self
       !> Number of the dimension
       integer, intent(in) :: dimension
@@ -118,9 +137,12 @@ contains
       character(len=*), intent(in) :: long_name
       !> Unit of the variable, if it is not nondimensional
       character(len=*), intent(in), optional :: units
+      !> Digits after the first in a table of text, if fewer than usual
+      integer, intent(in), optional :: digits
 
       call self%add(name, [dimension], long_name, "1", units)
       allocate (self%variables(size(self%variables))%reals, source=values)
+      if (present(digits)) self%variables(size(self%variables))%digits = digits
    end subroutine column_of_reals
 
    !> A variable of nondimensional real numbers over two dimensions.
@@ -209,6 +231,16 @@ contains
       call self%flags(dimension, name, merge(1, 0, values), ["no ", "yes"], long_name)
    end subroutine answers
 
+   !> Let go of values of which more are to come. Results in memory keep them all, so that they take
+   !> none in parts.
+   subroutine write_values(self, first)
+      class(results_type), intent(inout) :: self
+      !> Place of the first values along the slowest dimension, if it grows
+      integer, intent(in), optional :: first
+
+      call raise(self%error, "results that come in parts go to a file; there is none")
+   end subroutine write_values
+
    !> Words in one line, with underscores for blanks within them.
    pure function joined(words) result(line)
       character(len=*), intent(in) :: words(:)
@@ -259,6 +291,7 @@ contains
       type(variable_type), intent(out) :: to
 
       to%name = from%name
+      to%digits = from%digits
       call move_alloc(from%dimensions, to%dimensions)
       call move_alloc(from%attributes, to%attributes)
       call move_alloc(from%reals, to%reals)

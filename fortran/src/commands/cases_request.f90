@@ -1,13 +1,13 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Cases to measure, from the section `cases` of a namelist, an element a case.
-module cases_input
+module cases_request
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use measured_case, only: case_type
    use model_description, only: word_length
    use model_history, only: read_history
    use model_settings, only: model_settings_type
-   use namelist_input, only: elements
+   use request, only: elements, request_type
    use value_checks, only: absent, check_number, missing, most_samples
    implicit none (type, external)
    private
@@ -32,25 +32,25 @@ module cases_input
 contains
 
    !> Open the models of cases. Refuse cases without a meaning; keep an earlier error.
-   subroutine open_cases(path, given, cases, error)
-      character(len=*), intent(in) :: path
+   subroutine open_cases(given, settings, cases, error)
+      class(request_type), intent(in) :: given
       !> The cases as they are given
-      type(case_settings_type), intent(in) :: given(:)
+      type(case_settings_type), intent(in) :: settings(:)
       type(case_type), allocatable, intent(out) :: cases(:)
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
       character(len=:), allocatable :: place
       integer :: i
 
-      allocate (cases(size(given)))
-      do i = 1, size(given)
+      allocate (cases(size(settings)))
+      do i = 1, size(settings)
          if (allocated(error)) return
-         place = path//": case '"//trim(given(i)%name)//"'"
-         associate (one => given(i), case => cases(i))
+         place = given%place//"case '"//trim(settings(i)%name)//"': "
+         associate (one => settings(i), case => cases(i))
             case%name = one%name
             case%t_end = one%t_end
             case%sample_interval = one%sample_interval
-            call one%model%open(place, case%model, error)
+            call one%model%open(place, case%model, error, opened=given%model)
             call read_history(place, case%model, pack(one%history, one%history /= ""), &
                               elements(one%values), case%history, error)
             call check_number(error, place, "t_end", one%t_end, at_least=0.0_wp)
@@ -59,4 +59,4 @@ contains
          end associate
       end do
    end subroutine open_cases
-end module cases_input
+end module cases_request

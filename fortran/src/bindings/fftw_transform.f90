@@ -1,17 +1,17 @@
 ! SPDX-License-Identifier: GPL-3.0-or-later
 !> Fourier transforms of real numbers by FFTW.
-module fourier_transform
+module fftw_transform
    use, intrinsic :: iso_c_binding
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: transform_real
+   public :: transform_by_fftw
    include 'fftw3.f03'
 
 contains
 
    !> Sums of x(j) exp(-2 pi i j k/n) over j = 0..n - 1, for k = 0..n/2.
-   subroutine transform_real(x, sums)
+   subroutine transform_by_fftw(x, sums)
       !> Numbers, shape (n)
       real(wp), intent(in) :: x(:)
       !> The sums, shape (n/2 + 1)
@@ -28,5 +28,5 @@ contains
       !$omp critical (fftw_planning)
       call fftw_destroy_plan(plan)
       !$omp end critical (fftw_planning)
-   end subroutine transform_real
-end module fourier_transform
+   end subroutine transform_by_fftw
+end module fftw_transform

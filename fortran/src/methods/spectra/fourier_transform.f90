@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Fourier transforms of real numbers without a library: powers of two by halves, other lengths as a
-!> convolution of such (Bluestein 1970, IEEE Transactions on Audio and Electroacoustics 18, 451).
+!> convolution of such (Bluestein 1970, IEEE Transactions on Audio and Electroacoustics 18, 451). A
+!> program that has a faster one sets `transform_real`.
 module fourier_transform
    use dde_kinds, only: int64, wp
    implicit none (type, external)
@@ -9,10 +10,22 @@ module fourier_transform
 
    real(wp), parameter :: pi = acos(-1.0_wp)
 
+   abstract interface
+      !> Sums of x(j) exp(-2 pi i j k/n) over j = 0..n - 1, for k = 0..n/2.
+      subroutine transform_numbers(x, sums)
+         import :: wp
+         implicit none (type, external)
+         real(wp), intent(in) :: x(:)
+         complex(wp), intent(out) :: sums(:)
+      end subroutine transform_numbers
+   end interface
+
+   procedure(transform_numbers), pointer :: transform_real => transform_by_halves
+
 contains
 
    !> Sums of x(j) exp(-2 pi i j k/n) over j = 0..n - 1, for k = 0..n/2.
-   pure subroutine transform_real(x, sums)
+   subroutine transform_by_halves(x, sums)
       !> Numbers, shape (n)
       real(wp), intent(in) :: x(:)
       !> The sums, shape (n/2 + 1)
@@ -44,7 +57,7 @@ contains
       left = transform(left)*transform(right)
       left = conjg(transform(conjg(left)))/length
       sums = left(:size(sums))*chirp(:size(sums) - 1)
-   end subroutine transform_real
+   end subroutine transform_by_halves
 
    !> The same of complex numbers, as many as a power of two.
    pure recursive function transform(x) result(sums)
