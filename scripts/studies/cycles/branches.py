@@ -4,7 +4,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import Akima1DInterpolator
 
 from scripts.files.inputs import Dataset
 
@@ -114,6 +113,9 @@ def smooth_curve(x: np.ndarray, y: np.ndarray, steps: int) -> tuple[np.ndarray, 
     It is Akima's modified one along the chords, since cubic splines swing beside a corner: there
     another maximum becomes the greatest.
     """
+    # not needed by claims, with which planning loads this module
+    from scipy.interpolate import Akima1DInterpolator
+
     extent = np.array([np.ptp(x) or 1.0, np.ptp(y) or 1.0])
     along = np.cumsum(np.hypot(*(np.diff([x, y], prepend=[x[:1], y[:1]]).T / extent).T))
     apart = np.diff(along, prepend=-np.inf) > NEAREST * along[-1]
