@@ -115,7 +115,8 @@ contains
                                           most_orbits=cycles%most_orbits)
       if (all(cycles%curves_along == "")) return
       do i = 1, 2
-         call check_choice(error, given%place, "curves_along", cycles%curves_along(i), line%model%names)
+         call check_choice(error, given%place, "curves_along", cycles%curves_along(i), &
+                           line%model%names)
       end do
       if (.not. any(cycles%curves_along == cycles%along)) return
       line_settings%curve_along = [(line%model%number_of(cycles%curves_along(i)), i=1, 2)]

@@ -136,13 +136,13 @@ contains
    end subroutine check
 
    !> Whether the text has a group: a read of a text in memory that has it not does not fail.
-   pure logical function has(self, name)
+   pure logical function has(self, name) result(there)
       class(request_type), intent(in) :: self
       character(len=*), intent(in) :: name
       integer :: i
 
-      has = any([(index(adjustl(in_small_letters(self%lines(i))), "&"//name) == 1, &
-                  i=1, size(self%lines))])
+      there = any([(index(adjustl(in_small_letters(self%lines(i))), "&"//name) == 1, &
+                    i=1, size(self%lines))])
    end function has
 
    !> Read a text: after a read that met the end of a text in memory, gfortran reads nothing of the

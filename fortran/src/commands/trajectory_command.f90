@@ -1,8 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Trajectory of one scene: its model integrated from its history to t_end. Samples go to the file
-!> in pieces while the integration runs, only the variables that the scene lists. Where the fast state
-!> of a block alone relaxes within the sample interval, they also follow the steps of the solver, so
-!> that events shorter than the interval are resolved. Those of a chain are over time and block.
+!> in pieces while the integration runs, only the variables that the scene lists. Where the fast
+!> state of a block alone relaxes within the sample interval, they also follow the steps of the
+!> solver, so that events shorter than the interval are resolved. Those of a chain are over time and
+!> block.
 module trajectory_command
    use dde, only: integrate, integration_result, sampler_type, stop_requested
    use dde_errors, only: error_type, text

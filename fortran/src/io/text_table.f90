@@ -56,14 +56,14 @@ contains
    end subroutine finish
 
    !> Letters that hold any cell of a column.
-   pure integer function width(self, column)
+   pure integer function width(self, column) result(letters)
       class(text_table_type), intent(in) :: self
       integer, intent(in) :: column
 
       associate (variable => self%variables(column))
-         width = max(number_length, len_trim(variable%name))
+         letters = max(number_length, len_trim(variable%name))
          if (size(variable%dimensions) > 1) then
-            width = max(width, self%dimensions(variable%dimensions(1))%length)
+            letters = max(letters, self%dimensions(variable%dimensions(1))%length)
          end if
       end associate
    end function width
