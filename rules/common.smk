@@ -49,7 +49,7 @@ SOURCES = [
 ]
 """Sources of the program in double and in quadruple precision."""
 OF_MODELS = [
-    "fortran/dde/src/api/dde_kinds.f90",
+    "fortran/dde/src/base/dde_kinds.f90",
     *files_in("../generator", endings={".py", ".jinja"}),
     *files_in("../generator/fortran/shared", endings={".f90"}),
 ]
