@@ -44,7 +44,11 @@ SOURCES = [
     *("fortran/CMakeLists.txt", "fortran/CMakePresets.json"),
     *("fortran/dde/CMakeLists.txt", "generator/CMakeLists.txt"),
     *files_in(
-        "app", "src", "dde/src", "../generator/fortran", endings={".f90", ".c", ".in"}
+        "app",
+        "src",
+        "dde/src",
+        "../generator/fortran",
+        endings={".f90", ".c", ".in", ".inc"},
     ),
 ]
 """Sources of the program in double and in quadruple precision."""

@@ -138,8 +138,8 @@ contains
       end associate
    end subroutine bound_times
 
-   !> The longest step allowed: an explicit one ends before its delayed values lie in it, and in none
-   !> of them the watcher would look at too many places.
+   !> The longest step allowed: the watcher is not looked at in too many places of it, and an
+   !> explicit one ends before its delayed values lie in it.
    pure subroutine find_longest(self)
       class(run_type), intent(inout) :: self
 

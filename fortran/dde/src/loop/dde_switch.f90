@@ -31,8 +31,8 @@ module dde_switch
    integer, parameter :: most_rejections = 20
 
    !> The solution hardly moves on in a few steps that are shorter by this factor than those before.
-   !> It is below 6**6, by which implicit steps may grow in a trial: otherwise steps could stay short
-   !> for ever.
+   !> It is below 6**6, by which implicit steps may grow in a trial: otherwise steps could stay
+   !> short for ever.
    real(wp), parameter :: hardly = 3.0e4_wp
 
    !> States of the choice.
