@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Events are the times in which the signal of a block is above a threshold. Of the spring block
-!> they are slips: with v > 1 it is faster than the plate, and its spring unloads.
+!> they are slips: with v > 1 it is faster than the plate, and its spring unloads. One whose peak is
+!> within a millionth of the threshold is rounding at rest, and none.
 module slip_events
    use dde, only: event_table, event_watcher_type, instant, integrate, integration_options, &
                   integration_result
@@ -13,6 +14,8 @@ module slip_events
    private
    public :: find_slip_events, slip_event_type
 
+   !> By what share of the threshold the peak of an event exceeds it at least.
+   real(wp), parameter :: least_excess = 1.0e-6_wp
    !> Rows of a new table; it doubles.
    integer, parameter :: first_rows = 64
 
@@ -32,9 +35,11 @@ module slip_events
       !> names none
       real(wp) :: slip = 0.0_wp
       !> Largest v of the event
-      real(wp) :: peak_velocity = 0.0_wp
+      real(wp) :: peak_velocity = -huge(1.0_wp)
       !> Least v between the event and the next
       real(wp) :: least_velocity = huge(1.0_wp)
+      !> The event before it at this threshold, 0 for the first
+      integer :: before = 0
    end type slip_event_type
 
    !> The events of all blocks in the order of their onsets.
@@ -211,7 +216,7 @@ contains
          if (self%begun == size(self%events)) self%events = [self%events, self%events]
          self%begun = self%begun + 1
          self%events(self%begun) = slip_event_type(place=place, threshold=self%thresholds(k), &
-                                                   onset=t%hi)
+                                                   onset=t%hi, before=self%last(k, place))
          self%last(k, place) = self%begun
          self%integral(k, place) = integral
       else if (self%last(k, place) > 0) then
@@ -219,6 +224,9 @@ contains
             event%duration = t%hi - event%onset
             event%slip = integral - self%integral(k, place)
             if (self%observed%with_time) event%slip = event%slip + event%duration
+            if (event%peak_velocity - event%threshold > least_excess*abs(event%threshold)) return
+            self%last(k, place) = event%before
+            if (event%before > 0) self%events(event%before)%recurrence_time = 0.0_wp
          end associate
       end if
    end subroutine take_passage

@@ -34,6 +34,8 @@ contains
                    new_unittest("two thresholds in one run", test_two_thresholds), &
                    new_unittest("transient and unfinished events", test_ends), &
                    new_unittest("a signal without integral", test_plain_signal), &
+                   new_unittest("a signal below zero", test_negative_signal), &
+                   new_unittest("peaks at the threshold", test_tiny_events), &
                    new_unittest("no event", test_none)]
    end subroutine collect_slip_events
 
@@ -173,6 +175,41 @@ contains
       call expect_close(error, events%peak_velocity, [1.0_wp, 1.0_wp], bound, "peak")
       call expect_close(error, events%least_velocity, [-1.0_wp, -1.0_wp], bound, "least")
    end subroutine test_plain_signal
+
+   !> sin t > -1/2: peaks are largest values of any sign.
+   subroutine test_negative_signal(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(prescribed_type) :: model
+      type(slip_event_type), allocatable :: events(:)
+
+      model = prescribed(1.0_wp, 0.0_wp)
+      model%past(index_of_ln_v) = -3.0_wp
+      model%sizes%observed = observed_type(component=index_of_ln_v)
+      call events_of(model, [-2.5_wp], 0.0_wp, 14.0_wp, events, error)
+      if (allocated(error)) return
+      call expect_close(error, events%peak_velocity, [-2.0_wp, -2.0_wp], bound, "peak")
+   end subroutine test_negative_signal
+
+   !> sin t - sin 3t has one maximum of 2 in a period, and two of (2/3)**1.5: events of those are
+   !> none at a threshold of one part in 1e7 below, and do not end the loading after the large ones.
+   subroutine test_tiny_events(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(slip_event_type), allocatable :: events(:)
+      real(wp), parameter :: height = (2.0_wp/3.0_wp)**1.5_wp
+      integer :: i
+
+      call events_of(prescribed(1.0_wp, -1.0_wp), exp([height - 1.0e-7_wp]), 0.0_wp, 5.0_wp*pi, &
+                     events, error)
+      if (allocated(error)) return
+      call expect(error, size(events) == 2, "large events")
+      if (allocated(error)) return
+      call expect_close(error, events%recurrence_time, [(2.0_wp*pi, i=1, 2)], bound, "recurrence")
+      call expect_close(error, events%least_velocity, exp([(-2.0_wp, i=1, 2)]), bound, "least")
+      call events_of(prescribed(1.0_wp, -1.0_wp), exp([height - 1.0e-5_wp]), 0.0_wp, 5.0_wp*pi, &
+                     events, error)
+      if (allocated(error)) return
+      call expect(error, size(events) == 6, "large and small events")
+   end subroutine test_tiny_events
 
    !> Without motion there is no event.
    subroutine test_none(error)

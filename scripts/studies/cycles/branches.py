@@ -7,6 +7,9 @@ import numpy as np
 
 from scripts.files.inputs import Dataset
 
+NEAREST = 1e-6
+"""Share of a branch's length below which two of its points are one to a curve through them."""
+
 
 @dataclass
 class CycleThere:
@@ -87,12 +90,36 @@ def branch_of(cycles: Dataset, number: int) -> tuple[np.ndarray, ...]:
     return x, y, between
 
 
-def parts_of(cycles: Dataset) -> Iterator[tuple[int, np.ndarray, np.ndarray]]:
-    """Parts of all branches with the same number of unstable multipliers: this, parameter, v."""
+def parts_of(cycles: Dataset, steps: int = 1) -> Iterator[tuple[int, np.ndarray, np.ndarray]]:
+    """Parts of all branches with the same number of unstable multipliers: this, parameter, v.
+
+    With more steps than one from point to point they are on a smooth curve.
+    """
     for number in range(1, cycles.sizes["branches"] + 1):
         x, y, unstable = branch_of(cycles, number)
+        if steps > 1 and unstable.size > 1:
+            x, y = smooth_curve(x, y, steps)
+            unstable = np.repeat(unstable, steps)
         cuts = np.flatnonzero(np.diff(unstable)) + 1
         # a branch of one orbit has no part
         for part in filter(len, np.split(np.arange(unstable.size), cuts)):
             ends = slice(part[0], part[-1] + 2)
             yield int(unstable[part[0]]), x[ends], y[ends]
+
+
+def smooth_curve(x: np.ndarray, y: np.ndarray, steps: int) -> tuple[np.ndarray, np.ndarray]:
+    """Points on a curve through all points, so many steps from one to the next.
+
+    It is Akima's modified one along the chords, since cubic splines swing beside a corner: there
+    another maximum becomes the greatest.
+    """
+    # not needed by claims, with which planning loads this module
+    from scipy.interpolate import Akima1DInterpolator
+
+    extent = np.array([np.ptp(x) or 1.0, np.ptp(y) or 1.0])
+    along = np.cumsum(np.hypot(*(np.diff([x, y], prepend=[x[:1], y[:1]]).T / extent).T))
+    apart = np.diff(along, prepend=-np.inf) > NEAREST * along[-1]
+    shares = np.arange(steps * (along.size - 1) + 1) / steps
+    fine = np.interp(shares, np.arange(along.size), along)
+    curve = Akima1DInterpolator(along[apart], np.array([x, y]).T[apart], method="makima")
+    return tuple(curve(np.minimum(fine, along[apart][-1])).T)

@@ -63,7 +63,7 @@ def draw(
             style = {"ls": "", "marker": ".", "mew": 0, "rasterized": True, **SWEEPS[direction]}
             axes.plot(*maxima_of(next(following), along), **style)
         # dots of sweeps lie over the stable parts and below the others
-        for unstable, x, y in parts_of(line):
+        for unstable, x, y in parts_of(line, steps=8):
             axes.plot(x, y, **LINES[min(unstable, 3)], zorder=3 if unstable else 1)
         draw_points(axes, line, along)
         drawn |= {str(artist.get_label()): artist for artist in axes.lines}

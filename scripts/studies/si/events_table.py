@@ -7,9 +7,6 @@ from scripts.files.inputs import read
 from scripts.files.outputs import logged
 from scripts.files.tsv import as_digits, write_table
 
-LEAST_EXCESS = 1e-6
-"""By what share of v0 the peak of an event exceeds it at least: less is rounding at rest."""
-
 
 def columns_of(events: xr.Dataset, si: dict) -> dict:
     """Values of all events by column.
@@ -17,7 +14,6 @@ def columns_of(events: xr.Dataset, si: dict) -> dict:
     The force of the spring in (2) is -k u, and u grows by the slip less the way of the plate: in an
     event, v > v0, the stress drops by k (slip - v0 duration).
     """
-    events = events.isel(event=events.peak_velocity.values > 1 + LEAST_EXCESS)
     values = in_si(si)
     units = units_of(values)
     duration, slip = events.duration.values * units["s"], events.slip.values * units["m"]
