@@ -8,7 +8,7 @@ from pathlib import Path
 
 from .module import SUPPORT
 
-KINDS = Path(__file__).parents[1] / "fortran" / "dde" / "src" / "api" / "dde_kinds.f90"
+KINDS = Path(__file__).parents[1] / "fortran" / "dde" / "src" / "base" / "dde_kinds.f90"
 SHARED = ("model_border", "nilpotent_numbers", "nilpotent_functions", "steady_states")
 """What is compiled with a model that uses it, in this order."""
 COMPILER = "gfortran"

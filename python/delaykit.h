@@ -37,7 +37,7 @@ typedef struct {
     const double *state;            /* (n) at the start, with `history`; NULL: as the past */
     double t_start, t_start_rest;   /* the start, and what rounding took from it */
     double t_end;
-    const char *method;             /* auto, explicit, bs5, dop853, taylor, radau5, radau9, radau13 */
+    const char *method;             /* one that dk_methods lists */
     const double *rtol, *atol;      /* (n) tolerances of a step; NULL: a share of values */
     double first_step, max_step;    /* 0: chosen */
     int64_t max_steps;
@@ -78,6 +78,9 @@ const void *dk_values(const dk_results *results, const char *name, int32_t *leng
  * number of letters, and writes them if there is room. */
 int32_t dk_describe(const dk_results *results, char *text, int32_t length);
 void dk_free(dk_results *results);
+/* Methods, a line each: name, tab, what it reads of a model beside the equations (jacobian, series)
+ * or f. Returns and writes as dk_describe. */
+int32_t dk_methods(char *text, int32_t length);
 
 /* From now on SIGINT asks all runs to stop (1), or no longer (0); none is asked to before. */
 void dk_watch(int32_t on);

@@ -44,12 +44,16 @@ SOURCES = [
     *("fortran/CMakeLists.txt", "fortran/CMakePresets.json"),
     *("fortran/dde/CMakeLists.txt", "generator/CMakeLists.txt"),
     *files_in(
-        "app", "src", "dde/src", "../generator/fortran", endings={".f90", ".c", ".in"}
+        "app",
+        "src",
+        "dde/src",
+        "../generator/fortran",
+        endings={".f90", ".c", ".in", ".inc"},
     ),
 ]
 """Sources of the program in double and in quadruple precision."""
 OF_MODELS = [
-    "fortran/dde/src/api/dde_kinds.f90",
+    "fortran/dde/src/base/dde_kinds.f90",
     *files_in("../generator", endings={".py", ".jinja"}),
     *files_in("../generator/fortran/shared", endings={".f90"}),
 ]

@@ -11,9 +11,10 @@ from scripts.files.read_config import read
 FORTRAN = ROOT / "fortran"
 GENERATOR = ROOT / "generator"
 PYTHON = ROOT / "python"
+FLOORS = ["base", "history", "step", "explicit", "radau", "taylor", "output", "loop", "dde"]
+"""Folders of the solver from the lowest to the highest, above them all its facade."""
 MAY_USE = {
     "bindings": {"bindings", "api"},
-    "dde": {"dde", "api"},
     "generator": {"generator", "api"},
     "model": {"model", "generator", "api"},
     "methods": {"methods", "generator", "bindings", "api"},
@@ -22,6 +23,7 @@ MAY_USE = {
     "io": {"io", "commands", "methods", "files", "netcdf", "api"},
     "app": {"app", "io", "commands", "methods", "bindings"},
     "python": {"python", "commands", "methods", "model", "generator", "api"},
+    **{floor: {"api", *FLOORS[: i + 1]} for i, floor in enumerate(FLOORS)},
 }
 """For each layer: the layers that its modules may use; `api` is what a user of the solver sees,
 `files` is what of the bindings reads and writes."""
@@ -50,7 +52,7 @@ def layer_of(path: Path) -> str:
         if path.is_relative_to(root):
             return root.name
     *folder, _ = path.relative_to(FORTRAN).parts
-    return "dde" if folder[0] == "dde" else folder[:2][-1]
+    return ("dde", *folder[2:])[-1] if folder[0] == "dde" else folder[:2][-1]
 
 
 CODE = {

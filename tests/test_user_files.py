@@ -188,7 +188,7 @@ def test_program_that_fails_leaves_no_output(scratch):
 
 def test_build_that_fails_leaves_no_program(project):
     """The compiler's words are on the screen and in the log."""
-    with open(project.folder / "fortran" / "dde" / "src" / "api" / "dde_kinds.f90", "a") as source:
+    with open(project.folder / "fortran" / "dde" / "src" / "base" / "dde_kinds.f90", "a") as source:
         source.write("this is no Fortran\n")
     run = project.snakemake("build/release/bin/spring_block")
     assert run.returncode != 0

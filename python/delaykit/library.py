@@ -67,6 +67,7 @@ def load() -> ctypes.CDLL:
         "dk_delays": (None, [handle, handle, handle, ctypes.POINTER(number)]),
         "dk_values": (handle, [handle, text, ctypes.POINTER(number)]),
         "dk_describe": (number, [handle, text, number]),
+        "dk_methods": (number, [text, number]),
         "dk_integrate": (number, [handle, ctypes.POINTER(Request), to_handle, text, number]),
         "dk_command": (number, [handle, text, text, to_handle, text, number]),
         "dk_watch": (None, [number]),
@@ -87,6 +88,14 @@ def open_object(path: Path) -> ctypes.c_void_p:
     if LIBRARY.dk_open(str(path).encode(), ctypes.byref(handle), message, MESSAGE):
         raise RunError(message.value.decode(errors="replace"))
     return handle
+
+
+def lines_of(procedure, *arguments) -> list[list[str]]:
+    """Lines that a procedure writes, in words. Its last arguments: room, and its size."""
+    length = procedure(*arguments, None, 0) + 1
+    text = ctypes.create_string_buffer(length)
+    procedure(*arguments, text, length)
+    return [line.split("\t") for line in text.value.decode(errors="replace").splitlines()]
 
 
 class Results:
@@ -110,11 +119,7 @@ class Results:
 
     def description(self) -> list[list[str]]:
         """The lines of dk_describe, in words."""
-        length = LIBRARY.dk_describe(self.handle, None, 0) + 1
-        text = ctypes.create_string_buffer(length)
-        LIBRARY.dk_describe(self.handle, text, length)
-        lines = text.value.decode(errors="replace").splitlines()
-        return [line.split("\t") for line in lines]
+        return lines_of(LIBRARY.dk_describe, self.handle)
 
 
 def call(procedure, *arguments) -> Results:

@@ -11,11 +11,12 @@ from delaykit.arguments import HUGE, Arguments, begin, number_of
 from delaykit.errors import ModelError, RunError, check_name
 from delaykit.events import Event
 from delaykit.history import Pieces
-from delaykit.library import LIBRARY, Results, address, call
+from delaykit.library import LIBRARY, Results, address, call, lines_of
 
-EXTENTS = {"taylor": "whole", **dict.fromkeys(("radau5", "radau9", "radau13"), "jacobian")}
-"""What a method needs beside the equations."""
-METHODS = ("auto", "explicit", "bs5", "dop853", *EXTENTS)
+EXTENTS = {"f": "equations", "jacobian": "jacobian", "series": "whole"}
+"""What is compiled of a long model, by what a method reads of it."""
+METHODS = {name: EXTENTS[reads] for name, reads in lines_of(LIBRARY.dk_methods)}
+"""The solver's methods, with what is compiled for them."""
 COUNTS = (
     *("status", "steps_accepted", "steps_rejected", "steps_implicit", "evaluations"),
     *("factorisations", "breaking_points"),
@@ -110,7 +111,7 @@ def integrate(
     RunError with the solver's words where it stops.
     """
     check_name("method", method, METHODS)
-    model = model.reduced(EXTENTS.get(method, "equations"))
+    model = model.reduced(METHODS[method])
     own = Arguments(model, parameters)
     t_end = own.number("t_end", t_end)
     rtol = own.tolerance("rtol", rtol)

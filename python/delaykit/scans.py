@@ -14,7 +14,7 @@ from tqdm import tqdm
 from delaykit.arguments import Arguments, begin
 from delaykit.errors import DelaykitError, ModelError, check_name
 from delaykit.library import LIBRARY
-from delaykit.runs import EXTENTS, integrate
+from delaykit.runs import METHODS, integrate
 
 STACK = 1 << 28
 """Bytes of the stack of a thread: compiled models have their work arrays there."""
@@ -103,7 +103,7 @@ def scan(
         return np.atleast_1d(np.asarray(found, float)).ravel()[:most]
 
     # compiled once, before there are threads
-    model.reduced(EXTENTS.get(options.get("method"), "equations")).handle  # noqa: B018
+    model.reduced(METHODS.get(options.get("method"), "equations")).handle  # noqa: B018
     rows, reasons = in_threads(measured, places, workers, progress)
     width = max(map(len, rows), default=0)
     table = np.full((len(rows), max(width, 1)), np.nan)

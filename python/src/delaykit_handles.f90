@@ -3,7 +3,7 @@
 module delaykit_handles
    use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_int, c_loc, c_null_char, &
                                           c_null_ptr, c_ptr
-   use dde, only: error_type
+   use dde, only: error_type, methods, read_by_methods
    use model_library, only: open_object
    use model_problem, only: model_type
    use results, only: attribute_type, results_type, variable_type
@@ -103,7 +103,23 @@ contains
       call copy(lines, text, length)
    end function dk_describe
 
-   !> These lines.
+   !> The methods of the solver, a line each: its name and, after a tab, what it reads of a model
+   !> beside f: `jacobian`, `series`, or `f` alone. Returns and writes as dk_describe.
+   integer(c_int) function dk_methods(text, length) result(letters_needed) bind(c)
+      character(kind=c_char), intent(inout) :: text(*)
+      integer(c_int), value :: length
+      character(len=:), allocatable :: lines
+      integer :: i
+
+      lines = ""
+      do i = 1, size(methods)
+         lines = lines//trim(methods(i))//achar(9)//trim(read_by_methods(i))//new_line("a")
+      end do
+      letters_needed = len(lines)
+      call copy(lines, text, length)
+   end function dk_methods
+
+   !> The lines of dk_describe.
    function description_of(data) result(lines)
       type(results_type), intent(in) :: data
       character(len=:), allocatable :: lines

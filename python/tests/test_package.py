@@ -27,7 +27,7 @@ def test_only_the_package_is_installed():
     assert tops == {True}
     inside = {name.partition("/")[2] for name in names}
     wanted = {"libdelaykit.so", "delaykit.h", "py.typed", "generator/model.f90.jinja"}
-    wanted |= {"generator/fortran/shared/model_border.f90", "fortran/dde/src/api/dde_kinds.f90"}
+    wanted |= {"generator/fortran/shared/model_border.f90", "fortran/dde/src/base/dde_kinds.f90"}
     assert wanted <= inside
     assert [name for name in inside if re.search(r"test|CMake|\.md$|\.c$", name)] == []
 

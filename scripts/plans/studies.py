@@ -9,6 +9,7 @@ from pathlib import Path, PurePath
 from types import ModuleType
 
 from scripts.files.read_config import ConfigError, merge, read
+from scripts.namelists.methods import METHODS
 from scripts.plans.declare import Figure, Run, Study, Table
 
 PROJECT = Path(__file__).parents[2]
@@ -157,7 +158,17 @@ def schema() -> dict:
     whole = copy.deepcopy(values_in(PROJECT / "config" / "schema.yaml"))
     for path in files_of("schema.yaml"):
         add_rules(whole, values_in(path))
-    return whole
+    return with_methods(whole)
+
+
+def with_methods(part):
+    """A part of a schema with the names of the solver's methods in the places of `<methods>`."""
+    if isinstance(part, dict):
+        return {key: with_methods(value) for key, value in part.items()}
+    if isinstance(part, list):
+        lists = (METHODS if one == "<methods>" else [with_methods(one)] for one in part)
+        return [one for each in lists for one in each]
+    return part.replace("<methods>", ", ".join(METHODS)) if isinstance(part, str) else part
 
 
 def add_rules(whole: dict, part: dict) -> None:

@@ -6,8 +6,8 @@ import numpy as np
 
 from scripts.claims.claims_results import Finding, Results, decided, short
 from scripts.claims.declare import Gamma, among, claim, number, reads, says, tested_with
+from scripts.namelists.methods import METHODS
 
-METHODS = ["auto", "explicit", "bs5", "dop853", "taylor", "radau5", "radau9", "radau13"]
 Method = Annotated[str, among("method of a run", METHODS)]
 Distance = Annotated[float, number("distance from (0, 0, 1) up to which a run has settled there")]
 

@@ -3,10 +3,9 @@
 !> all delayed values lie in the past.
 module dde_explicit_step
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use dde_bogacki_shampine, only: bogacki_shampine
-   use dde_dop853, only: dop853
-   use dde_explicit_pair, only: explicit_pair, slope_count
    use dde_controller, only: method_constants
+   use dde_explicit_pair, only: explicit_pair, slope_count
+   use dde_memory, only: find_lacking
    use dde_problem, only: dde_problem_type
    use dde_step, only: step_type
    use dde_step_context, only: step_context
@@ -40,21 +39,21 @@ module dde_explicit_step
 contains
 
    !> Storage, and the state at the initial time.
-   subroutine set_up(self, problem, name)
+   subroutine set_up(self, problem, pair, lacking)
       class(explicit_step_type), intent(out) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> Name of the pair
-      character(len=*), intent(in) :: name
+      !> The pair
+      class(explicit_pair), intent(in) :: pair
+      !> Bytes that could not be allocated, or 0
+      real(wp), intent(out) :: lacking
 
-      if (name == "bs5") then
-         allocate (bogacki_shampine :: self%pair)
-      else
-         allocate (dop853 :: self%pair)
-      end if
+      ! at most so many for each component and delayed value
+      lacking = find_lacking(52.0_wp*(problem%n + size(problem%lag)))
+      if (lacking > 0.0_wp) return
+      allocate (self%pair, source=pair)
       call self%pair%set_up(self%nodes)
-      self%constants = method_constants(name=name, order=self%pair%order, &
-                                        error_order=self%pair%order)
+      self%constants = method_constants(order=self%pair%order, error_order=self%pair%order)
       call self%allocate_state(problem)
       allocate (self%k(slope_count, problem%n), self%work(problem%n, dense_stage), source=0.0_wp)
       allocate (self%embedded(problem%n, 2))

@@ -4,7 +4,6 @@ module dde_diagnosis
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_outcome, only: integration_result, interrupted, out_of_memory, slides, step_underflow, &
                           too_many_steps
-   use dde_request, only: integration_options
    use dde_run, only: run_type
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: int64, wp
@@ -15,17 +14,11 @@ module dde_diagnosis
 contains
 
    !> The error of an integration that ended early: where and why.
-   subroutine explain(run, outcome, t_end, h, options, error)
+   subroutine explain(run, outcome, error)
       !> The run at the start of the step
-      class(run_type), intent(inout) :: run
+      type(run_type), intent(inout) :: run
       !> The result
       type(integration_result), intent(in) :: outcome
-      !> Final time wanted
-      real(wp), intent(in) :: t_end
-      !> Length of the last step attempted
-      real(wp), intent(in) :: h
-      !> Limits
-      type(integration_options), intent(in) :: options
       !> The error to set
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: culprit, why
@@ -48,26 +41,25 @@ contains
          if (steps > 0) why = why//" beside the "//text(steps)//" steps of the past; longer ones " &
                               //"(auto or an implicit method) or shorter delays expected"
       case (step_underflow)
-         call find_below_rounding(run, h, culprit)
-         why = "the step had to shrink to "//text(h)//", too small to change the time; "
+         call find_below_rounding(run, culprit)
+         why = "the step had to shrink to "//text(run%next%h)//", too small to change the time; "
          if (len(culprit) == 0) why = why//"a singularity?"
       case (too_many_steps)
-         call find_below_rounding(run, h, culprit)
-         why = text(options%most_steps)//" steps (most_steps) were used up"
+         call find_below_rounding(run, culprit)
+         why = text(run%options%most_steps)//" steps (most_steps) were used up"
          if (len(culprit) > 0) why = why//"; "
       case default
-         call find_not_finite(run, h, culprit)
-         why = "a value is not finite at every step length down to "//text(h)//": "
+         call find_not_finite(run, culprit)
+         why = "a value is not finite at every step length down to "//text(run%next%h)//": "
       end select
-      call raise(error, "integrate: stopped at t = "//text(outcome%t)//" of "//text(t_end) &
+      call raise(error, "integrate: stopped at t = "//text(outcome%t)//" of "//text(run%t_end) &
                  //" after "//text(outcome%accepted)//" steps ("//text(outcome%rejected) &
                  //" rejected): "//why//culprit)
    end subroutine explain
 
-   !> Which component has a tolerance below the rounding error of a step of length `h` from here.
-   subroutine find_below_rounding(run, h, words)
-      class(run_type), intent(in) :: run
-      real(wp), intent(in) :: h
+   !> Which component has a tolerance below the rounding error of the step planned from here.
+   subroutine find_below_rounding(run, words)
+      type(run_type), intent(in) :: run
       character(len=:), allocatable, intent(out) :: words
       real(wp), allocatable :: slope(:)
       real(wp) :: rounding, tolerance
@@ -77,7 +69,7 @@ contains
       slope = run%step%slope_here()
       do i = 1, size(slope)
          if (.not. ieee_is_finite(slope(i))) cycle
-         rounding = epsilon(1.0_wp)*(abs(run%step%y(i)) + h*abs(slope(i)))
+         rounding = epsilon(1.0_wp)*(abs(run%step%y(i)) + run%next%h*abs(slope(i)))
          tolerance = run%context%tolerance%of_component(i, run%step%y(i))
          if (tolerance >= rounding) cycle
          words = "the tolerance "//text(tolerance)//" of " &
@@ -87,18 +79,17 @@ contains
       end do
    end subroutine find_below_rounding
 
-   !> Which value is not finite in a step of length `h` from here.
-   subroutine find_not_finite(run, h, words)
-      class(run_type), intent(inout) :: run
-      real(wp), intent(in) :: h
+   !> Which value is not finite in the step planned from here.
+   subroutine find_not_finite(run, words)
+      type(run_type), intent(inout) :: run
       character(len=:), allocatable, intent(out) :: words
       real(wp), allocatable :: slope(:), y(:), z(:, :)
       integer :: i, place
       real(wp) :: t
 
       y = run%step%y
-      call run%context%go_to(run%now, h)
-      associate (problem => run%context%problem, cursor => run%context%cursor)
+      call run%context%go_to(run%now, run%next%h)
+      associate (problem => run%context%problem, cursor => run%context%cursor, h => run%next%h)
          allocate (z(size(problem%lag), 2), slope(problem%n))
          call run%context%delayed_values([0.0_wp, h], z)
          do place = 1, 2

@@ -1,11 +1,12 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The methods: how a step of each is made, how one follows another, and how long steps may be.
+!> The methods: their names, which of them a run takes, and how a step of each is made. Orders are
+!> chosen once a run, by the tolerance. The figure `work_precision` shows what each order costs.
 module dde_methods
+   use dde_bogacki_shampine, only: bogacki_shampine
+   use dde_dop853, only: dop853
+   use dde_errors, only: error_type, raise, text
    use dde_explicit_step, only: explicit_step_type
-   use dde_implicit_step, only: implicit_cost, implicit_step_type, stages_of
-   use dde_interpolant, only: highest_degree
-   use dde_memory, only: find_lacking
-   use dde_orders, only: explicit_method, radau_method, series_pays
+   use dde_implicit_step, only: implicit_cost, implicit_step_type
    use dde_problem, only: dde_problem_type
    use dde_slow_series, only: least_balance
    use dde_step, only: step_type
@@ -15,69 +16,43 @@ module dde_methods
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: choose_method, longest_step, matching_method, price_of_trial
+   public :: choose_method, is_implicit, matching_method, methods, price_of_trial, read_by_methods
 
+   !> A method.
+   type :: method_type
+      !> Its name
+      character(len=8) :: name
+      !> What it reads of a problem beside f: "jacobian" if it is implicit, "series", or "f" alone
+      character(len=8) :: reads
+   end type method_type
+
+   !> All methods, in the order of messages. The workflow reads their names here, too.
+   type(method_type), parameter :: table(8) = [ &
+                                   method_type("auto", "f"), &
+                                   method_type("explicit", "f"), &
+                                   method_type("bs5", "f"), &
+                                   method_type("dop853", "f"), &
+                                   method_type("taylor", "series"), &
+                                   method_type("radau5", "jacobian"), &
+                                   method_type("radau9", "jacobian"), &
+                                   method_type("radau13", "jacobian")]
+   !> Their names, and what they read.
+   character(len=8), parameter :: methods(*) = table%name, read_by_methods(*) = table%reads
+
+   !> Least tolerance of the pair 5(4); below it the pair is 8(5,3).
+   real(wp), parameter :: least_of_bs5 = 3.0e-6_wp
+   !> Least tolerance at which the pair takes fewer instructions than a Taylor series where there is
+   !> a delayed value for every two equations or more: their series cost most of a step.
+   real(wp), parameter :: least_of_many = 1.0e-5_wp
+   !> Least tolerances of Radau IIA of order 5 and 9; below them the order is 13.
+   real(wp), parameter :: least_of_radau5 = 3.0e-5_wp, least_of_radau9 = 1.0e-11_wp
    !> Iterations of a usual implicit step.
    integer, parameter :: usual_iterations = 3
 
 contains
 
-   !> Work of a short trial of the implicit method without its linear systems, in evaluations of the
-   !> explicit pair: one Jacobian by differences, and the steps.
-   pure real(wp) function price_of_trial(problem, tolerance) result(price)
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> Tolerance of each component
-      type(tolerance_type), intent(in) :: tolerance
-      integer :: columns, stages
-
-      stages = stages_of(radau_method(tolerance%level))
-      columns = problem%n
-      if (problem%lower >= 0) columns = min(problem%n, 1 + problem%lower + problem%upper)
-      price = implicit_cost*(columns + least_trial*(usual_iterations*stages + 2))
-   end function price_of_trial
-
-   !> Real numbers of a step of a method, at most, counted from its components. It is made as a copy
-   !> of another one.
-   pure real(wp) function size_of_step(problem, method) result(reals)
-      class(dde_problem_type), intent(in) :: problem
-      character(len=8), intent(in) :: method
-      integer :: stages
-      real(wp) :: above, below, delays, height, n
-
-      n = problem%n
-      delays = size(problem%lag)
-      select case (method)
-      case ("radau5", "radau9", "radau13")
-         stages = stages_of(method)
-         height = n
-         below = n - 1
-         above = n - 1
-         if (problem%lower >= 0) then
-            below = problem%lower
-            above = problem%upper
-         end if
-         if (allocated(problem%rows) .and. delays > 0) then
-            height = maxval(problem%rows(2, :) - problem%rows(1, :)) + 1
-            ! delayed values in the step widen the band
-            below = max(below, real(maxval(problem%rows(2, :) - problem%component), wp))
-            above = max(above, real(maxval(problem%component - problem%rows(1, :)), wp))
-         end if
-         ! two Jacobians, a real system for each, and a complex one for each pair of stages
-         reals = 2*(n*min(n, 1 + below + above) + height*delays) &
-                 + n*min(n, 1 + 2*below + above)*(2 + (stages - 1)) + n*2*(8*stages + 16) &
-                 + delays*2*stages**2
-         ! and one of all stages
-         if (delays > 0) reals = reals + n*stages*min(n*stages, stages*(2*below + above + 3))
-      case ("taylor")
-         reals = (n + delays)*4*(2 + highest_degree)
-      case default
-         reals = (n + delays)*2*26
-      end select
-   end function size_of_step
-
    !> A step of the chosen method; `auto` begins with an explicit one.
-   subroutine choose_method(problem, method, tolerance, origin, step, lacking)
+   subroutine choose_method(problem, method, tolerance, origin, step, lacking, error)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Name of the method
@@ -90,30 +65,56 @@ contains
       class(step_type), allocatable, intent(out) :: step
       !> Bytes that could not be allocated, or 0
       real(wp), intent(out) :: lacking
+      !> No method has this name, or it needs series that the problem does not give
+      type(error_type), allocatable, intent(out) :: error
       character(len=8) :: name
+      character(len=:), allocatable :: names
       type(explicit_step_type), allocatable :: explicit
       type(implicit_step_type), allocatable :: implicit
       type(taylor_step_type), allocatable :: taylor
+      integer :: i
 
+      lacking = 0.0_wp
       name = method
       if (name == "auto") name = matching_method(problem, tolerance, origin, implicit=.false.)
       if (name == "explicit") name = explicit_method(tolerance%level)
-      lacking = find_lacking(size_of_step(problem, name))
-      if (lacking > 0.0_wp) return
+      if (any(table%name == name .and. table%reads == "series") .and. .not. problem%analytic) then
+         call raise(error, "integrate: method = '"//trim(name)//"' for a problem that gives no " &
+                    //"Taylor series (analytic = .false.); another method expected")
+         return
+      end if
       select case (name)
-      case ("radau5", "radau9", "radau13")
-         allocate (implicit)
-         call implicit%set_up(problem, name, tolerance%level)
-         call move_alloc(implicit, step)
+      case ("bs5")
+         allocate (explicit)
+         call explicit%set_up(problem, bogacki_shampine(), lacking)
+      case ("dop853")
+         allocate (explicit)
+         call explicit%set_up(problem, dop853(), lacking)
       case ("taylor")
          allocate (taylor)
-         call taylor%set_up(problem, tolerance%level)
-         call move_alloc(taylor, step)
+         call taylor%set_up(problem, tolerance%level, lacking)
+      case ("radau5")
+         allocate (implicit)
+         call implicit%set_up(problem, 3, tolerance%level, lacking)
+      case ("radau9")
+         allocate (implicit)
+         call implicit%set_up(problem, 5, tolerance%level, lacking)
+      case ("radau13")
+         allocate (implicit)
+         call implicit%set_up(problem, 7, tolerance%level, lacking)
       case default
-         allocate (explicit)
-         call explicit%set_up(problem, name)
-         call move_alloc(explicit, step)
+         names = trim(methods(1))
+         do i = 2, size(methods)
+            names = names//", "//trim(methods(i))
+         end do
+         call raise(error, "integrate: method = '"//trim(name)//"'; one of "//names//" expected")
+         return
       end select
+      if (lacking > 0.0_wp) return
+      if (allocated(explicit)) call move_alloc(explicit, step)
+      if (allocated(implicit)) call move_alloc(implicit, step)
+      if (allocated(taylor)) call move_alloc(taylor, step)
+      step%constants%name = name
    end subroutine choose_method
 
    !> The explicit or the implicit method of `auto`. Where the series of many delays do not pay,
@@ -132,7 +133,7 @@ contains
 
       method = explicit_method(tolerance%level)
       if (implicit) then
-         method = radau_method(tolerance%level)
+         method = "radau"//text(2*radau_stages(tolerance%level) - 1)
       else if (problem%analytic) then
          if (.not. series_pays(tolerance%level, problem%n, size(problem%lag))) then
             allocate (y(problem%n))
@@ -143,17 +144,55 @@ contains
       end if
    end function matching_method
 
-   !> The longest step allowed: an explicit one ends before its delayed values lie in it.
-   pure function longest_step(problem, step, of_all) result(longest)
+   !> The explicit pair of a tolerance.
+   pure function explicit_method(tolerance) result(name)
+      !> Level of the tolerance
+      real(wp), intent(in) :: tolerance
+      character(len=8) :: name
+
+      name = merge("bs5     ", "dop853  ", tolerance >= least_of_bs5)
+   end function explicit_method
+
+   !> Stages of Radau IIA for a tolerance.
+   pure integer function radau_stages(tolerance) result(stages)
+      !> Level of the tolerance
+      real(wp), intent(in) :: tolerance
+
+      stages = 5
+      if (tolerance >= least_of_radau5) stages = 3
+      if (tolerance < least_of_radau9) stages = 7
+   end function radau_stages
+
+   !> Whether a Taylor series takes fewer instructions than the explicit pair.
+   pure logical function series_pays(tolerance, n, delays) result(value)
+      !> Level of the tolerance
+      real(wp), intent(in) :: tolerance
+      !> Numbers of equations and of delayed values
+      integer, intent(in) :: n, delays
+
+      value = 2*delays < n .or. tolerance < least_of_many
+   end function series_pays
+
+   !> Whether a method is implicit.
+   pure logical function is_implicit(method) result(value)
+      !> Its name
+      character(len=8), intent(in) :: method
+
+      value = any(table%name == method .and. table%reads == "jacobian")
+   end function is_implicit
+
+   !> Work of a short trial of the implicit method without its linear systems, in evaluations of the
+   !> explicit pair: one Jacobian by differences, and the steps.
+   pure real(wp) function price_of_trial(problem, tolerance) result(price)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> The step
-      class(step_type), intent(in) :: step
-      !> Longest step that is allowed for other reasons
-      real(wp), intent(in) :: of_all
-      real(wp) :: longest
+      !> Tolerance of each component
+      type(tolerance_type), intent(in) :: tolerance
+      integer :: columns
 
-      longest = of_all
-      if (.not. step%constants%implicit) longest = min(longest, minval(problem%lag))
-   end function longest_step
+      columns = problem%n
+      if (problem%lower >= 0) columns = min(problem%n, 1 + problem%lower + problem%upper)
+      price = implicit_cost*(columns &
+                             + least_trial*(usual_iterations*radau_stages(tolerance%level) + 2))
+   end function price_of_trial
 end module dde_methods

@@ -3,7 +3,7 @@
 !>
 !> A step is limited where something else than the change of the solution keeps it short. Work in
 !> limited steps earns a trial of the other method. A trial takes a few steps; then the method that
-!> made less time for its work is left, and the other one is settled.
+!> made less time for its work is left, and the other one is settled. Its step is kept here.
 module dde_switch
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_problem, only: dde_problem_type
@@ -30,6 +30,11 @@ module dde_switch
    !> Rejections in a row after which Taylor series are left.
    integer, parameter :: most_rejections = 20
 
+   !> The solution hardly moves on in a few steps that are shorter by this factor than those before.
+   !> It is below 6**6, by which implicit steps may grow in a trial: otherwise steps could stay
+   !> short for ever.
+   real(wp), parameter :: hardly = 3.0e4_wp
+
    !> States of the choice.
    integer, parameter :: settled = 1, on_trial = 2
 
@@ -45,6 +50,10 @@ module dde_switch
 
    !> The choice, and what it rests on.
    type :: switch_type
+      !> The step of the method that is not in use, kept once it has been used
+      class(step_type), allocatable :: other
+      !> Length that it proposed when it was left
+      real(wp), private :: h_of_other = 0.0_wp
       !> Work of a short trial of the implicit method without its linear systems, and with those
       !> of the last trial
       real(wp), private :: least_price = 0.0_wp, price = 0.0_wp
@@ -61,7 +70,7 @@ module dde_switch
       !> Pace of the other method when it was left
       real(wp), private :: pace_of_other = 0.0_wp
       !> Whether the last change ended a trial: it was one back
-      logical :: returned = .false.
+      logical, private :: returned = .false.
       !> Whether the explicit method is that of Taylor series
       logical, private :: series = .false.
       !> Rejections since the last accepted step
@@ -69,7 +78,7 @@ module dde_switch
       !> The shortest delay
       real(wp), private :: shortest = 0.0_wp
    contains
-      procedure :: judge, judge_rejection
+      procedure :: exchange, judge, judge_rejection
    end type switch_type
 
    interface switch_type
@@ -79,7 +88,7 @@ module dde_switch
 contains
 
    !> The choice at the start of a run.
-   pure type(switch_type) function new_switch(least_price, series, shortest) result(switch)
+   type(switch_type) function new_switch(least_price, series, shortest) result(switch)
       !> Work of a short trial of the implicit method without its linear systems
       real(wp), intent(in) :: least_price
       !> Whether the explicit method is that of Taylor series
@@ -186,6 +195,28 @@ contains
       self%recent = stretch_type()
       call end_visit(self, 0.0_wp)
    end subroutine judge_rejection
+
+   !> Let the other method go on from where the one in use stands.
+   subroutine exchange(self, step, h)
+      class(switch_type), intent(inout) :: self
+      !> The step of the method in use
+      class(step_type), allocatable, intent(inout) :: step
+      !> Length proposed for the next step; that which the other method proposed, if it was left a
+      !> few steps ago and the solution hardly moved on in these
+      real(wp), intent(inout) :: h
+      class(step_type), allocatable :: last
+      real(wp) :: proposed
+
+      self%other%y = step%y
+      self%other%slope = step%slope_here()
+      call self%other%reset()
+      call move_alloc(step, last)
+      call move_alloc(self%other, step)
+      call move_alloc(last, self%other)
+      proposed = h
+      if (self%returned .and. self%h_of_other > hardly*h) h = self%h_of_other
+      self%h_of_other = proposed
+   end subroutine exchange
 
    !> The other method takes over.
    pure subroutine end_visit(self, pace)

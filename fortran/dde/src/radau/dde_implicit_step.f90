@@ -8,6 +8,7 @@ module dde_implicit_step
    use dde_collocation, only: add_up, difference_weights, shape_bump
    use dde_jacobian, only: jacobian_type
    use dde_controller, only: method_constants
+   use dde_memory, only: find_lacking
    use dde_problem, only: dde_problem_type
    use dde_radau_tableau, only: radau_iia, radau_tableau
    use dde_stage_iteration, only: stage_iteration
@@ -19,7 +20,7 @@ module dde_implicit_step
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: implicit_cost, implicit_step_type, stages_of
+   public :: implicit_cost, implicit_step_type
 
    !> Contraction below which the next step uses the same Jacobian.
    real(wp), parameter :: good_contraction = 1.0e-3_wp
@@ -69,35 +70,22 @@ module dde_implicit_step
 
 contains
 
-   !> Number of stages of a method.
-   pure integer function stages_of(name) result(stages)
-      !> Its name
-      character(len=*), intent(in) :: name
-
-      select case (name)
-      case ("radau5")
-         stages = 3
-      case ("radau9")
-         stages = 5
-      case default
-         stages = 7
-      end select
-   end function stages_of
-
    !> Storage, and the constants that follow from the method.
-   subroutine set_up(self, problem, name, level)
+   subroutine set_up(self, problem, stages, level, lacking)
       class(implicit_step_type), intent(out) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> Name of the method
-      character(len=*), intent(in) :: name
+      !> Number of stages
+      integer, intent(in) :: stages
       !> Level of the tolerance
       real(wp), intent(in) :: level
-      integer :: stages
+      !> Bytes that could not be allocated, or 0
+      real(wp), intent(out) :: lacking
 
-      stages = stages_of(name)
+      lacking = find_lacking(size_of_step(problem, stages))
+      if (lacking > 0.0_wp) return
       self%method = radau_iia(stages)
-      self%constants = method_constants(name=name, order=2*stages - 1, error_order=stages + 1, &
+      self%constants = method_constants(order=2*stages - 1, error_order=stages + 1, &
                                         implicit=.true., evaluation_cost=implicit_cost, &
                                         predictive=.true., largest_kept_ratio=keep_length)
       call self%allocate_state(problem)
@@ -116,6 +104,35 @@ contains
       self%differences = difference_weights([0.0_wp, self%method%c])
       call shape_bump(self%method%c, self%bump, self%bump_slope)
    end subroutine set_up
+
+   !> Real numbers of a step, at most, counted from its components.
+   pure real(wp) function size_of_step(problem, stages) result(reals)
+      class(dde_problem_type), intent(in) :: problem
+      integer, intent(in) :: stages
+      real(wp) :: above, below, delays, height, n
+
+      n = problem%n
+      delays = size(problem%lag)
+      height = n
+      below = n - 1
+      above = n - 1
+      if (problem%lower >= 0) then
+         below = problem%lower
+         above = problem%upper
+      end if
+      if (allocated(problem%rows) .and. delays > 0) then
+         height = maxval(problem%rows(2, :) - problem%rows(1, :)) + 1
+         ! delayed values in the step widen the band
+         below = max(below, real(maxval(problem%rows(2, :) - problem%component), wp))
+         above = max(above, real(maxval(problem%component - problem%rows(1, :)), wp))
+      end if
+      ! two Jacobians, a real system for each, and a complex one for each pair of stages
+      reals = 2*(n*min(n, 1 + below + above) + height*delays) &
+              + n*min(n, 1 + 2*below + above)*(2 + (stages - 1)) + n*2*(8*stages + 16) &
+              + delays*2*stages**2
+      ! and one of all stages
+      if (delays > 0) reals = reals + n*stages*min(n*stages, stages*(2*below + above + 3))
+   end function size_of_step
 
    !> Polynomial, Jacobian and factors of earlier steps are not used again.
    pure subroutine reset(self)

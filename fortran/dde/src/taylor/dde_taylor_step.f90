@@ -6,7 +6,8 @@ module dde_taylor_step
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    use dde_controller, only: controller_type, method_constants
    use dde_errors, only: error_type
-   use dde_orders, only: taylor_degree
+   use dde_interpolant, only: highest_degree
+   use dde_memory, only: find_lacking
    use dde_problem, only: dde_problem_type
    use dde_series_check, only: measure_residual, refuse_wrong
    use dde_step, only: step_type
@@ -17,6 +18,13 @@ module dde_taylor_step
    private
    public :: taylor_step_type
 
+   !> Degree of the series = this - log10(tolerance), near the degree of least cost for an accuracy.
+   !> Jorba and Zou 2005, "A software package for the numerical integration of ODEs by means of
+   !> high-order Taylor methods", sec. 3.2, have 1 - ln(tolerance)/2. The degree here is higher
+   !> since a step costs three times its series.
+   real(wp), parameter :: degree_at_one = 7.0_wp
+   !> Lowest degree.
+   integer, parameter :: lowest_degree = 6
    !> The series is valid as the past for this many times the step size that it allows.
    real(wp), parameter :: beyond = 1.2_wp
    !> The unit of a series is the step size that the last series allowed, at most this many times
@@ -55,16 +63,21 @@ module dde_taylor_step
 contains
 
    !> Storage, and the state at the initial time.
-   subroutine set_up(self, problem, tolerance)
+   subroutine set_up(self, problem, tolerance, lacking)
       class(taylor_step_type), intent(out) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Level of the tolerance
       real(wp), intent(in) :: tolerance
+      !> Bytes that could not be allocated, or 0
+      real(wp), intent(out) :: lacking
       integer :: degree
 
-      degree = taylor_degree(tolerance)
-      self%constants = method_constants(name="taylor", order=degree, error_order=degree, &
+      ! at most so many for each component and delayed value
+      lacking = find_lacking(4.0_wp*(2 + highest_degree)*(problem%n + size(problem%lag)))
+      if (lacking > 0.0_wp) return
+      degree = max(lowest_degree, min(highest_degree, nint(degree_at_one - log10(tolerance))))
+      self%constants = method_constants(order=degree, error_order=degree, &
                                         evaluation_cost=cost_of_degree*degree)
       call self%allocate_state(problem)
       self%powers = .true.

@@ -2,10 +2,13 @@
 !> Order of one step of the explicit pairs 8(5,3) and 5(4), of its interpolant and of its error
 !> estimate: Butcher's condition of every rooted tree, and powers of t.
 module test_dde_order
+   use dde_bogacki_shampine, only: bogacki_shampine
+   use dde_dop853, only: dop853
    use dde_dop853_tableau, only: b1, b10, b11, b12, b6, b7, b8, b9, bhh1, bhh2, bhh3, er1, er10, &
                                  er11, er12, er6, er7, er8, er9
    use dde_explicit_step, only: explicit_step_type
    use dde_errors, only: text
+   use dde_problem, only: dde_problem_type
    use expectations, only: expect, expect_between, expect_close
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
@@ -55,7 +58,7 @@ contains
       do i = 1, 2
          trees%by_the_clock = i == 2
          do j = 1, size(pairs)
-            call step%set_up(trees, pairs(j))
+            call set_up(step, trees, pairs(j))
             call take_step(trees, 0.0_wp, h, step, estimate)
             associate (order => trees%order, known => h**trees%order/trees%density, &
                        pair => pairs(j))
@@ -104,7 +107,7 @@ contains
       real(wp), dimension(sum(tree_counts(:6))) :: of_order_3, of_order_5, unit
 
       trees = grow_trees(6)
-      call step%set_up(trees, pairs(1))
+      call set_up(step, trees, pairs(1))
       call take_step(trees, 0.0_wp, h, step, estimate, relative, absolute)
       unit = absolute + relative*step%y_new
       of_order_3 = h*e_3(step)/unit
@@ -130,7 +133,7 @@ contains
             worst = 0.0_wp
             do i = 1, 4000
                problem%rate = 0.01_wp*i
-               call step%set_up(problem, pairs(j))
+               call set_up(step, problem, pairs(j))
                call take_step(problem, 0.0_wp, 1.0_wp, step, estimate, absolute=tolerance)
                if (estimate > 1.0_wp) cycle
                worst = max(worst, abs(step%y_new(1) - exp(-problem%rate))/tolerance)
@@ -140,6 +143,20 @@ contains
          end do
       end do
    end subroutine test_long_steps
+
+   !> A step of a pair.
+   subroutine set_up(step, problem, pair)
+      type(explicit_step_type), intent(out) :: step
+      class(dde_problem_type), intent(in) :: problem
+      character(len=*), intent(in) :: pair
+      real(wp) :: lacking
+
+      if (pair == "bs5") then
+         call step%set_up(problem, bogacki_shampine(), lacking)
+      else
+         call step%set_up(problem, dop853(), lacking)
+      end if
+   end subroutine set_up
 
    !> Error coefficients of order 5, one for each component.
    pure function e_5(step) result(e)

@@ -4,6 +4,7 @@
 !> test_problems; piecewise polynomials by hand).
 module test_dde_solutions
    use dde, only: dde_problem_type, integration_options, methods
+   use dde_dop853, only: dop853
    use dde_explicit_step, only: explicit_step_type
    use dde_interpolant, only: newton_state
    use expectations, only: expect_between, expect_close
@@ -102,11 +103,11 @@ contains
       type(explicit_step_type) :: step
       type(undelayed) :: problem
       real(wp), parameter :: h = 0.75_wp
-      real(wp) :: a(0:7), estimate, slope(2, 0:1), y(2, 0:1)
+      real(wp) :: a(0:7), estimate, lacking, slope(2, 0:1), y(2, 0:1)
       integer :: i, place
 
       problem = swing()
-      call step%set_up(problem, "dop853")
+      call step%set_up(problem, dop853(), lacking)
       call take_step(problem, 0.0_wp, h, step, estimate)
       do i = 1, 2
          call step%interpolant(i, a)

@@ -147,10 +147,10 @@ contains
       type(taylor_step_type), intent(out) :: step
       type(undelayed), target :: problem
       type(step_context) :: context
-      real(wp) :: estimate, length
+      real(wp) :: estimate, lacking, length
 
       problem = blow_up()
-      call step%set_up(problem, tolerance)
+      call step%set_up(problem, tolerance, lacking)
       context = new_context(problem, 0.0_wp, 1.0_wp, 0.0_wp, tolerance)
       length = 0.5_wp*h
       call step%propose(context, length)

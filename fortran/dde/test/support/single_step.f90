@@ -65,9 +65,9 @@ contains
       logical :: value
       type(step_context) :: context
       type(taylor_step_type) :: step
-      real(wp) :: estimate, length
+      real(wp) :: estimate, lacking, length
 
-      call step%set_up(problem, tolerance)
+      call step%set_up(problem, tolerance, lacking)
       context = new_context(problem, 0.0_wp, 1.0e3_wp, 0.0_wp, tolerance)
       length = 1.0e-6_wp
       call step%propose(context, length)

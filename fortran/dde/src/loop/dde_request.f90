@@ -12,20 +12,14 @@ module dde_request
    use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: causes, check, implicit_methods, integration_options, methods
-
-   !> Methods. `taylor` is for problems that give their series. `auto` changes between it (the
-   !> explicit pair for other problems) and an implicit method.
-   character(len=8), parameter :: implicit_methods(3) = ["radau5  ", "radau9  ", "radau13 "]
-   character(len=8), parameter :: methods(8) = [character(len=8) :: "auto", "explicit", "bs5", &
-                                                "dop853", "taylor", implicit_methods]
+   public :: causes, check, integration_options
 
    !> Longest run: times must not overflow.
    real(wp), parameter :: longest_run = 1.0e307_wp
 
    !> Options.
    type :: integration_options
-      !> One of `methods`
+      !> One of `methods` (`dde_methods`)
       character(len=8) :: method = "auto"
       !> Relative tolerance of one step
       real(wp) :: relative = 1.0e-9_wp
@@ -202,13 +196,11 @@ contains
                  //" and at most "//text(longest_run)//" later expected")
    end subroutine check_span
 
-   !> Refuse tolerances, limits and a method out of range.
+   !> Refuse tolerances and limits out of range.
    pure subroutine check_options(problem, options, error)
       class(dde_problem_type), intent(in) :: problem
       type(integration_options), intent(in) :: options
       type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: names
-      integer :: i
 
       if (.not. (not_negative(options%relative) .and. positive(options%absolute))) then
          call raise(error, "integrate: tolerances relative = "//text(options%relative) &
@@ -229,16 +221,6 @@ contains
       else if (.not. not_negative(options%past_kept)) then
          call raise(error, "integrate: past_kept = "//text(options%past_kept) &
                     //"; finite and >= 0 expected")
-      else if (all(options%method /= methods)) then
-         names = trim(methods(1))
-         do i = 2, size(methods)
-            names = names//", "//trim(methods(i))
-         end do
-         call raise(error, "integrate: method = '"//trim(options%method)//"'; one of "//names &
-                    //" expected")
-      else if (options%method == "taylor" .and. .not. problem%analytic) then
-         call raise(error, "integrate: method = 'taylor' for a problem that gives no Taylor " &
-                    //"series (analytic = .false.); another method expected")
       else if (allocated(options%break_at)) then
          call check_finite("integrate: break_at", options%break_at, error)
       end if

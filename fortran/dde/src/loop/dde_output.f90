@@ -1,8 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The dense output of accepted steps: events go to the watcher, samples to the sampler, and the
-!> polynomials of the components that are kept to the past.
+!> The output of a run: events go to the watcher, samples to the sampler, and the polynomials of the
+!> components that are kept to the past.
 module dde_output
-   use dde_events, only: event_watcher_type
    use dde_history, only: history_type
    use dde_interpolant, only: highest_degree, newton_state
    use dde_run, only: run_type
@@ -12,27 +11,36 @@ module dde_output
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: deliver, is_read
+   public :: begin_output, deliver, is_read
 
 contains
 
-   !> Whether a step up to `step_end` is read between its ends: as the past, at samples, by events.
-   logical function is_read(run, h, step_end, sampler, watcher) result(value)
-      !> The run at the start of the step
-      class(run_type), intent(in) :: run
-      !> Length of the step
-      real(wp), intent(in) :: h
-      !> End of the step
-      type(instant), intent(in) :: step_end
-      !> Receiver of samples
-      class(sampler_type), intent(inout), optional :: sampler
-      !> Receiver of events
-      class(event_watcher_type), intent(in), optional :: watcher
+   !> Pass on the first samples, those at (or before) the initial time, and begin the search for
+   !> events.
+   subroutine begin_output(run)
+      !> The run at its start
+      type(run_type), intent(inout) :: run
 
-      value = size(run%context%past%kept) > 0 .or. present(watcher) .or. size(run%sides%above) > 0
-      if (.not. present(sampler)) return
-      call limit_next(sampler, run%now%hi, h)
-      value = value .or. sample_is_due(sampler, step_end)
+      if (associated(run%sampler)) then
+         do while (sample_is_due(run%sampler, run%now))
+            call run%sampler%take(run%step%y(run%sampler%wanted))
+         end do
+      end if
+      if (associated(run%watcher)) then
+         call run%search%begin(run%watcher, run%now, run%step%y, run%first_slope)
+      end if
+   end subroutine begin_output
+
+   !> Whether the planned step is read between its ends: as the past, at samples, by events.
+   logical function is_read(run) result(value)
+      !> The run at the start of the step
+      type(run_type), intent(in) :: run
+
+      value = size(run%context%past%kept) > 0 .or. associated(run%watcher) &
+              .or. size(run%sides%above) > 0
+      if (.not. associated(run%sampler)) return
+      call limit_next(run%sampler, run%now%hi, run%next%h)
+      value = value .or. sample_is_due(run%sampler, run%next%finish)
    end function is_read
 
    !> Whether the next sample is at a time or before.
@@ -43,37 +51,41 @@ contains
       value = elapsed(instant(sampler%next), time) >= 0.0_wp
    end function sample_is_due
 
-   !> Pass on the dense output of an accepted step, as far as it is read.
-   subroutine deliver(run, step_end, ended, sampler, watcher)
+   !> Pass on the dense output of an accepted step, as far as it is read. Where f changes its side,
+   !> or an event ends the run, the step ends before the end that was planned.
+   subroutine deliver(run, ended)
       !> The run at the start of the step, which is accepted
-      class(run_type), intent(inout) :: run
-      !> End of the step; where f changes its side, or the event that ends the run, if one does
-      type(instant), intent(inout) :: step_end
+      type(run_type), intent(inout) :: run
       !> Whether an event ends the run
       logical, intent(out) :: ended
-      !> Receiver of samples
-      class(sampler_type), intent(inout), optional :: sampler
-      !> Receiver of events
-      class(event_watcher_type), intent(inout), optional :: watcher
       real(wp) :: share
 
       ended = .false.
       share = 1.0_wp
-      if (size(run%sides%above) > 0) then
-         call run%sides%end_step(run%context, run%step, run%now, step_end, share)
-      end if
-      if (present(watcher) .and. share > 0.0_wp) then
-         call run%search%search_step(watcher, run%step, run%now, step_end, share, ended)
-         if (ended) run%sides%passed = .false.
-      end if
-      if (present(sampler)) then
-         if (sample_is_due(sampler, step_end)) call sample(sampler, run%step, run%now, step_end)
-      end if
-      if (size(run%context%past%kept) > 0 .and. share > 0.0_wp) then
-         ! no polynomial is valid beyond the next kink
-         call remember(run%context%past, run%step, run%now, run%points%time_to_next(run%now), share)
-         if (run%reach < huge(1.0_wp)) call run%context%past%forget(later(step_end, -run%reach))
-      end if
+      associate (step_end => run%next%finish, landing => run%next%landing)
+         if (size(run%sides%above) > 0) then
+            call run%sides%end_step(run%context, run%step, run%now, step_end, share)
+         end if
+         if (associated(run%watcher) .and. share > 0.0_wp) then
+            call run%search%search_step(run%watcher, run%step, run%now, step_end, share, ended)
+            if (ended) run%sides%passed = .false.
+         end if
+         if (any(run%sides%passed)) then
+            landing = landing .and. .not. elapsed(step_end, run%points%at(run%next%goal)) > 0.0_wp
+         end if
+         landing = landing .and. .not. ended
+         if (associated(run%sampler)) then
+            if (sample_is_due(run%sampler, step_end)) then
+               call sample(run%sampler, run%step, run%now, step_end)
+            end if
+         end if
+         if (size(run%context%past%kept) > 0 .and. share > 0.0_wp) then
+            ! no polynomial is valid beyond the next kink
+            call remember(run%context%past, run%step, run%now, run%points%time_to_next(run%now), &
+                          share)
+            if (run%reach < huge(1.0_wp)) call run%context%past%forget(later(step_end, -run%reach))
+         end if
+      end associate
    end subroutine deliver
 
    !> Append the dense output of the components that are kept to the past.

@@ -24,7 +24,7 @@ module dde_controller
 
    !> Constants of a method that the run needs.
    type :: method_constants
-      !> Name
+      !> Name, as the table of methods has it
       character(len=8) :: name = ""
       !> Order of the method
       integer :: order = 0
