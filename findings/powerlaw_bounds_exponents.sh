@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # powerlaw 2.0.0 bounds the exponent of a fit to 3, where 1.5 did not.
 #
-# Seen: sizes with the exact quantiles of a power law. Below an exponent of 3 both versions return the
-# estimate of maximum likelihood, 1 + n/sum(log(size)). Above it 2.0.0 returns 3 to rounding, with
-# verbose=0 without a message; 1.5 returns the estimate, and so does 2.0.0 with a parameter_ranges of
-# one's own. The only sign is the attribute noise_flag. A search for the least size compares fits, so
-# that it takes another one, too.
+# Expected: of sizes with the exact quantiles of a power law, the estimate of maximum likelihood,
+# 1 + n/sum(log(size)), from both versions.
+# Seen: below an exponent of 3 it is. Above it 2.0.0 returns 3 to rounding, with verbose=0 without a
+# message; 1.5 returns the estimate, and so does 2.0.0 with a parameter_ranges of one's own. The only sign
+# is the attribute noise_flag.
+# Matters: a search for the least size compares fits, so that it takes another one, too.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -39,6 +39,17 @@ def test_files_follow_the_cf_conventions(smoke, files):
     assert run.stdout.count("All tests passed!") == len(files), run.stdout
 
 
+def test_readers_agree(smoke, files):
+    """netCDF4 and h5netcdf, by xarray: units of one letter are texts, and times are numbers."""
+    for name in files.values():
+        path = smoke.folder / "results" / name
+        found, other = (xr.load_dataset(path, engine=e) for e in ("netcdf4", "h5netcdf"))
+        xr.testing.assert_identical(found, other)
+        values = other.variables.values()
+        assert {type(one.attrs.get("units", "")) for one in values} == {str}
+        assert {"m", "M"}.isdisjoint(one.dtype.kind for one in values)
+
+
 def test_files_name_their_origin(smoke, files):
     for name in files.values():
         attributes = xr.open_dataset(smoke.folder / "results" / name).attrs

@@ -12,7 +12,7 @@ import numpy as np
 
 from delaykit.errors import ModelError, check_name
 from delaykit.events import Event
-from delaykit.history import Pieces, fit
+from delaykit.history import ROUNDING, Pieces, fit
 from delaykit.library import LIBRARY, Request, address
 
 HUGE = sys.float_info.max
@@ -73,11 +73,15 @@ class Arguments:
             raise ModelError(f"{what}: {values!r}; expected finite numbers in a row")
         return array
 
-    def times(self, values, start: float) -> np.ndarray:
-        """Ascending times from the start on."""
+    def times(self, values, start: float, end: float) -> np.ndarray:
+        """Ascending times from the start to the end."""
         times = self.array("t_eval", values)
-        if (np.diff(times) < 0).any() or (len(times) and times[0] < start):
-            raise ModelError(f"t_eval: expected ascending times from t_start = {start} on")
+        wrong = [*times[times < start], *times[times > end], *times[1:][np.diff(times) < 0]]
+        if wrong:
+            raise ModelError(
+                f"t_eval: {wrong[0]}; expected ascending times from t_start = {start} to "
+                f"t_end = {end}"
+            )
         return times
 
     def tolerance(self, what: str, value) -> np.ndarray:
@@ -203,8 +207,11 @@ class Arguments:
             f"{what}: {given!r}; expected a value for each of {', '.join(self.states)}"
         )
 
-    def over_time(self, given: Mapping) -> Mapping:
-        """Arrays over time, pairs (times, values), Series or DataArrays, as functions of time."""
+    def over_time(self, given: Mapping, first: float, last: float) -> Mapping:
+        """Arrays over time, pairs (times, values), Series or DataArrays, as functions of time.
+
+        first, last: between what times they are read.
+        """
         found = {}
         for name, value in given.items():
             pair = value
@@ -214,7 +221,7 @@ class Arguments:
                 pair = (value.index, value.to_numpy())
             elif isinstance(value, list) and value and np.iterable(value[0]):
                 pair = tuple(value)
-            if isinstance(pair, tuple):
+            if isinstance(pair, tuple) and len(pair) != 1:
                 if len(pair) != 2:
                     raise ModelError(f"history of {name}: expected a pair (times, values)")
                 times, values = (self.array(f"history of {name}", one) for one in pair)
@@ -223,10 +230,16 @@ class Arguments:
                         f"history of {name}: {len(times)} times and {len(values)} values; expected "
                         "ascending times, at least two, and a value for each"
                     )
+                slack = ROUNDING * np.spacing(np.abs(times).max())
+                if times[0] > first + slack or times[-1] < last - slack:
+                    raise ModelError(
+                        f"history of {name}: known from t = {times[0]} to {times[-1]}; expected "
+                        f"from {first} to {last}"
+                    )
                 # SciPy's import takes a third of a second
                 from scipy.interpolate import CubicSpline
 
-                value = CubicSpline(times, values, extrapolate=False)
+                value = CubicSpline(times, values)
             found[str(name)] = value
         return found
 
@@ -256,7 +269,8 @@ def begin(own: Arguments, history, t_start: float, initial, breaks, rtol, atol) 
     delays = own.model.delays_of(own.numbers)
     pieces = getattr(history, "pieces", None)
     if pieces is None:
-        given = own.over_time(own.by_name("history", history))
+        first = t_start - delays.max(initial=0.0)
+        given = own.over_time(own.by_name("history", history), first, t_start)
         reads = any(callable(value) for value in given.values())
         if reads and len(delays) and max(delays) > 0:
             pieces = fit(

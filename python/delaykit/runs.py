@@ -97,7 +97,8 @@ def integrate(
         a model with one state without it); arrays over time as an xarray.Dataset, or a dict of
         pairs (times, values) or pandas Series; or an earlier run with dense output, which goes on.
     initial: the state at t_start where it differs from the history (a jump).
-    t_eval: times of the samples; otherwise they follow the steps, `samples_per_step` in each.
+    t_eval: times of the samples, NaN after an event that stops the run; otherwise they follow the
+        steps, `samples_per_step` in each.
     rtol, atol: tolerances of a step: numbers, or by state a dict or an array. Without atol it is
         1e-6 rtol, but at least 2e-14, times the largest value of each state so far: units do not
         matter.
@@ -135,7 +136,7 @@ def integrate(
     request.breaks, request.break_count = address(breaks), len(breaks)
     request.time_count = -1
     if t_eval is not None:
-        times = own.times(t_eval, past.end[0])
+        times = own.times(t_eval, past.end[0], t_end)
         request.times, request.time_count = address(times), len(times)
     events = [Event.read(one) for one in ([events] if isinstance(events, str | Event) else events)]
     watched = own.events(events)

@@ -48,3 +48,17 @@ def test_the_readme(monkeypatch):
     assert found["exponents"].sign.values.tolist() == ["positive", "zero", "negative", "negative"]
     assert found["motion"]["class"].item() == "cycle"
     assert (found["cycles"].special_kind == "period_doubling").any()
+
+
+def test_coming_from():
+    """Exact up to t = 2; y(10) by JiTCDDE 1.8.3 at a tolerance of 1e-10; exact Hopf points."""
+    found = program_of("docs/coming-from.md", "python")
+    run = found["run"]
+    assert float(run.y.sel(t=2)) == pytest.approx(0.5 * np.exp(0.9 + 2.8 - np.exp(0.9)), rel=1e-9)
+    assert float(run.y[-1]) == pytest.approx(2.1060614118, rel=1e-8)
+    np.testing.assert_allclose(run.event_t[:2], np.log(2) / 0.9 + np.arange(2), rtol=1e-9)
+    assert found["exponents"].sign.values.tolist() == ["zero", "negative"]
+    curve = found["curve"]
+    np.testing.assert_allclose(curve.r * curve.tau, np.pi / 2, rtol=1e-9)
+    assert (curve.l1 < 0).all()
+    assert (found["roots"].real < 0).all()

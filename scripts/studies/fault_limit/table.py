@@ -1,4 +1,7 @@
-"""The least epsilon of all Hopf curves over gamma, beside that without delay, as one table."""
+"""The least epsilon of all Hopf curves over gamma, beside that without delay, as one table.
+
+At the Hopf point without delay also l1, under the slip law and under the ageing law.
+"""
 
 import math
 
@@ -15,6 +18,21 @@ ITERATIONS = 60
 def leading_order(xi: float, gamma: float) -> float:
     """How far delays lower the least epsilon at large gamma: xi^3 (1 + xi)/(2 gamma^4)."""
     return xi**3 * (1 + xi) / (2 * gamma**4)
+
+
+def lyapunov_coefficients(xi: float, gamma: float) -> dict[str, float]:
+    """The coefficients l1 (docs/method.md) of both laws at the Hopf point without delay.
+
+    With x = omega^2 = epsilon there, d = xi - x = xi^2/(xi + gamma^2) and |q|^2 = (1 + x)^2/x. The
+    one of the ageing law has the sign of xi^2 - 8 xi d - 4 x d^2; with y = gamma^2/xi that is the
+    sign of y^3 - 5 y^2 - (13 + 4 xi) y - 7, which changes once.
+    """
+    x, d = xi * gamma**2 / (xi + gamma**2), xi**2 / (xi + gamma**2)
+    common = x**2.5 * d / (2 * (1 + x) ** 2 * (xi**2 + x * d**2) * (xi**2 + 4 * x * d**2))
+    return {
+        "l1_slip": -common * xi * (1 + x) * (xi + 8 * d),
+        "l1_ageing": common * (xi**2 - 8 * xi * d - 4 * x * d**2),
+    }
 
 
 def row_of(xi: float, gamma: float) -> dict:
@@ -45,6 +63,7 @@ def row_of(xi: float, gamma: float) -> dict:
         "least": x0 - depth,
         "depth": depth,
         "leading_order": leading_order(xi, gamma),
+        **lyapunov_coefficients(xi, gamma),
         "omega": omega,
         "tau": (math.atan(b) - math.atan(omega) + 2 * math.pi) / omega,
     }
