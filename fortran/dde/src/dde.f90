@@ -22,9 +22,7 @@ module dde
    public :: continuation_type
    public :: event_table, event_watcher_type
    public :: sampler_type, table_sampler
-   public :: integrate, integration_options, integration_result
-   public :: methods, read_by_methods
+   public :: integrate, integration_options, integration_result, methods, read_by_methods
    public :: event_met, interrupted, out_of_memory, reached_end, refused, step_underflow
-   public :: stop_requested, too_many_steps
-   public :: value_not_finite
+   public :: stop_requested, too_many_steps, value_not_finite
 end module dde

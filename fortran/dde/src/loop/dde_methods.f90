@@ -16,7 +16,7 @@ module dde_methods
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: choose_method, is_implicit, matching_method, methods, price_of_trial, read_by_methods
+   public :: choose_method, matching_method, methods, price_of_trial, read_by_methods
 
    !> A method.
    type :: method_type
@@ -72,7 +72,7 @@ contains
       type(explicit_step_type), allocatable :: explicit
       type(implicit_step_type), allocatable :: implicit
       type(taylor_step_type), allocatable :: taylor
-      integer :: i
+      integer :: i, order
 
       lacking = 0.0_wp
       name = method
@@ -93,15 +93,10 @@ contains
       case ("taylor")
          allocate (taylor)
          call taylor%set_up(problem, tolerance%level, lacking)
-      case ("radau5")
+      case ("radau5", "radau9", "radau13")
          allocate (implicit)
-         call implicit%set_up(problem, 3, tolerance%level, lacking)
-      case ("radau9")
-         allocate (implicit)
-         call implicit%set_up(problem, 5, tolerance%level, lacking)
-      case ("radau13")
-         allocate (implicit)
-         call implicit%set_up(problem, 7, tolerance%level, lacking)
+         read (name(len("radau") + 1:), *) order
+         call implicit%set_up(problem, (order + 1)/2, tolerance%level, lacking)
       case default
          names = trim(methods(1))
          do i = 2, size(methods)
@@ -135,7 +130,7 @@ contains
       if (implicit) then
          method = "radau"//text(2*radau_stages(tolerance%level) - 1)
       else if (problem%analytic) then
-         if (.not. series_pays(tolerance%level, problem%n, size(problem%lag))) then
+         if (2*size(problem%lag) >= problem%n .and. tolerance%level >= least_of_many) then
             allocate (y(problem%n))
             call problem%initial(y)
             if (problem%relaxation_rate(origin, y) < least_balance/minval(problem%lag)) return
@@ -162,24 +157,6 @@ contains
       if (tolerance >= least_of_radau5) stages = 3
       if (tolerance < least_of_radau9) stages = 7
    end function radau_stages
-
-   !> Whether a Taylor series takes fewer instructions than the explicit pair.
-   pure logical function series_pays(tolerance, n, delays) result(value)
-      !> Level of the tolerance
-      real(wp), intent(in) :: tolerance
-      !> Numbers of equations and of delayed values
-      integer, intent(in) :: n, delays
-
-      value = 2*delays < n .or. tolerance < least_of_many
-   end function series_pays
-
-   !> Whether a method is implicit.
-   pure logical function is_implicit(method) result(value)
-      !> Its name
-      character(len=8), intent(in) :: method
-
-      value = any(table%name == method .and. table%reads == "jacobian")
-   end function is_implicit
 
    !> Work of a short trial of the implicit method without its linear systems, in evaluations of the
    !> explicit pair: one Jacobian by differences, and the steps.

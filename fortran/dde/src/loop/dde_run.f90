@@ -108,15 +108,15 @@ contains
                                             i=1, size(break_at))]) > 0.0_wp)
          end associate
       end if
-      associate (problem => self%context%problem)
-         call self%context%go_to(self%now, min(self%options%longest_step, minval(problem%lag), &
-                                               self%points%time_to_next(self%now)))
+      associate (context => self%context, problem => self%context%problem)
+         call context%go_to(self%now, min(self%options%longest_step, minval(problem%lag), &
+                                          self%points%time_to_next(self%now)))
          call bound_times(self)
          if (.not. allocated(self%sides%above)) then
-            call self%sides%begin(self%context, self%step%y, problem%switches)
+            call self%sides%begin(context, self%step%y, problem%switches)
          end if
+         call self%step%restart(context)
       end associate
-      call self%step%restart(self%context)
    end subroutine prepare_start
 
    !> The right-hand side is evaluated beside a time where it may jump, not there.

@@ -56,7 +56,7 @@ module dde_switch
       real(wp), private :: h_of_other = 0.0_wp
       !> Work of a short trial of the implicit method without its linear systems, and with those
       !> of the last trial
-      real(wp), private :: least_price = 0.0_wp, price = 0.0_wp
+      real(wp) :: least_price = 0.0_wp, price = 0.0_wp
       !> `settled` or `on_trial`
       integer, private :: state = settled
       !> Work in limited steps, and in visits that were not worth it
@@ -72,35 +72,16 @@ module dde_switch
       !> Whether the last change ended a trial: it was one back
       logical, private :: returned = .false.
       !> Whether the explicit method is that of Taylor series
-      logical, private :: series = .false.
+      logical :: series = .false.
       !> Rejections since the last accepted step
       integer, private :: rejections = 0
       !> The shortest delay
-      real(wp), private :: shortest = 0.0_wp
+      real(wp) :: shortest = 0.0_wp
    contains
       procedure :: exchange, judge, judge_rejection
    end type switch_type
 
-   interface switch_type
-      module procedure :: new_switch
-   end interface switch_type
-
 contains
-
-   !> The choice at the start of a run.
-   type(switch_type) function new_switch(least_price, series, shortest) result(switch)
-      !> Work of a short trial of the implicit method without its linear systems
-      real(wp), intent(in) :: least_price
-      !> Whether the explicit method is that of Taylor series
-      logical, intent(in) :: series
-      !> The shortest delay
-      real(wp), intent(in) :: shortest
-
-      switch%shortest = shortest
-      switch%least_price = least_price
-      switch%price = least_price
-      switch%series = series
-   end function new_switch
 
    !> One more step.
    pure subroutine add(self, time, work)

@@ -19,7 +19,7 @@ module dde_work
       !> Additions and multiplications of factorisations and solutions
       real(wp) :: operations = 0.0_wp
       !> Number of equations
-      integer, private :: equations = 1
+      integer :: equations = 1
       !> Cost of one evaluation by the method in use
       real(wp), private :: cost = 1.0_wp
       !> Evaluations by earlier methods, and their cost
@@ -29,19 +29,7 @@ module dde_work
       procedure :: count_factors, in_systems, set_cost, total
    end type work_type
 
-   interface work_type
-      module procedure :: new_work
-   end interface work_type
-
 contains
-
-   !> Nothing done yet.
-   pure function new_work(equations) result(work)
-      integer, intent(in) :: equations
-      type(work_type) :: work
-
-      work%equations = equations
-   end function new_work
 
    !> One more matrix is factorised.
    pure subroutine count_factors(self, operations)

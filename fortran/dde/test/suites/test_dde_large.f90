@@ -64,7 +64,7 @@ contains
       problem = cells(n, diffusion=3.0_wp, delayed=.true.)
       problem%lower = 1
       problem%upper = 1
-      work = work_type(n)
+      work = work_type(equations=n)
       call banded%evaluate(problem, tolerance, work, 0.0_wp, y, z, huge(1.0_wp), finite)
       call expect(error, work%evaluations == 5, "by diagonals: "//text(work%evaluations))
       do j = 1, n
@@ -93,7 +93,7 @@ contains
 
       problem%kind = many_delays
       call fill(problem, 1, [1.0_wp], [1.0_wp], lags, [(1, i=1, 12)])
-      work = work_type(1)
+      work = work_type(equations=1)
       call jacobian%evaluate(problem, tolerance_type(1, 1.0e-6_wp, 1.0e-6_wp), work, 0.0_wp, &
                              [0.3_wp], [(0.1_wp*i, i=1, 12)], 2.0_wp, finite)
       call expect(error, work%evaluations == 4, text(work%evaluations)//" evaluations")

@@ -8,7 +8,6 @@ module test_dde_order
                                  er11, er12, er6, er7, er8, er9
    use dde_explicit_step, only: explicit_step_type
    use dde_errors, only: text
-   use dde_problem, only: dde_problem_type
    use expectations, only: expect, expect_between, expect_close
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
@@ -48,7 +47,7 @@ contains
       type(explicit_step_type) :: step
       type(tree_system) :: trees
       real(wp), parameter :: aside = sqrt(0.15_wp)
-      real(wp) :: estimate
+      real(wp) :: estimate, lacking
       real(wp), allocatable :: misfit(:)
       integer :: i, j, k
 
@@ -58,7 +57,8 @@ contains
       do i = 1, 2
          trees%by_the_clock = i == 2
          do j = 1, size(pairs)
-            call set_up(step, trees, pairs(j))
+            if (pairs(j) == "bs5") call step%set_up(trees, bogacki_shampine(), lacking)
+            if (pairs(j) == "dop853") call step%set_up(trees, dop853(), lacking)
             call take_step(trees, 0.0_wp, h, step, estimate)
             associate (order => trees%order, known => h**trees%order/trees%density, &
                        pair => pairs(j))
@@ -103,11 +103,11 @@ contains
       type(explicit_step_type) :: step
       type(tree_system) :: trees
       real(wp), parameter :: absolute = 1.0e-9_wp, relative = 1.0e-8_wp
-      real(wp) :: estimate
+      real(wp) :: estimate, lacking
       real(wp), dimension(sum(tree_counts(:6))) :: of_order_3, of_order_5, unit
 
       trees = grow_trees(6)
-      call set_up(step, trees, pairs(1))
+      call step%set_up(trees, dop853(), lacking)
       call take_step(trees, 0.0_wp, h, step, estimate, relative, absolute)
       unit = absolute + relative*step%y_new
       of_order_3 = h*e_3(step)/unit
@@ -123,7 +123,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(undelayed) :: problem
       type(explicit_step_type) :: step
-      real(wp) :: estimate, tolerance, worst
+      real(wp) :: estimate, lacking, tolerance, worst
       integer :: digits, i, j
 
       problem = decay(1.0_wp)
@@ -133,7 +133,8 @@ contains
             worst = 0.0_wp
             do i = 1, 4000
                problem%rate = 0.01_wp*i
-               call set_up(step, problem, pairs(j))
+               if (pairs(j) == "bs5") call step%set_up(problem, bogacki_shampine(), lacking)
+               if (pairs(j) == "dop853") call step%set_up(problem, dop853(), lacking)
                call take_step(problem, 0.0_wp, 1.0_wp, step, estimate, absolute=tolerance)
                if (estimate > 1.0_wp) cycle
                worst = max(worst, abs(step%y_new(1) - exp(-problem%rate))/tolerance)
@@ -143,20 +144,6 @@ contains
          end do
       end do
    end subroutine test_long_steps
-
-   !> A step of a pair.
-   subroutine set_up(step, problem, pair)
-      type(explicit_step_type), intent(out) :: step
-      class(dde_problem_type), intent(in) :: problem
-      character(len=*), intent(in) :: pair
-      real(wp) :: lacking
-
-      if (pair == "bs5") then
-         call step%set_up(problem, bogacki_shampine(), lacking)
-      else
-         call step%set_up(problem, dop853(), lacking)
-      end if
-   end subroutine set_up
 
    !> Error coefficients of order 5, one for each component.
    pure function e_5(step) result(e)

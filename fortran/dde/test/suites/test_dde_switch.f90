@@ -188,7 +188,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(work_type) :: work
 
-      work = work_type(3)
+      work = work_type(equations=3)
       work%evaluations = 10
       call expect_close(error, work%total(), 10.0_wp, 0.0_wp, "explicit")
       call work%set_cost(4.0_wp)

@@ -30,7 +30,7 @@ contains
       context%past = history_type(problem, instant(t))
       context%cursor = cursor_type(problem)
       context%tolerance = tolerance_type(problem%n, relative, absolute)
-      context%work = work_type(problem%n)
+      context%work = work_type(equations=problem%n)
       call context%go_to(instant(t), h)
    end function new_context
 
