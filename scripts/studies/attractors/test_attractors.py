@@ -19,9 +19,9 @@ LONG = [(0.019, 0.0007), (0.0, 0.0), (-0.0145, 0.001)]
 """Exponents of the long run with their errors: that along the flow has none."""
 
 
-def ending_on(*classes: str, long_run: bool = False) -> dict:
+def ending_on(*classes: str, long_run: bool = False, **given: str) -> dict:
     """Results of a scene whose histories end on these classes, its own first, last in the table."""
-    rows = [attractor_row(met, history=i + 1) for i, met in enumerate(classes)]
+    rows = [attractor_row(met, history=i + 1, **given) for i, met in enumerate(classes)]
     exponents = [
         {"scene": scene, "exponent": value + off, "error": error, "mean_step": 0.1 + off}
         for scene, off in (("other", 0.2), ("mine", 0.0), ("mine", 0.3))
@@ -46,6 +46,13 @@ def measuring(*values: float) -> dict:
         (ending_on("fixed point", "cycle"), PARTLY, "own history: fixed point (exponents -0.01"),
         (ending_on("fixed point", "fixed point"), NO),
         (ending_on("undecided"), NO, "Classes from 0 other histories: none."),
+        # the spectrum is not needed where the section confirms the class
+        (ending_on("cycle"), YES, "Class by the spectrum: cycle."),
+        (ending_on("cycle", by_spectrum="undecided"), YES, "Class by the spectrum: not needed."),
+        (
+            *(ending_on("cycle", by_spectrum="undecided", by_section="torus"), YES),
+            "Class by the section: torus. Class by the spectrum: undecided.",
+        ),
     ),
     (
         # the exponents are those of the long run, at the scene's own tolerance

@@ -53,6 +53,9 @@ def curve_at_delay(omega: np.ndarray):
     return changed(curves, omega=omega, tau=tau, xi=xi, epsilon=epsilon)
 
 
+BOTH = {"planes": ["plane", "other"]}
+BESIDE = changed(CURVE, epsilon=CURVE.epsilon.values + 0.1)
+LIKE_PRINT, WRONG = hopf_curve(gamma=1.0, ordinate="xi"), changed(CURVE, residual=1e-3)
 STRETCH = np.linspace(0.49, 0.53, 10)
 AT_DELAY = curve_at_delay(STRETCH)
 
@@ -65,8 +68,9 @@ AT_DELAY = curve_at_delay(STRETCH)
     (
         *("equation_6", PLANES),
         (on_plane(CURVE), YES),
-        (on_plane(changed(CURVE, epsilon=CURVE.epsilon.values + 0.1)), NO),
+        (on_plane(BESIDE), NO),
     ),
+    ("equation_6", BOTH, ({"curves": {"plane": CURVE, "other": BESIDE}}, NO)),
     (
         # where gamma^1 is gamma^2 the printed (8) holds
         *("equation_8", PLANE),
@@ -90,10 +94,13 @@ AT_DELAY = curve_at_delay(STRETCH)
         # tau as printed counts only where tau is drawn
         *("hopf_curves", PLANES),
         (on_plane(CURVE), PARTLY),
-        (on_plane(hopf_curve(gamma=1.0, ordinate="xi")), YES),
+        (on_plane(LIKE_PRINT), YES),
         (on_plane(hopf_curve(gamma=1.0)), PARTLY),
-        (on_plane(changed(CURVE, residual=1e-3)), NO),
+        (on_plane(WRONG), NO),
     ),
+    # the worst plane counts
+    ("hopf_curves", BOTH, ({"curves": {"plane": LIKE_PRINT, "other": CURVE}}, PARTLY)),
+    ("hopf_curves", BOTH, ({"curves": {"plane": WRONG, "other": LIKE_PRINT}}, NO)),
     (
         # at tau = 0 (5) has no delay
         *("lag_of_the_plate", PLANE),

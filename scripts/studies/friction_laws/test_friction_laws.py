@@ -13,6 +13,10 @@ def of_laws(logarithm: str, velocity: str, **given) -> dict:
     return {"friction_laws": [{**plane, "law": law, "class": kind} for law, kind in laws.items()]}
 
 
+def of_planes(*planes: dict) -> dict:
+    return {"friction_laws": [row for plane in planes for row in plane["friction_laws"]]}
+
+
 @cases(
     (
         *("place_of_delay_decides", {"gamma": 0.8}),
@@ -23,6 +27,7 @@ def of_laws(logarithm: str, velocity: str, **given) -> dict:
         ),
         *((of_laws("chaos", "chaos"), NO), (of_laws("cycle", "cycle"), NO)),
         (of_laws("chaos", "cycle", gamma=1e4), NO),
+        (of_planes(of_laws("chaos", "cycle"), of_laws("cycle", "cycle", xi=0.8)), NO),
         (of_laws("chaos", "cycle", of="scene"), NO, "Scene a: chaos (slip delayed logarithm), cyc"),
     ),
 )

@@ -61,9 +61,10 @@ def breaking(*lines: list[str]) -> dict:
 
 
 def with_hopf(l1: float, *points: dict) -> dict:
-    """Results of a route with this coefficient of steady sliding, and torus bifurcations."""
+    """Results of routes in tau and epsilon with this coefficient, and torus bifurcations."""
     curves = {"a": hopf_curve(), "b": changed(hopf_curve(xi=0.8), l1=l1)}
-    return {"curves": curves, **on_routes(["cycle", "torus"], points=points)}
+    lines = on_routes(["cycle", "torus"], ["cycle"], points=points, along=("tau", "epsilon"))
+    return {"curves": curves, **lines}
 
 
 def with_scenes(met: list[str], delays: list[float], line: list[str], *points: dict) -> dict:
@@ -128,6 +129,11 @@ def by_spring(*classes: str, **given) -> dict:
         (with_hopf(-0.1, torus_point(criticality="subcritical")), NO),
         (with_hopf(-0.1), NO, "stable cycles: none."),
         (with_hopf(-0.1, torus_point(), torus_point(epsilon=0.4)), YES),
+    ),
+    (
+        # the torus bifurcation is not on the other line
+        *("two_supercritical_hopfs", {"routes": ["mine", "other"], "planes": ["a", "b"]}),
+        (with_hopf(-0.1, torus_point()), PARTLY),
     ),
     (
         # B alone raises epsilon, A and B in proportion lower xi
