@@ -43,7 +43,7 @@ SMOKE = (
     *(path.relative_to(ROOT).as_posix() for path in studies.files_of("smoke.yaml")),
 )
 """Arguments for a run in smoke size; further config files may follow, targets must stand before."""
-COMMANDS = sorted(path.stem[:-8] for path in ROOT.glob("fortran/app/*_command.f90"))
+COMMANDS = sorted(path.stem[:-8] for path in ROOT.glob("fortran/src/commands/*_command.f90"))
 GROUPS = {
     "trajectory": "scene",
     "spectrum": "spectrum",

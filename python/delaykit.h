@@ -66,11 +66,10 @@ double dk_unit_of_time(const dk_model *model, const dk_request *request);
 int32_t dk_integrate(const dk_model *model, const dk_request *request, dk_results **results,
                      char *message, int32_t length);
 
-/* A command of the program, attractors, cycles, exponents, hopf or linear_stability, with the path of
- * a namelist (`spring_block COMMAND --help` lists its keys). It finds models by name in the folder of
- * the namelist. */
-int32_t dk_command(const char *command, const char *namelist, dk_results **results, char *message,
-                   int32_t length);
+/* A command of the program with the text of a namelist (`spring_block COMMAND --help` lists its keys),
+ * on a model. */
+int32_t dk_command(const dk_model *model, const char *command, const char *namelist,
+                   dk_results **results, char *message, int32_t length);
 
 /* Values of a variable, first dimension the slowest, and their number; NULL if there is none. */
 const void *dk_values(const dk_results *results, const char *name, int32_t *length);

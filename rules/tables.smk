@@ -1,4 +1,5 @@
 # Tables of results, and the verdicts on claims. The plans in scripts/studies/ declare the tables.
+from scripts.claims import declare
 from scripts.claims.ledger import inputs_for
 
 for path, table in studies.tables():
@@ -45,6 +46,14 @@ rule claims:
         claims=plan.claims,
         # the paper's claims are about its law
         law=None if plan.is_users else laws.PAPER,
-        code=code_of("claims/ledger.py"),
+        code=code_of(
+            "claims/ledger.py",
+            *declare.templates(),
+            *(
+                path
+                for script in declare.scripts_used()
+                for path in modules_of(script)
+            ),
+        ),
     script:
         "../scripts/claims/ledger.py"

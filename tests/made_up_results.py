@@ -5,12 +5,14 @@ import re
 from collections.abc import Iterable
 
 import numpy as np
+import pytest
 import xarray as xr
 
-from scripts.claims import declare
-from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED, Results
+from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED
+from scripts.claims.decide import Finding, find
 from scripts.namelists.laws import PAPER
 from scripts.namelists.parameters import HISTORY, PARAMETERS
+from scripts.plans import studies
 
 YES, PARTLY, NO = REPRODUCED, CORRECTED, NOT_REPRODUCED
 """Verdicts, short for tables of expected ones."""
@@ -31,6 +33,28 @@ LINES = {
 """Lines of cycles: the first and `across` are lines of routes and in a plane of the atlas."""
 SCENE = {"tau": 3.0, "epsilon": 0.4, "xi": 0.8, "gamma": 0.8}
 """Parameters of a scene."""
+
+
+def finding(test: str, data: dict, **parameters) -> Finding:
+    """What a test of claims finds in made-up data, by their names; data not given are empty."""
+    makers = studies.data().items()
+    empty = {name: {} if maker.output.endswith(".nc") else [] for name, maker in makers}
+    assert data.keys() <= empty.keys()
+    return find(test, {**empty, **data}, **parameters)
+
+
+def cases(*groups: tuple) -> pytest.MarkDecorator:
+    """Arguments of `assert_finding`: a test of claims, its parameters, and with these one or more
+    results, each with the verdict, and words of the evidence if it is about them."""
+    found = [(test, given, *one) for test, given, *several in groups for one in several]
+    return pytest.mark.parametrize("case", found, ids=[test for test, *_ in found])
+
+
+def assert_finding(test: str, given: dict, data: dict, verdict: str, words: str = "") -> None:
+    """That a test has this verdict, and these words in its evidence."""
+    found = finding(test, data, **given)
+    assert found.verdict == verdict
+    assert words in found.evidence
 
 
 def hopf_curve(
@@ -60,10 +84,6 @@ def changed(curves: xr.Dataset, **values) -> xr.Dataset:
     return curves.assign(new)
 
 
-def on_plane(curves: xr.Dataset) -> Results:
-    return Results(curves={"plane": curves})
-
-
 def stability_row(scene: str = "mine", **given) -> dict:
     """A row of linear-stability.tsv: stable without delay, lost at 2, regained at 5, lost at 8."""
     return {
@@ -76,10 +96,10 @@ def stability_row(scene: str = "mine", **given) -> dict:
     }
 
 
-def with_changes(*cells: str | float) -> Results:
+def changing(*cells: str | float) -> dict:
     """Results of scenes a, b, ... whose stability changes at these delays."""
     scenes = zip("abc", cells, strict=False)
-    return Results(linear_stability=[stability_row(a, tau_of_changes=one) for a, one in scenes])
+    return {"linear_stability": [stability_row(a, tau_of_changes=one) for a, one in scenes]}
 
 
 def attractor_row(met: str, scene: str = "mine", history: int = 1, **given) -> dict:
@@ -261,7 +281,7 @@ def run_row(**given) -> dict:
 def survey_run(classes: list[str], **given) -> xr.Dataset:
     """A file with one point for each class, other values of points as given."""
     size = len(classes)
-    known = ["undecided", *declare.CLASSES]
+    known = [*CLASSES, "3-torus"]
     numbers = [known.index(name) for name in classes]
     meanings = " ".join(name.replace(" ", "_") for name in known)
     points = {

@@ -6,14 +6,14 @@ import json
 from collections import Counter
 
 import pytest
-from made_up_results import NO, PARTLY, YES, Results, attractor_row, hopf_curve, stability_row
+from made_up_results import NO, PARTLY, YES, attractor_row, hopf_curve, stability_row
 
 from scripts.claims import declare, ledger
-from scripts.claims.claims_results import ANSWERS, NOT_TESTABLE, VERDICTS, Finding, read_results
+from scripts.claims.claims_results import ANSWERS, NOT_TESTABLE, VERDICTS, read_results
+from scripts.claims.decide import Finding
 from scripts.config.check_config import checked
 from scripts.files.marked_words import to_plain
 from scripts.files.read_config import ConfigError
-from scripts.studies.routes.claims import route
 
 CLAIMS = {
     "moves": {
@@ -38,11 +38,12 @@ BY_10 = {"test": {"equation_10": PLANE}}
 
 def ledger_of(met: str) -> list[dict]:
     """The rows if the scene ends on this class."""
-    made = Results(
-        curves={"plane": hopf_curve(gamma=1.0, ordinate="xi")},
-        attractors=[attractor_row(met)],
-        linear_stability=[stability_row()],
-    )
+    made = {
+        "curves": {"plane": hopf_curve(gamma=1.0, ordinate="xi")},
+        "attractors": [attractor_row(met)],
+        "linear_stability": [stability_row()],
+        "exponents": [],
+    }
     return ledger.rows_of(CLAIMS, made, "results")
 
 
@@ -93,19 +94,24 @@ def test_claims_of_the_paper_are_those_of_a_good_file(default_config):
     assert numbers[declare.PAPER] > 10
     assert {*numbers} <= {declare.PAPER, declare.OURS}
     tested = {name for claim in claims.values() for name in claim.get("test", {})}
-    assert tested == set(declare.TESTS)
+    assert tested == set(declare.tests())
 
 
-def test_number_of_a_claim_is_its_own():
-    """Two claims with one number have no order."""
-    with pytest.raises(ValueError, match="claim 1 'mine': name or number taken"):
-        declare.claim(1, "mine", "section 3", look_at="routes")(declare.says("So.")(route))
-
-
-@pytest.mark.parametrize("place", ["section 9", "here", "Figure 12"])
-def test_claim_of_the_paper_has_its_place(place):
-    with pytest.raises(ValueError, match=f"place = '{place}'; expected one of the paper"):
-        declare.claim(99, "mine", place, look_at="routes")(declare.says("So.")(route))
+@pytest.mark.parametrize(
+    ("row", "words"),
+    [
+        ("equation_3\tsection 1\t\tnot_testable: So.\tIt is so.", "name taken by another claim"),
+        ("mine\tsection 9\t\tnot_testable: So.\tIt is so.", "place = 'section 9'; expected one"),
+        ("mine\tFigure 12\t\tnot_testable: So.\tIt is so.", "place = 'Figure 12'; expected one"),
+    ],
+)
+def test_bad_row_of_the_table_is_refused(monkeypatch, tmp_path, row, words):
+    """A name of another claim, and a place that the paper has not."""
+    table = tmp_path / "claims.tsv"
+    table.write_text(f"{declare.CLAIMS.read_text()}{row}\n")
+    monkeypatch.setattr(declare, "CLAIMS", table)
+    with pytest.raises(ValueError, match=words):
+        declare.declared_claims.__wrapped__()
 
 
 @pytest.fixture

@@ -55,7 +55,7 @@ def test_files_name_their_origin(smoke, files):
         attributes = xr.open_dataset(smoke.folder / "results" / name).attrs
         assert attributes["Conventions"] == "CF-1.8"
         command = attributes["source"].split()[1]
-        assert (ROOT / "fortran" / "app" / f"{command}_command.f90").exists()
+        assert (ROOT / "fortran" / "src" / "commands" / f"{command}_command.f90").exists()
         assert attributes["source"].endswith(attributes["program_version"])
         assert "Time-delay in spring-block model" in attributes["references"]
         assert "20" not in attributes["history"]

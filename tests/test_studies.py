@@ -20,7 +20,7 @@ REMOVABLE = sorted(set(NAMES) - READ)
 
 def study_of(test: str) -> str:
     """The study that has a test of claims."""
-    return declare.TESTS[test].find.__module__.split(".")[2]
+    return declare.tests()[test].study
 
 
 def texts_of(name: str) -> list[str]:
@@ -31,7 +31,7 @@ def texts_of(name: str) -> list[str]:
 def read_by(name: str, config: dict) -> set[str]:
     """Results that a study reads, by their paths, in its runs, tables, figures and claims."""
     study = studies.studies()[name]
-    named = {test for test in declare.TESTS if study_of(test) == name}
+    named = {test for test in declare.tests() if study_of(test) == name}
     claims = {
         key: about
         for key, about in read_plan({}).claims.items()

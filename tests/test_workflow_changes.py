@@ -41,7 +41,6 @@ def scripts() -> list[str]:
             "studies/routes/figure.py",
             ["studies/routes/figure.py", "drawing/class_map.py", "files/outputs.py", STYLE],
         ),
-        ("claims/ledger.py", ["tables/roots_of_5.py", *of_studies("claims.py")]),
         ("page/write_page.py", of_studies("finding.py")),
     ],
 )
@@ -74,6 +73,7 @@ def test_changed_files_of_the_project_make_their_results_anew(scratch):
     change(
         scratch,
         "scripts/studies/paper_scenes/figure_6.rst",
+        "scripts/studies/events/claims.jinja",
         "benchmarks/measured.tsv",
         "page/style.css",
     )
@@ -84,7 +84,7 @@ def test_changed_files_of_the_project_make_their_results_anew(scratch):
 def test_results_of_an_older_program_are_computed_again(scratch):
     """Also where the build of the new one was interrupted, which leaves no program."""
     result = "results/references/stability/strong.tsv"
-    change(scratch, "fortran/app/reference_command.f90")
+    change(scratch, "fortran/src/commands/reference_command.f90")
     lock = scratch.folder / "build" / "lock"
     lock.unlink()
     lock.mkdir()

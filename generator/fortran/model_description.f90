@@ -189,20 +189,25 @@ contains
       end subroutine read_level
    end function observed_of
 
-   !> What it calls a value of the problem, of a kind that `dde_problem_type` has; its number in a
-   !> chain.
-   pure function name_of(self, kind, number) result(name)
+   !> What it calls a value of the problem, of a kind that `dde_problem_type` has.
+   pure function name_of(self, kind, number, blocks) result(name)
       class(description_type), intent(in) :: self
       character(len=*), intent(in) :: kind
       integer, intent(in) :: number
+      !> Numbers of blocks in the order of the state vector
+      integer, intent(in) :: blocks(:)
       character(len=:), allocatable :: name
+      integer :: place
 
+      place = (number - 1)/size(self%states)
       if (kind == "switching") then
          name = trim(self%switches(number))
-      else if (size(self%sizes%couplings) > 0) then
+      else if (place >= size(blocks)) then
          name = kind//"("//text_of(number)//")"
       else
-         name = trim(self%states(number))//trim(merge("'", " ", kind == "f"))
+         name = trim(self%states(number - place*size(self%states)))
+         if (kind == "f") name = name//"'"
+         if (size(blocks) > 1) name = name//" of block "//text_of(blocks(1 + place))
       end if
    end function name_of
 

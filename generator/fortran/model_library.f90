@@ -59,18 +59,16 @@ module model_library
 contains
 
    !> Open a compiled model by its name. It has no parameters yet.
-   subroutine open_model(name, model, error, beside)
+   subroutine open_model(name, model, error)
       !> Name of the definition
       character(len=*), intent(in) :: name
       !> The model
       type(model_type), intent(out) :: model
       !> Error if there is no model of this name, or one that does not fit this program
       type(error_type), allocatable, intent(out) :: error
-      !> Path of a file in whose folder it is looked for first
-      character(len=*), intent(in), optional :: beside
       character(len=:), allocatable :: path
 
-      path = path_of_model(name, beside)
+      path = path_of_model(name)
       if (path == "") then
          call raise(error, "no model '"//name//"' in "//model_folders())
          return
@@ -136,10 +134,8 @@ contains
    end function list_models
 
    !> Path of the object of a model; empty if there is none. A name is no path.
-   function path_of_model(name, beside) result(path)
+   function path_of_model(name) result(path)
       character(len=*), intent(in) :: name
-      !> Path of a file in whose folder it is looked for first
-      character(len=*), intent(in), optional :: beside
       character(len=:), allocatable :: path, rest
       integer :: at
       logical :: there
@@ -147,7 +143,6 @@ contains
       path = ""
       if (verify(name, letters_of_names) > 0) return
       rest = model_folders()//":"
-      if (present(beside)) rest = beside(:index(beside, "/", back=.true.))//".:"//rest
       do while (len(rest) > 0)
          at = index(rest, ":")
          path = rest(:at - 1)//"/"//name//".so"

@@ -8,7 +8,7 @@ module model_problem
    use dde, only: not_given, problem_with_tangents
    use dde_kinds, only: wp
    use model_border, only: shape_type
-   use model_chain, only: find_band
+   use model_chain, only: blocks_in_order, find_band
    use model_code, only: code_type
    use model_description, only: description_of, description_type, sizes_type, word_length
    implicit none (type, external)
@@ -271,7 +271,7 @@ contains
       type(description_type) :: about
 
       about = self%describe()
-      name = about%name_of(kind, number)
+      name = about%name_of(kind, number, blocks_in_order(self%shape%blocks, trim(self%ends)))
    end function name_of
 
    !> Taylor coefficients of the solution.

@@ -3,7 +3,6 @@
 
 import ctypes
 import math
-import re
 import sys
 from collections.abc import Mapping
 from dataclasses import replace
@@ -155,18 +154,6 @@ class Arguments:
             return rows
         blocks = rows.reshape(len(rows), self.model.blocks, len(self.states))
         return blocks[:, np.argsort(self.order)].reshape(rows.shape)
-
-    def in_names(self, message: str) -> str:
-        """A message of the solver with names of states in place of numbers of components."""
-
-        def name(found: re.Match) -> str:
-            if int(found[2]) > self.n:  # of a tangent vector
-                return found[0]
-            block, state = divmod(int(found[2]) - 1, len(self.states))
-            words = self.states[state] + "'" * (found[1] == "f(")
-            return words + f" of block {1 + self.order[block]}" * (self.model.blocks > 1)
-
-        return re.sub(r"\b(f\(|y\(|component )(\d+)\b\)?", name, message)
 
     def by_place(self, values: np.ndarray) -> np.ndarray:
         """The state vector of values of shape (blocks, states)."""

@@ -5,9 +5,8 @@ Each gives an xarray.Dataset whose variables have descriptions (`long_name`). Ti
 units of the model.
 """
 
-import tempfile
+import io
 from collections.abc import Mapping
-from pathlib import Path
 
 import f90nml
 import numpy as np
@@ -43,16 +42,10 @@ def command(
 ) -> xr.Dataset:
     """Run a command of the library with a namelist of these groups."""
     lists = {"settings": groups} | ({"histories": histories} if histories else {})
-    with tempfile.TemporaryDirectory(prefix="delaykit") as folder:
-        path = Path(folder, f"{name}.nml")
-        path.with_name(f"{own.model.definition['name']}.so").symlink_to(own.model.path)
-        f90nml.Namelist(lists).write(path)
-        try:
-            found = call(LIBRARY.dk_command, name.encode(), str(path).encode())
-        except RunError as problem:
-            text = own.in_names(str(problem).replace(f"{path}: ", ""))
-            raise type(problem)(text, problem.partial) from None
-    return dataset_of(found)
+    text = io.StringIO()
+    f90nml.Namelist(lists).write(text)
+    asked = name.encode(), text.getvalue().encode()
+    return dataset_of(call(LIBRARY.dk_command, own.model.handle, *asked))
 
 
 def dataset_of(found: Results) -> xr.Dataset:

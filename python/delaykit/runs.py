@@ -149,7 +149,6 @@ def integrate(
     try:
         found = call(LIBRARY.dk_integrate, model.handle, ctypes.byref(request))
     except RunError as problem:
-        problem.args = (own.in_names(str(problem)),)
         problem.partial = solution_of(own, problem.partial, events, past.before)
         raise
     solution = solution_of(own, found, events, past.before)

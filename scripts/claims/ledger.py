@@ -3,9 +3,8 @@
 import json
 from pathlib import Path
 
-from scripts.claims import claims_without_test  # noqa: F401  (it declares claims)
-from scripts.claims.claims_results import ANSWERS, NOT_TESTABLE, Finding, Results, read_results
-from scripts.claims.declare import OURS, TESTS, Names, Test, declared_claims
+from scripts.claims.claims_results import ANSWERS, NOT_TESTABLE, read_results
+from scripts.claims.declare import OURS, Test, declared_claims, tests
 from scripts.config.check_config import in_words, validator_for
 from scripts.files import marked_words
 from scripts.files.outputs import logged, written
@@ -14,8 +13,6 @@ from scripts.files.tsv import write_table
 from scripts.plans import studies
 from scripts.plans.declare import Table
 from scripts.plans.studies import inside
-
-studies.load_parts("claims")  # they declare their claims and tests
 
 
 def paper_claims() -> dict[str, dict]:
@@ -56,22 +53,30 @@ def check_user_claims(said: dict, config: dict, shown: set[str]) -> dict:
 def _rules(config: dict) -> dict:
     """JSON schema of the tests of claims, with the names that the configuration has."""
     known = {kind: list(inside(config, keys)) for kind, keys in studies.entries().items()}
-    tests = _allow_keys({name: _rules_of(test, known) for name, test in TESTS.items()})
-    claim = {"properties": {"test": tests}}
+    rules = _allow_keys({name: _rules_of(test, known) for name, test in tests().items()})
+    claim = {"properties": {"test": rules}}
     return {"properties": {"claims": {"additionalProperties": claim}}}
 
 
 def _rules_of(test: Test, known: dict[str, list[str]]) -> dict:
     """JSON schema of the parameters of a test."""
-    properties = {
-        name: kind.schema(known[kind.kind]) if isinstance(kind, Names) else dict(kind)
-        for name, kind in test.types.items()
-    }
+    properties = {name: _schema_of(kind, known) for name, kind in test.kinds.items()}
     for name, value in test.defaults.items():
         properties[name]["default"] = value
     required = [name for name in properties if name not in test.defaults]
     words = f"parameters of the test: {', '.join(properties)}" if properties else "no parameters"
     return {**_allow_keys(properties), "required": required, "description": words}
+
+
+def _schema_of(kind: str | dict, known: dict[str, list[str]]) -> dict:
+    """JSON schema of a parameter, given the names that the configuration has."""
+    if isinstance(kind, dict):
+        return dict(kind)
+    entry = kind.removesuffix("s")
+    one = {"enum": known[entry], "description": f"name of a {entry}"}
+    words = f"names of {entry}s, at least one, each once"
+    several = {"type": "array", "minItems": 1, "uniqueItems": True, "items": one}
+    return one if kind == entry else {**several, "description": words}
 
 
 def _allow_keys(properties: dict[str, dict]) -> dict:
@@ -103,7 +108,7 @@ def _contradictions(claim: dict, shown: set[str]):
 
 
 def inputs_for(claims: dict, config: dict) -> dict[str, list[str]]:
-    """Files that the tests of the claims read, by the names of `Results`."""
+    """Files that the tests of the claims read, by the names of the data."""
     files: dict[str, list[str]] = {}
     for test, parameters in _tests_of(claims):
         for data in test.reads:
@@ -153,13 +158,13 @@ def names_in(claims: dict) -> dict[str, list[str]]:
 def _tests_of(claims: dict) -> list[tuple[Test, dict]]:
     """Tests of the claims that have one, with their parameters."""
     return [
-        (TESTS[name], parameters)
+        (tests()[name], parameters)
         for claim in claims.values()
         for name, parameters in claim.get("test", {}).items()
     ]
 
 
-def rows_of(claims: dict[str, dict], results: Results, folder: str) -> list[dict]:
+def rows_of(claims: dict[str, dict], results: dict, folder: str) -> list[dict]:
     """One row a claim, in the order of the list; the results are in the folder."""
     return [
         {
@@ -174,12 +179,14 @@ def rows_of(claims: dict[str, dict], results: Results, folder: str) -> list[dict
     ]
 
 
-def found_of(claim: dict, results: Results) -> dict:
+def found_of(claim: dict, results: dict) -> dict:
     """What the claim's test finds, or why it has none, in columns; of our questions the answer."""
+    from scripts.claims.decide import Finding, find  # not when claims are planned
+
     if "not_testable" in claim:
         return vars(Finding(NOT_TESTABLE, claim["not_testable"]))
     ((name, parameters),) = claim["test"].items()
-    found = vars(TESTS[name].find(results, **parameters))
+    found = vars(find(name, results, **parameters))
     if claim.get("whose") == OURS:
         return found | {"verdict": ANSWERS[found["verdict"]]}
     return found

@@ -18,7 +18,7 @@ STYLE = SCRIPTS / "drawing" / "paper.mplstyle"
 def imports_of(path: Path) -> frozenset[Path]:
     """The modules of the project that a module loads, anywhere in its text.
 
-    Beside imports these are modules of studies, by calls such as `studies.load_parts("claims")`.
+    Beside imports these are modules of studies, by calls such as `studies.load_parts("finding")`.
     """
     names, files = set(), set()
     for node in ast.walk(ast.parse(content_of(path))):

@@ -9,7 +9,7 @@ module output_file
                      nf90_global, nf90_int, nf90_netcdf4, nf90_noerr, nf90_put_att, nf90_put_var, &
                      nf90_strerror
    use program_arguments, only: command_name
-   use results, only: attribute_type, results_type, variable_type
+   use results, only: attribute_type, variable_type, written_type
    use unfinished_file, only: unfinished_type
    use version, only: project_version
    implicit none (type, external)
@@ -24,7 +24,7 @@ module output_file
                                           &earthquakes"
 
    !> A file in the making. NetCDF numbers dimensions and variables as the results do.
-   type, extends(results_type) :: output_file_type
+   type, extends(written_type) :: output_file_type
       private
       !> Where it stands
       type(unfinished_type) :: place
@@ -33,33 +33,11 @@ module output_file
       !> Numbers of dimensions and variables that the file has
       integer :: dimensions_written = 0, variables_written = 0
    contains
-      procedure :: create, discard, finish, write_values
-      procedure, private :: define, note, put_attribute
+      procedure :: discard, finish, write_values
+      procedure, private :: define, note, put_attribute, put_origin
    end type output_file_type
 
 contains
-
-   !> Begin a file with the attributes that all files have.
-   subroutine create(self, path, title)
-      class(output_file_type), intent(inout) :: self
-      character(len=*), intent(in) :: path
-      !> Title of the file: what it holds
-      character(len=*), intent(in) :: title
-
-      call self%place%begin(path, self%error)
-      if (.not. allocated(self%error)) then
-         call self%note(nf90_create(self%place%part, nf90_netcdf4, self%id))
-      end if
-      call self%attribute("Conventions", "CF-1.8")
-      call self%attribute("title", title)
-      call self%attribute("institution", "the maintainers of this reproduction")
-      call self%attribute("source", "program "//command_name()//" "//project_version)
-      call self%attribute("history", "written by "//command_name() &
-                          //"; without a time, so that two runs give the same bytes")
-      call self%attribute("references", paper)
-      call self%attribute("program_version", project_version)
-      call self%attribute("compiler", compiler_version())
-   end subroutine create
 
    !> Write the values that are held, and what defines them where the file has not got it.
    subroutine write_values(self, first)
@@ -70,6 +48,11 @@ contains
       integer :: i, rows
 
       if (allocated(self%error)) return
+      if (self%id == -1) then
+         call self%place%begin(self%path, self%error)
+         if (allocated(self%error)) return
+         call self%note(nf90_create(self%place%part, nf90_netcdf4, self%id))
+      end if
       call self%define()
       do i = 1, size(self%variables)
          associate (one => self%variables(i))
@@ -156,23 +139,47 @@ contains
    end subroutine put_attribute
 
    !> Write what is left, close the file and give it its name; on an error nothing is left behind.
-   subroutine finish(self, error)
+   subroutine finish(self)
       class(output_file_type), intent(inout) :: self
-      type(error_type), allocatable, intent(out) :: error
       integer :: i
 
       if (.not. allocated(self%dimensions)) allocate (self%dimensions(0))
       if (.not. allocated(self%variables)) allocate (self%variables(0))
       call self%write_values()
-      if (.not. allocated(self%error)) then
-         do i = 1, size(self%attributes)
-            call self%put_attribute(nf90_global, self%attributes(i))
-         end do
-      end if
+      if (allocated(self%error)) return
+      call self%put_origin()
+      do i = 1, size(self%attributes)
+         if (self%attributes(i)%name == "title") cycle
+         call self%put_attribute(nf90_global, self%attributes(i))
+      end do
       if (.not. allocated(self%error)) call self%note(nf90_close(self%id))
       if (.not. allocated(self%error)) call self%place%publish("", self%error)
-      if (allocated(self%error)) allocate (error, source=self%error)
    end subroutine finish
+
+   !> Write the attributes that all files have: title, and what made the file.
+   subroutine put_origin(self)
+      class(output_file_type), intent(inout) :: self
+
+      call put("Conventions", "CF-1.8")
+      call self%put_attribute(nf90_global, self%attributes(findloc(self%attributes%name, "title", &
+                                                                   dim=1)))
+      call put("institution", "the maintainers of this reproduction")
+      call put("source", "program "//command_name()//" "//project_version)
+      call put("history", "written by "//command_name() &
+               //"; without a time, so that two runs give the same bytes")
+      call put("references", paper)
+      call put("program_version", project_version)
+      call put("compiler", compiler_version())
+
+   contains
+
+      !> Write a text.
+      subroutine put(name, words)
+         character(len=*), intent(in) :: name, words
+
+         call self%note(nf90_put_att(self%id, nf90_global, name, words))
+      end subroutine put
+   end subroutine put_origin
 
    !> Keep the first error and leave nothing behind.
    subroutine note(self, status)
@@ -189,6 +196,7 @@ contains
       class(output_file_type), intent(inout) :: self
       integer :: status
 
+      if (self%id == -1) return
       status = nf90_close(self%id)
       self%id = -1
       call self%place%discard()

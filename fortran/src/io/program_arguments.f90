@@ -3,44 +3,32 @@
 !> program ends.
 module program_arguments
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+   use command, only: command_type, names_of
    use dde_errors, only: error_type, raise
-   use namelist_input, only: help
    use process, only: end_at_once
+   use progress, only: progress_type
+   use request, only: ask, ask_for_keys, request_type
+   use results, only: written_type
    use unfinished_file, only: check_place
    implicit none (type, external)
    private
-   public :: check_input, command_name, command_type, run_command, stop_on
+   public :: check_input, command_name, run_command
 
-   abstract interface
-      !> Reads the namelist, computes, writes.
-      subroutine run_with_paths(namelist_path, output_path, error)
-         import :: error_type
-         implicit none (type, external)
-         !> Paths of the file to read and of the file to write
-         character(len=*), intent(in) :: namelist_path, output_path
-         !> Why there is no output
-         type(error_type), allocatable, intent(out) :: error
-      end subroutine run_with_paths
-   end interface
-
-   !> A command of a program.
-   type :: command_type
-      !> Its name
-      character(len=20) :: name
-      !> What it does
-      procedure(run_with_paths), pointer, nopass :: run
-      !> What it makes
-      character(len=70) :: about
-   end type command_type
+   !> In place of a command or a path: what there is.
+   character(len=*), parameter :: help = "--help"
 
 contains
 
    !> Run the command of the first argument with the paths that the others are, or show help. If
    !> the arguments are wrong, or the input cannot be read, or the output cannot be written, the
    !> program ends.
-   subroutine run_command(commands)
+   subroutine run_command(commands, given, data)
       !> All commands of the program
       type(command_type), intent(in) :: commands(:)
+      !> What the command is asked, empty
+      class(request_type), intent(inout) :: given
+      !> What it returns
+      class(written_type), intent(inout) :: data
       type(error_type), allocatable :: error
       integer :: at
 
@@ -51,17 +39,54 @@ contains
          call raise(error, "the command '"//argument(1)//"'; expected one of: " &
                     //names_of(commands)//", or "//help)
       else if (argument(2) == help) then
+         call ask_for_keys(given)
+         call commands(at)%run(given, data, error)
          write (output_unit, "(a)") trim(commands(at)%about), "", "Keys of its namelist group " &
             //"&settings, with their values where these are not given:"
-         call commands(at)%run(help, help, error)
+         write (output_unit, "(a)", advance="no") given%keys()
+         flush (output_unit)
+         call end_at_once(0)
       else
          call check_paths(argument(2), argument(3), error)
          call stop_on(error)
-         call check_input(argument(2), argument(3))
-         call commands(at)%run(argument(2), argument(3), error)
+         call check_input(argument(2))
+         allocate (progress_type :: given%progress)
+         call read_request(argument(2), given, error)
+         call stop_on(error)
+         data%path = argument(3)
+         call commands(at)%run(given, data, error)
+         if (allocated(error)) call data%discard()
+         call stop_on(error)
+         if (.not. allocated(data%error)) call data%finish()
+         call stop_on(data%error)
       end if
       call stop_on(error)
    end subroutine run_command
+
+   !> Read the text of a namelist file.
+   subroutine read_request(path, given, error)
+      character(len=*), intent(in) :: path
+      class(request_type), intent(inout) :: given
+      !> It cannot be read
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: words
+      character(len=256) :: reason
+      integer :: length, status, unit
+
+      open (newunit=unit, file=path, status="old", action="read", access="stream", &
+            iostat=status, iomsg=reason)
+      if (status == 0) then
+         inquire (unit, size=length)
+         allocate (character(len=max(0, length)) :: words)
+         read (unit, iostat=status, iomsg=reason) words
+         close (unit)
+      end if
+      if (status == 0) then
+         call ask(given, path//": ", words)
+      else
+         call raise(error, path//": "//trim(reason))
+      end if
+   end subroutine read_request
 
    !> How the program is called.
    subroutine show_commands(commands)
@@ -74,18 +99,6 @@ contains
          write (output_unit, "(2a)") commands(i)%name, trim(commands(i)%about)
       end do
    end subroutine show_commands
-
-   !> Names with commas between them.
-   pure function names_of(commands) result(list)
-      type(command_type), intent(in) :: commands(:)
-      character(len=:), allocatable :: list
-      integer :: i
-
-      list = trim(commands(1)%name)
-      do i = 2, size(commands)
-         list = list//", "//trim(commands(i)%name)
-      end do
-   end function names_of
 
    !> Refuse paths that are missing, and an output where no file can be written.
    subroutine check_paths(namelist_path, output_path, error)
@@ -104,15 +117,15 @@ contains
    end subroutine check_paths
 
    !> Refuse to replace what the program reads: the program ends.
-   subroutine check_input(input_path, output_path)
+   subroutine check_input(input_path)
       !> Path of the file to read
       character(len=*), intent(in) :: input_path
-      !> Path of the file to write
-      character(len=*), intent(in) :: output_path
       type(error_type), allocatable :: error
+      character(len=:), allocatable :: output_path
       logical :: is_same
       integer :: status, unit
 
+      output_path = argument(3)
       open (newunit=unit, file=input_path, status="old", action="read", iostat=status)
       ! who reads it says why it cannot be opened
       if (status /= 0) return

@@ -17,8 +17,7 @@ module progress
    !> Looks at the clock in one part of the work, at least.
    integer, parameter :: looks = 1000
 
-   !> Progress of work in one part, or in several of about the same length. Programs with several
-   !> threads call it from one at a time, in a critical region.
+   !> Progress of work.
    type, extends(progress_receiver_type) :: progress_type
       private
       !> What is being done
@@ -36,27 +35,27 @@ module progress
       !> Per cent in the last line, -`step` before the first
       integer :: percent = -step
    contains
-      procedure :: advance, begin_part
+      procedure :: begin, begin_part, advance
    end type progress_type
-
-   interface progress_type
-      module procedure :: new_progress
-   end interface progress_type
 
 contains
 
-   !> Progress of work that begins now.
-   function new_progress(label, parts) result(report)
+   !> Work begins now.
+   subroutine begin(self, label, parts)
+      class(progress_type), intent(inout) :: self
       !> What is being done
       character(len=*), intent(in) :: label
       !> Number of parts; one if it is left out
       integer, intent(in), optional :: parts
-      type(progress_type) :: report
 
-      report%label = label
-      if (present(parts)) report%parts = parts
-      call system_clock(report%begun, report%ticks)
-   end function new_progress
+      self%label = label
+      self%parts = 1
+      if (present(parts)) self%parts = parts
+      self%part = 1
+      self%next = 0
+      self%percent = -step
+      call system_clock(self%begun, self%ticks)
+   end subroutine begin
 
    !> Begin another part.
    subroutine begin_part(self, part)

@@ -91,7 +91,7 @@ contains
    !> Histories from their names and values. Refuse names that are not those of all states, each
    !> once, and values out of range; keep an earlier error.
    subroutine read_history(place, model, names, values, history, error)
-      !> File and what it describes, for messages
+      !> What stands before messages
       character(len=*), intent(in) :: place
       !> The model with its blocks
       class(model_type), intent(in) :: model
@@ -112,7 +112,7 @@ contains
       history%exponential = history%names /= about%states
       associate (blocks => model%shape%blocks, states => size(about%states))
          if (size(names) /= states .or. modulo(size(values), states*blocks) /= 0) then
-            call raise(error, place//": history has "//text(size(names))//" names and " &
+            call raise(error, place//"history has "//text(size(names))//" names and " &
                        //text(size(values))//" values; expected "//text(states) &
                        //" names, and a value for each name and each of "//text(blocks)//" blocks")
             return
@@ -127,7 +127,7 @@ contains
             number = findloc(names, shown, dim=1)
             if (number == 0) number = -findloc(names, own, dim=1)
             if (number == 0) then
-               call raise(error, place//": history of "//trim(shown) &
+               call raise(error, place//"history of "//trim(shown) &
                           //" is missing; expected a finite number")
             end if
             if (allocated(error)) return

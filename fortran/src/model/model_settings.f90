@@ -52,9 +52,9 @@ contains
 
    !> Open the model and give it its parameters, at rest before the initial time. Refuse a model
    !> that there is not, names that it has not, and values out of range; keep an earlier error.
-   subroutine open_settings(self, place, model, error, keep_delays, at_rest)
+   subroutine open_settings(self, place, model, error, keep_delays, at_rest, opened)
       class(model_settings_type), intent(in) :: self
-      !> File and what it describes, for messages
+      !> What stands before messages
       character(len=*), intent(in) :: place
       type(model_type), intent(out) :: model
       !> First error met
@@ -63,20 +63,24 @@ contains
       logical, intent(in), optional :: keep_delays
       !> Whether the model must have a state at rest; .false. unless given
       logical, intent(in), optional :: at_rest
+      !> The model, if it is open already
+      type(model_type), intent(in), optional :: opened
       type(description_type) :: about
       real(wp), allocatable :: numbers(:), state(:)
       integer :: block, i, number
 
       if (allocated(error)) return
-      if (path_of_model(trim(self%name), place) == "") then
+      if (present(opened)) then
+         model = opened
+      else if (path_of_model(trim(self%name)) == "") then
          call check_choice(error, place, "model", self%name, list_models(""))
       else
-         call open_model(trim(self%name), model, error, place)
+         call open_model(trim(self%name), model, error)
       end if
       if (allocated(error)) return
       if (present(at_rest)) then
          if (at_rest .and. .not. associated(model%code%steady_state)) then
-            call raise(error, place//": the model "//trim(self%name)//" has no state at rest; " &
+            call raise(error, place//"the model "//trim(self%name)//" has no state at rest; " &
                        //"expected one with steady_state in its definition")
             return
          end if
@@ -150,10 +154,10 @@ contains
       call check_choice(error, place, "ends", self%ends, chain_ends)
       if (allocated(error)) return
       if (self%blocks > 1 .and. size(model%sizes%couplings) == 0) then
-         call raise(error, place//": blocks = "//text(self%blocks)//" of the model " &
+         call raise(error, place//"blocks = "//text(self%blocks)//" of the model " &
                     //trim(self%name)//"; expected 1, since it has no second difference")
       else if (self%blocks > 1 .and. self%ends == "ring") then
-         call check_count(error, place//": ends = ring", "blocks", self%blocks, at_least=3)
+         call check_count(error, place//"ends = ring: ", "blocks", self%blocks, at_least=3)
       end if
    end subroutine check_blocks
 end module model_settings

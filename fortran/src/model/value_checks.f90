@@ -24,7 +24,7 @@ contains
    pure subroutine check_number(error, place, key, value, above, at_least)
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
-      !> File and what it describes, key
+      !> What stands before the key in a message, its colon included; key
       character(len=*), intent(in) :: place, key
       !> Value of the key
       real(wp), intent(in) :: value
@@ -48,9 +48,9 @@ contains
       if (fine) return
       if (ieee_is_nan(value)) range = range//" (NaN: missing, or not a number)"
       if (value == absent) then
-         call raise(error, place//": "//key//" is missing; expected "//range)
+         call raise(error, place//key//" is missing; expected "//range)
       else
-         call raise(error, place//": "//key//" = "//text(value)//"; expected "//range)
+         call raise(error, place//key//" = "//text(value)//"; expected "//range)
       end if
    end subroutine check_number
 
@@ -58,7 +58,7 @@ contains
    pure subroutine check_count(error, place, key, value, at_least, at_most)
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
-      !> File and what it describes, key
+      !> What stands before the key in a message, its colon included; key
       character(len=*), intent(in) :: place, key
       !> Value of the key, least value allowed
       integer, intent(in) :: value, at_least
@@ -74,14 +74,14 @@ contains
          fine = fine .and. value <= at_most
          range = range//" and <= "//text(at_most)
       end if
-      if (.not. fine) call raise(error, place//": "//key//" = "//text(value)//"; expected "//range)
+      if (.not. fine) call raise(error, place//key//" = "//text(value)//"; expected "//range)
    end subroutine check_count
 
    !> Refuse a word that is not among the choices; keep an earlier error.
    pure subroutine check_choice(error, place, key, value, choices)
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
-      !> File and what it describes, key
+      !> What stands before the key in a message, its colon included; key
       character(len=*), intent(in) :: place, key
       !> Value of the key, words allowed
       character(len=*), intent(in) :: value, choices(:)
@@ -93,6 +93,6 @@ contains
       do i = 1, size(choices)
          list = list//" '"//trim(choices(i))//"'"
       end do
-      call raise(error, place//": "//key//" = '"//trim(value)//"'; expected one of"//list)
+      call raise(error, place//key//" = '"//trim(value)//"'; expected one of"//list)
    end subroutine check_choice
 end module value_checks

@@ -55,7 +55,7 @@ contains
       call settings%put("xi", 0.6_wp)
       settings%name = "quasistatic_slip_cut_off"
       call settings%put("zeta", 0.1_wp)
-      call settings%open("input.nml", model, failure)
+      call settings%open("input.nml: ", model, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
       call expect(error, all(model%names == [character(len=7) :: "tau", "epsilon", "xi", "gamma", &
@@ -67,12 +67,12 @@ contains
       least = [0.0_wp, nearest(-1.0_wp, 1.0_wp), tiny(1.0_wp), nearest(huge(1.0_wp), -1.0_wp), &
                0.0_wp]
       settings = block_settings(least(1), least(2), least(3), least(4), least(5))
-      call settings%open("input.nml", model, failure)
+      call settings%open("input.nml: ", model, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
       call expect_close(error, model%numbers, least, 0.0_wp, "ends of the ranges")
       call expect(error, size(model%lag) == 0, "no delay")
-      call settings%open("input.nml", model, failure, keep_delays=.true.)
+      call settings%open("input.nml: ", model, failure, keep_delays=.true.)
       call expect(error, size(model%lag) == 1, "a delay of 0 that is kept")
    end subroutine test_models
 
@@ -137,7 +137,7 @@ contains
          type(failure_type), allocatable :: met
          type(model_type) :: model
 
-         call refused%open("input.nml", model, met, at_rest=at_rest)
+         call refused%open("input.nml: ", model, met, at_rest=at_rest)
          call expect_failure(error, met, "input.nml: ")
          call expect_failure(error, met, why)
       end subroutine refuse
@@ -155,7 +155,7 @@ contains
       block = build_block(1.0_wp, 0.5_wp, 0.5_wp, 0.8_wp)
       call expect(error, signal_name(block) == "v" .and. shown_name(block, 3) == "ln_v" &
                   .and. shown_name(block, 1) == "theta", "names of components")
-      call read_history("input.nml", block, [character(len=5) :: "v", "theta", "u"], [values], &
+      call read_history("input.nml: ", block, [character(len=5) :: "v", "theta", "u"], [values], &
                         history, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
@@ -164,7 +164,7 @@ contains
       call expect_close(error, [history%values(:, 1, :)], [values([2, 3, 1], :)], 0.0_wp, "values")
       call expect_close(error, history%past(block, 1), [0.1_wp, -0.2_wp, log(1.5_wp)], 0.0_wp, &
                         "states")
-      call read_history("input.nml", block, ["w    ", "u    ", "theta"], &
+      call read_history("input.nml: ", block, ["w    ", "u    ", "theta"], &
                         [-2.0_wp, 3.0_wp, 4.0_wp], history, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
@@ -184,7 +184,7 @@ contains
 
       ring = build_block(1.0_wp, 0.5_wp, 0.5_wp, 0.8_wp, law="chain_slip_cut_off", &
                          own=[0.0_wp, 1.0_wp], blocks=5, ends="ring")
-      call read_history("input.nml", ring, ["w    ", "theta", "u    "], &
+      call read_history("input.nml: ", ring, ["w    ", "theta", "u    "], &
                         [(real([3*i, 3*i + 1, 3*i + 2], wp), i=1, 10)], history, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
@@ -225,7 +225,7 @@ contains
          type(failure_type), allocatable :: met
          type(history_type) :: history
 
-         call read_history("input.nml", block, given, values, history, met)
+         call read_history("input.nml: ", block, given, values, history, met)
          call expect_failure(error, met, "input.nml: ")
          call expect_failure(error, met, why)
       end subroutine refuse

@@ -1,36 +1,40 @@
 """Roots of (5), and what motions do where one is unstable."""
 
 import pytest
-from made_up_results import NO, YES, Results, attractor_row, hopf_curve
+from made_up_results import NO, YES, assert_finding, attractor_row, cases, hopf_curve
 
-from scripts.studies.atlas.claims import roots_decide
 from scripts.tables.roots_of_5 import unstable_roots
 
 BELOW, ABOVE = {"epsilon": 0.2, "tau": 0.0}, {"epsilon": 0.4, "tau": 0.0}
 """Beside the Hopf point without delay, epsilon = gamma^2 xi/(xi + gamma^2) = 0.356 at xi = 0.8."""
 
 
-@pytest.mark.parametrize(
-    ("rows", "verdict"),
-    [
-        ([("fixed point", BELOW), ("torus", ABOVE)], YES),
-        ([("fixed point", BELOW), ("cycle", BELOW), ("chaos", ABOVE)], YES),
-        ([("fixed point", BELOW), ("undecided", ABOVE)], NO),
-        ([("fixed point", BELOW), ("cycle", ABOVE), ("fixed point", ABOVE)], NO),
-        ([("fixed point", BELOW), ("cycle", {**ABOVE, "largest_maximum": 1 + 1e-6})], NO),
-        ([("fixed point", BELOW)], NO),
-        # points of the atlas that were not computed have the class of their neighbours
-        ([("fixed point", BELOW), ("cycle", ABOVE), ("chaos", {**ABOVE, "computed": "no"})], YES),
-        ([("fixed point", BELOW), ("cycle", ABOVE), ("fixed point", {"computed": "no"})], YES),
-    ],
-)
-def test_roots_decide(rows, verdict):
-    """No rest with an unstable root; with none, rest or another attractor; both must be met."""
+REST = ("fixed point", BELOW)
+
+
+def motions(*rows: tuple[str, dict]) -> dict:
+    """Results of a scene, and of points of the atlas, with these classes and values."""
     made = [attractor_row(met, **given) for met, given in rows]
-    found = roots_decide(Results(atlas=made[1:], attractors=made[:1]), least_motion=1e-3)
-    assert found.verdict == verdict
-    counted = [met for met, given in rows if met != "undecided" and "computed" not in given]
-    assert found.evidence.startswith(f"{len(counted)} computed motions ")
+    return {"attractors": made[:1], "atlas": made[1:]}
+
+
+@cases(
+    (
+        # no rest with an unstable root; with none, rest or another attractor; both must be met
+        *("roots_decide", {"least_motion": 1e-3}),
+        (motions(REST, ("torus", ABOVE)), YES, "2 computed motions "),
+        (motions(REST, ("cycle", BELOW), ("chaos", ABOVE)), YES, "3 computed motions "),
+        (motions(REST, ("undecided", ABOVE)), NO, "1 computed motions "),
+        (motions(REST, ("cycle", ABOVE), ("fixed point", ABOVE)), NO),
+        (motions(REST, ("cycle", {**ABOVE, "largest_maximum": 1 + 1e-6})), NO),
+        (motions(REST), NO),
+        # points of the atlas that were not computed have the class of their neighbours
+        (motions(REST, ("cycle", ABOVE), ("chaos", {**ABOVE, "computed": "no"})), YES),
+        (motions(REST, ("cycle", ABOVE), ("fixed point", {"computed": "no"})), YES, "2 computed"),
+    ),
+)
+def test_verdicts(case):
+    assert_finding(*case)
 
 
 @pytest.mark.parametrize(

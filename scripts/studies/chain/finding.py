@@ -1,6 +1,6 @@
 """The finding about chaos in chains."""
 
-from scripts.claims.claims_results import short
+from scripts.claims.filters import short
 
 PLACE = 5
 READS = ("chain_motions",)

@@ -3,13 +3,12 @@
 import numpy as np
 import pytest
 from independent_chain import made_up_chain
+from made_up_results import NO, YES, assert_finding
 
-from scripts.claims.claims_results import NOT_REPRODUCED, REPRODUCED, Results
 from scripts.config.check_config import checked
 from scripts.namelists.program_groups import scene_groups
 from scripts.plans.studies import studies
 from scripts.studies.chain import exponents_figure
-from scripts.studies.chain.claims import blocks_differ
 from scripts.studies.chain.finding import describe
 from scripts.studies.chain.table import (
     exponents_of,
@@ -148,9 +147,9 @@ def test_chains_that_move_alike_do_not_show_that_more_blocks_differ():
     differ = made_up_chain(np.outer(np.sin(np.arange(30.0)), [1.0, -1.0, 0.5, 2.0]))
     assert moves_alike(alike)
     assert rests(still)
-    for other, verdict in ((still, NOT_REPRODUCED), (differ, REPRODUCED)):
-        results = Results(trajectories={"a": alike, "b": other})
-        assert blocks_differ(results, scenes=["a", "b"]).verdict == verdict
+    for other, verdict in ((still, NO), (differ, YES)):
+        made = {"trajectories": {"a": alike, "b": other}}
+        assert_finding("blocks_differ", {"scenes": ["a", "b"]}, made, verdict)
 
 
 @pytest.mark.parametrize("ends", ["free", "ring", "plate"])

@@ -10,9 +10,11 @@ from made_up_results import (
     PARTLY,
     PLACE,
     YES,
-    Results,
+    assert_finding,
     attractor_row,
+    cases,
     cycles_to_a_torus,
+    finding,
     followed_cycles,
     of_other_model,
     route_rows,
@@ -23,12 +25,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from scripts.claims import ledger  # noqa: F401  (it loads the tests of all studies)
 from scripts.drawing.special_points import STYLES
 from scripts.namelists.laws import PAPER
 from scripts.studies.cycles import figure as cycles
 from scripts.studies.cycles.branches import branch_of, cycles_there, smooth_curve
-from scripts.studies.cycles.claims import second_hopf, torus_of_scene
 from scripts.studies.cycles.plan import sweeps_on_lines
 from scripts.studies.cycles.table import COLUMNS, rows_of, sweeps_over
 
@@ -162,52 +162,42 @@ def test_cycles_at_a_value_of_the_parameter():
     assert [cycle.unstable for cycle in both] == [0, 0]
 
 
-def at_scene(met: str, tau: float, **given):
-    return Results(
-        **{
-            "attractors": [attractor_row(met)],
-            "linear_stability": [stability_row(**{**PLACE, "tau": tau})],
-            "cycles": {"mine": cycles_to_a_torus()},
-            "cycle_points": [torus_point()],
-            **given,
-        }
-    )
+def at_scene(met: str, tau: float, **given) -> dict:
+    """Results of a scene with this class and delay, of a line through it and a torus point."""
+    return {
+        "attractors": [attractor_row(met)],
+        "linear_stability": [stability_row(**{**PLACE, "tau": tau})],
+        "cycles": {"mine": cycles_to_a_torus()},
+        "cycle_points": [torus_point()],
+        **given,
+    }
 
 
-@pytest.mark.parametrize(
-    ("met", "tau", "verdict"),
-    [
-        ("torus", 0.35, YES),
-        ("torus", 0.24, PARTLY),
-        ("cycle", 0.15, NO),
-        ("chaos", 0.35, NO),
-    ],
+@cases(
+    (
+        # a run that ends on a torus, where no cycle is stable: the special point parts the orbits
+        *("torus_of_scene", {"scene": "mine"}),
+        *((at_scene("torus", 0.35), YES), (at_scene("torus", 0.24), PARTLY)),
+        *((at_scene("cycle", 0.15), NO), (at_scene("chaos", 0.35), NO)),
+    ),
+    (
+        *("second_hopf", {"scene": "mine"}),
+        (at_scene("torus", 0.35), YES),
+        (at_scene("torus", 0.15), NO, "scene: at $tau = 0.25$ along $tau$ ($epsilon = 0.5$"),
+        (at_scene("chaos", 0.35), NO),
+        (at_scene("torus", 0.35, cycle_points=[]), NO, "scene: none along $tau$"),
+        (at_scene("torus", 0.35, cycle_points=[torus_point(kind="fold")]), NO),
+        (at_scene("torus", 0.35, cycle_points=[torus_point(unstable_before=2.0)]), NO),
+        (at_scene("torus", 0.35, cycles={"mine": cycles_to_a_torus(xi=0.5)}), NO, "scene: none."),
+    ),
 )
-def test_torus_of_scene(met, tau, verdict):
-    """A run that ends on a torus, where no cycle is stable: the special point parts the orbits."""
-    assert torus_of_scene(at_scene(met, tau), scene="mine").verdict == verdict
+def test_verdicts(case):
+    assert_finding(*case)
 
 
-@pytest.mark.parametrize(
-    ("met", "tau", "given", "verdict"),
-    [
-        ("torus", 0.35, {}, YES),
-        ("torus", 0.15, {}, NO),
-        ("chaos", 0.35, {}, NO),
-        ("torus", 0.35, {"cycle_points": []}, NO),
-        ("torus", 0.35, {"cycle_points": [torus_point(kind="fold")]}, NO),
-        ("torus", 0.35, {"cycle_points": [torus_point(unstable_before=2.0)]}, NO),
-        ("torus", 0.35, {"cycles": {"mine": cycles_to_a_torus(xi=0.5)}}, NO),
-    ],
-)
-def test_second_hopf(met, tau, given, verdict):
-    """At the scene; elsewhere on a line through it is said, but is not there."""
-    found = second_hopf(at_scene(met, tau, **given), scene="mine")
-    assert found.verdict == verdict
-    elsewhere = "With all other parameters the same it occurs at $tau = 0.25$."
-    nowhere = "No torus bifurcation of a stable cycle is known on these lines."
-    instead = nowhere if given else elsewhere
-    assert found.instead == (instead if verdict == NO else "")
+def test_where_a_second_hopf_bifurcation_is_instead():
+    found = finding("second_hopf", at_scene("torus", 0.15), scene="mine")
+    assert found.instead == "With all other parameters the same it occurs at $tau = 0.25$."
 
 
 STABLE, ONE, TWO, MANY = (style["color"] for style in cycles.LINES)

@@ -4,12 +4,11 @@ import numpy as np
 import powerlaw
 import pytest
 import xarray as xr
-from made_up_results import NO, PARTLY, YES, Results
+from made_up_results import NO, PARTLY, YES, assert_finding, cases
 from scipy.ndimage import label
 
 from scripts.namelists.program_groups import scene_groups
 from scripts.studies.event_sizes import figure as event_sizes
-from scripts.studies.event_sizes.claims import decaying_aftershocks, power_law_of_sizes
 from scripts.studies.event_sizes.events_table import event_rows
 from scripts.studies.event_sizes.laws import (
     FEWEST,
@@ -206,53 +205,49 @@ ROW = {
     **{"aftershock_over_exponential": 8.0, "aftershock_exponent": 1.0},
 }
 CUT_OFF = {"truncated_power_law_ratio": -5.0, "truncated_power_law_chance": 1e-7}
-IN_PART = [CUT_OFF, {"size_goodness": 0.01}, {"lognormal_ratio": -5.0, "lognormal_chance": 1e-5}]
-SHORT_OR_LIKE_OTHERS = [
-    {"size_exponent": np.nan},
-    {"largest": 500.0, "size_cutoff": 50.0},
-    {**CUT_OFF, "size_cutoff": 50.0},
-    {**CUT_OFF, "size_cutoff_goodness": 0.01},
-    {**CUT_OFF, "cutoff_over_lognormal_ratio": -5.0, "cutoff_over_lognormal_chance": 1e-6},
-]
+LOGNORMAL = {"cutoff_over_lognormal_ratio": -5.0, "cutoff_over_lognormal_chance": 1e-6}
 
 
-@pytest.mark.parametrize(
-    ("change", "verdict"),
-    [
-        ({}, YES),
-        *((change, PARTLY) for change in IN_PART),
-        *((change, NO) for change in SHORT_OR_LIKE_OTHERS),
-    ],
+def of_chain(of_others: float = 5000.0, **change) -> dict:
+    """Results of a chain, and by another definition of an event with another cut-off."""
+    row = {**ROW, **change}
+    return {"event_sizes": [row, {**row, "threshold": 2.0, "size_cutoff": of_others}]}
+
+
+@cases(
+    (
+        # a pure power law over two decades; one with a cut-off in part; others not
+        *("power_law_of_sizes", {"scenes": ["mine"], "decades": 2.0}),
+        (of_chain(), YES),
+        (of_chain(20.0), YES, "With v > 2, slips joined, the cut-off is 20 (4e+03 to 6e+03) in mi"),
+        (of_chain(**CUT_OFF), PARTLY),
+        (of_chain(size_goodness=0.01), PARTLY),
+        (of_chain(lognormal_ratio=-5.0, lognormal_chance=1e-5), PARTLY),
+        # nor one with a cut-off that another definition of an event does not show
+        (of_chain(20.0, **CUT_OFF), NO),
+        (
+            of_chain(size_exponent=np.nan),
+            NO,
+            "They are too few above a lower cut-off to fit a law.",
+        ),
+        (of_chain(50.0, largest=500.0, size_cutoff=50.0), NO),
+        (of_chain(50.0, size_cutoff=50.0, **CUT_OFF), NO),
+        (of_chain(size_cutoff_goodness=0.01, **CUT_OFF), NO),
+        (of_chain(**CUT_OFF, **LOGNORMAL), NO),
+    ),
+    (
+        # a decay by a power; one that may be exponential; none; one whose power is no estimate
+        *("decaying_aftershocks", {"scenes": ["mine"]}),
+        (of_chain(), YES),
+        (of_chain(aftershock_over_exponential=1.0), NO),
+        (of_chain(aftershock_chance=0.5), NO),
+        (of_chain(aftershock_first=0.5), NO),
+        (of_chain(aftershock_chance=np.nan), NO, "Chain mine has too few events after large ones."),
+        (of_chain(aftershock_exponent=np.nan), NO, "not estimated (at an end of a range)."),
+    ),
 )
-def test_verdict_on_sizes(change, verdict):
-    """A pure power law over two decades; one with a cut-off in part; others not.
-
-    Nor one with a cut-off that another definition of an event does not show.
-    """
-    given = {"scenes": ["mine"], "decades": 2.0}
-    rows = [{**ROW, **change}, {**ROW, "threshold": 2.0}]
-    assert power_law_of_sizes(Results(event_sizes=rows), **given).verdict == verdict
-    rows[1]["size_cutoff"] = 20.0
-    found = power_law_of_sizes(Results(event_sizes=rows), **given)
-    assert found.verdict == (NO if verdict == PARTLY else verdict)
-    assert "With v > 2, slips joined, the cut-off is 20 (4e+03 to 6e+03) in mine" in found.evidence
-
-
-@pytest.mark.parametrize(
-    ("change", "verdict"),
-    [
-        ({}, YES),
-        ({"aftershock_over_exponential": 1.0}, NO),
-        ({"aftershock_chance": 0.5}, NO),
-        ({"aftershock_first": 0.5}, NO),
-        ({"aftershock_chance": np.nan}, NO),
-        ({"aftershock_exponent": np.nan}, NO),
-    ],
-)
-def test_verdict_on_aftershocks(change, verdict):
-    """A decay by a power; one that may be exponential; none; one whose power is no estimate."""
-    made = Results(event_sizes=[{**ROW, **change}])
-    assert decaying_aftershocks(made, scenes=["mine"]).verdict == verdict
+def test_verdicts(case):
+    assert_finding(*case)
 
 
 def test_figure_draws_the_distribution(programs, config):

@@ -2,16 +2,11 @@
 
 import numpy as np
 import pytest
-from made_up_results import NO, YES, Results, cycles_to_a_torus, slip_events
+from made_up_results import NO, YES, assert_finding, cases, cycles_to_a_torus, slip_events
 from scipy.integrate import solve_ivp
 
 from scripts.studies.events import figure as events
-from scripts.studies.events.claims import (
-    FEWEST,
-    aperiodic_events,
-    periodic_without_delay,
-    relaxation,
-)
+from scripts.studies.events.claims import FEWEST
 
 ENDS = {"t_end": 300.0, "t_transient": 100.0}
 FINE = 0.005
@@ -100,72 +95,58 @@ PERIOD_3 = np.tile([4.0, 8.0, 12.0], 300)
 TORUS = 8 + np.sin(2 * np.pi * 0.25 * np.arange(1000) + 1e-9 * np.arange(1000))
 
 
-def aperiodic(times, of_cycle=CYCLE):
-    """The finding on these recurrence times beside those of a cycle."""
-    made = {"mine": slip_events(recurrence_time=times)}
-    made["cycle"] = slip_events(recurrence_time=of_cycle)
-    return aperiodic_events(Results(slip_events=made), scene="mine", periodic="cycle")
+def of_scenes(cycles=(), **values: dict) -> dict:
+    """Results of scenes with these values of events, and of cycles along lines."""
+    made = {name: slip_events(**own).assign_attrs(scene=name) for name, own in values.items()}
+    return {"slip_events": made, "cycles": dict(enumerate(cycles))}
 
 
-@pytest.mark.parametrize(
-    ("times", "of_cycle", "verdict"),
-    [
-        (RANDOM, CYCLE, YES),
-        (RANDOM, PERIOD_3, YES),
-        (CYCLE, CYCLE, NO),
-        (PERIOD_3, CYCLE, NO),
-        (TORUS, CYCLE, NO),
-        (RANDOM, RANDOM, NO),
-        (RANDOM[: FEWEST - 1], CYCLE, NO),
-    ],
-)
-def test_aperiodic_events(times, of_cycle, verdict):
-    """Times that vary and repeat are periodic; a few times are no evidence."""
-    assert aperiodic(times, of_cycle).verdict == verdict
+def beside(times, of_cycle=CYCLE) -> dict:
+    """Results of a scene with these recurrence times beside a cycle."""
+    return of_scenes(mine={"recurrence_time": times}, cycle={"recurrence_time": of_cycle})
 
 
-@pytest.mark.parametrize(
-    ("times", "verdict"),
-    [(CYCLE, YES), (np.tile([8.0, 8.1], 100), NO), (RANDOM, NO), (CYCLE[: FEWEST - 1], NO)],
-)
-def test_events_without_delay(times, verdict):
-    """Equal in every scene; a doubled period is the beginning of a cascade."""
-    made = {"a": slip_events(recurrence_time=CYCLE), "b": slip_events(recurrence_time=times)}
-    found = periodic_without_delay(Results(slip_events=made), scenes=["a", "b"])
-    assert found.verdict == verdict
-    assert ("It is not found here" in found.evidence) == (verdict == YES)
-
-
-@pytest.mark.parametrize(
-    ("tau", "unstable", "verdict"), [(0.0, 0, YES), (0.0, 2, NO), (1.0, 2, YES)]
-)
-def test_cycles_without_delay(tau, unstable, verdict):
-    """One unstable orbit refutes; cycles with delay say nothing."""
+def cycles_at(tau: float, unstable: int) -> dict:
+    """Results of a scene with equal events, and of cycles of which the last may be unstable."""
     cycles = cycles_to_a_torus("epsilon", tau=tau)
-    cycles = cycles.assign(unstable=("orbit", [0, 0, 0, unstable]))
-    made = Results(slip_events={"a": slip_events()}, cycles={"line": cycles})
-    found = periodic_without_delay(made, scenes=["a"])
-    assert found.verdict == verdict
-    count = "4" if unstable == 0 else "3"
-    words = f"along $epsilon$ from 0.1 to 0.4: {count} of 4 orbits are stable"
-    assert (words in found.evidence) == (tau == 0)
+    return of_scenes([cycles.assign(unstable=("orbit", [0, 0, 0, unstable]))], mine={}, cycle={})
 
 
-@pytest.mark.parametrize(
-    ("given", "verdict"),
-    [
-        ({"peak_velocity": 1e3, "duration": 0.4}, YES),
-        ({"peak_velocity": 1e2, "duration": 0.4}, NO),
-        ({"peak_velocity": 1e3, "duration": 2.0}, NO),
-        ({"peak_velocity": np.array([1e3, 1e3, 2.0]), "duration": 0.4}, YES),
-        ({"peak_velocity": np.array([1e3, 2.0, 2.0]), "duration": 0.4}, NO),
-        ({"peak_velocity": np.array([])}, NO),
-    ],
+def large(*peaks: float, duration: float = 0.4) -> dict:
+    """Results of a scene with these peaks of v beside one whose block does not stick."""
+    values = {"peak_velocity": np.array(peaks)} | ({"duration": duration} if peaks else {})
+    return of_scenes(small={}, mine=values)
+
+
+@cases(
+    (
+        # times that vary and repeat are periodic; a few times are no evidence
+        *("aperiodic_events", {"scene": "mine", "periodic": "cycle"}),
+        (beside(RANDOM), YES),
+        (beside(RANDOM, PERIOD_3), YES, "after 3 events, with"),
+        (beside(CYCLE), NO, "after 1 event, with"),
+        *((beside(PERIOD_3), NO), (beside(TORUS), NO), (beside(RANDOM, RANDOM), NO)),
+        (beside(RANDOM[: FEWEST - 1]), NO, "Scene mine has 99 complete events."),
+    ),
+    (
+        # equal in every scene; a doubled period is the beginning of a cascade
+        *("periodic_without_delay", {"scenes": ["cycle", "mine"]}),
+        (beside(CYCLE), YES, "It is not found here"),
+        (beside(np.tile([8.0, 8.1], 100)), NO),
+        *((beside(RANDOM), NO), (beside(CYCLE[: FEWEST - 1]), NO)),
+        # one unstable orbit refutes; cycles with delay say nothing
+        (cycles_at(0.0, 0), YES, "along $epsilon$ from 0.1 to 0.4: 4 of 4 orbits are stable"),
+        (cycles_at(0.0, 2), NO, "along $epsilon$ from 0.1 to 0.4: 3 of 4 orbits are stable"),
+        (cycles_at(1.0, 2), YES),
+    ),
+    (
+        # the median event must be large and the stick long, in one scene at least
+        *("relaxation", {"scenes": ["small", "mine"], "ratio": 1e3, "stick": 0.9}),
+        (large(1e3), YES, "Scene small ($tau = 7$, $gamma = 0.8$) has 200 events."),
+        *((large(1e2), NO), (large(1e3, duration=2.0), NO)),
+        *((large(1e3, 1e3, 2.0), YES), (large(1e3, 2.0, 2.0), NO)),
+        (large(), NO, "Scene mine has no complete event."),
+    ),
 )
-def test_relaxation(given, verdict):
-    """The median event must be large and the stick long, in one scene at least."""
-    made = Results(slip_events={"small": slip_events(), "mine": slip_events(**given)})
-    found = relaxation(made, scenes=["small", "mine"], ratio=1e3, stick=0.9)
-    assert found.verdict == verdict
-    assert "Scene small ($tau = 7$, $gamma = 0.8$) has 200 events." in found.evidence
-    assert "nan" not in found.evidence
+def test_verdicts(case):
+    assert_finding(*case)

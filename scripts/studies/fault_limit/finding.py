@@ -2,9 +2,8 @@
 
 import math
 
-from scripts.claims.claims_results import short
-from scripts.studies.fault_limit.claims import STIFFEST
-from scripts.studies.fault_limit.table import leading_order
+from scripts.claims.filters import short
+from scripts.studies.fault_limit.table import STIFFEST, leading_order
 from scripts.tables.ranges_of_gamma import FAULTS, PAPER
 
 PLACE = 1

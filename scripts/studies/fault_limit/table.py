@@ -13,6 +13,8 @@ GAMMAS = sorted([PAPER, *(10 ** (i / 10) for i in range(-10, 121))])
 """The paper's, and ten in each decade from 0.1 up to the last of real faults."""
 ITERATIONS = 60
 """Of Newton's method; from gamma = 0.1 on ten are enough."""
+STIFFEST = 10.0
+"""A xi beyond that of any fault: steady sliding is unstable there if b is 11 a or more."""
 
 
 def leading_order(xi: float, gamma: float) -> float:
@@ -67,6 +69,14 @@ def row_of(xi: float, gamma: float) -> dict:
         "omega": omega,
         "tau": (math.atan(b) - math.atan(omega) + 2 * math.pi) / omega,
     }
+
+
+def widest_between(rows: list[dict], least: float, most: float) -> dict:
+    """The row of a range of gamma with the widest interval that delays destabilise."""
+    known = [row for row in rows if least <= row["gamma"] <= most]
+    if not known:
+        raise ValueError(f"no gamma from {least:g} to {most:g}")
+    return max(known, key=lambda row: row["depth"] / row["without_delay"])
 
 
 if __name__ == "__main__":

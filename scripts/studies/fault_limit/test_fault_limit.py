@@ -6,11 +6,10 @@ from decimal import Decimal, localcontext
 import numpy as np
 import pytest
 import xarray as xr
-from made_up_results import NO, YES, Results
+from made_up_results import NO, YES, assert_finding, cases, finding
 from scipy.integrate import solve_ivp
 
 from scripts.studies.fault_limit import table as fault_limit_table
-from scripts.studies.fault_limit.claims import hopf_by_delay_at_faults
 from scripts.studies.fault_limit.finding import describe
 from scripts.workflow.plan import read_plan
 
@@ -144,18 +143,39 @@ def test_no_delay_destabilises_at_large_gamma(smoke):
         assert bool((stable > 0).any()) is unstable
 
 
-@pytest.mark.parametrize(("depth", "verdict"), [(1e-17, NO), (1e-3, YES)])
-def test_hopf_by_delay_at_faults(depth, verdict):
-    """The widest interval decides, among the gamma of faults alone; to have none is an error."""
-    point = {"xi": 0.5, "without_delay": 0.5, "depth": depth}
-    rows = [point | {"gamma": 0.8, "depth": 0.1}, point | {"gamma": 1e4}]
-    rows.append(point | {"gamma": 1e6, "depth": 1e-25})
-    given = {"least": 1e4, "most": 1e12, "limit": 1e-6}
-    found = hopf_by_delay_at_faults(Results(fault_limit=rows), **given)
-    assert found.verdict == verdict
-    assert f"by at most {depth:.2g}, at $gamma = 1e+04$, where" in found.evidence
-    with pytest.raises(ValueError, match="no gamma from 1e"):
-        hopf_by_delay_at_faults(Results(fault_limit=rows[:1]), **given)
+AT_FAULTS = {"least": 1e4, "most": 1e12, "limit": 1e-6}
+
+
+def least_epsilon(**depths: float) -> dict:
+    """Results with these depths at gamma = 0.8, 1e4 and 1e6."""
+    gammas = {"paper": 0.8, "least": 1e4, "larger": 1e6}
+    point = {"xi": 0.5, "without_delay": 0.5}
+    rows = [{**point, "gamma": gammas[name], "depth": depth} for name, depth in depths.items()]
+    return {"fault_limit": rows}
+
+
+@cases(
+    (
+        # the widest interval decides, among the gamma of faults alone
+        *("hopf_by_delay_at_faults", AT_FAULTS),
+        (
+            *(least_epsilon(paper=0.1, least=1e-17, larger=1e-25), NO),
+            "by at most 1e-17, at $gamma = 1e+04$, where",
+        ),
+        (
+            least_epsilon(paper=0.1, least=1e-3, larger=1e-25),
+            YES,
+            "by at most 0.001, at $gamma = 1e",
+        ),
+    ),
+)
+def test_verdicts(case):
+    assert_finding(*case)
+
+
+def test_no_gamma_of_faults_is_an_error():
+    with pytest.raises(ValueError, match="no gamma from 10000 to 1e"):
+        finding("hopf_by_delay_at_faults", least_epsilon(paper=0.1), **AT_FAULTS)
 
 
 def test_finding_has_the_numbers_of_the_tables():

@@ -4,12 +4,14 @@ Residuals are over the largest term of (5), so that 1e-15 is rounding and 1 is n
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from scripts.files.inputs import Dataset
 
+FREQUENCIES = 2000
+"""Frequencies at which (9) is tried."""
 NUDGE = 1e-30
 """Step of a complex-step derivative: small enough to leave no error of its own."""
 
@@ -92,6 +94,32 @@ def tau_of_10(points: Points, branch: np.ndarray) -> np.ndarray:
     above = -(w**2) * (points.stiffness + 1)
     below = -(w**3) + w * square * (1 + points.xi) / points.xi
     return (np.arctan(above / below) + 2 * np.pi * branch) / w
+
+
+def residuals_beside_9(points: Points) -> np.ndarray:
+    """How far (5) is from holding with (9) at frequencies of a curve that have a xi within it."""
+    omega = np.linspace(points.omega.min(), points.omega.max(), FREQUENCIES)
+    tau = np.full_like(omega, points.tau[0])
+    xi = xi_of_9(omega=omega, tau=tau, gamma=points.gamma)
+    kept = (xi >= points.xi.min()) & (xi <= points.xi.max())
+    tried = replace(points, epsilon=0 * xi[kept], tau=tau[kept], xi=xi[kept], omega=omega[kept])
+    return residual_of_5(tried, epsilon_of_8(tried, 2), tried.tau)
+
+
+def residuals_on(curves: Dataset) -> dict:
+    """Largest residuals on curves: of (5) by (7) to (10) as printed and as corrected, and of (6).
+
+    And the numbers of points and branches.
+    """
+    points, branch = points_of(curves), curves.branch.values
+    tau = tau_of_10(points, branch) if curves.attrs["ordinate"] == "tau" else points.tau
+    return {
+        "printed": residual_of_5(points, epsilon_of_8(points, 1), tau).max(),
+        "corrected": float(curves.residual.max()),
+        "of_6": residual_of_6(points).max(),
+        "points": branch.size,
+        "branches": np.unique(branch).size,
+    }
 
 
 def friction_of_3(theta, v, _delayed, epsilon, _tau):

@@ -4,9 +4,8 @@ import re
 
 import numpy as np
 import pytest
-from made_up_results import NO, PARTLY, YES, changed, hopf_curve, on_plane
+from made_up_results import NO, PARTLY, YES, assert_finding, cases, changed, finding, hopf_curve
 
-from scripts.studies.formulas import claims as formula_claims
 from scripts.studies.formulas.printed_formulas import (
     epsilon_of_8,
     points_of,
@@ -14,8 +13,8 @@ from scripts.studies.formulas.printed_formulas import (
     xi_of_9,
 )
 
-LIMIT = 1e-10
-BELOW_ROUNDING = 1e-20
+PLANE, PLANES = {"plane": "plane"}, {"planes": ["plane"]}
+BELOW_ROUNDING = {**PLANE, "limit": 1e-20}
 CURVE = hopf_curve()
 ALIKE = changed(CURVE, epsilon=0.0, omega=0.8, tau=0.0)
 """Where the printed forms of (3) and (4) give (5): epsilon = 0, omega = gamma, tau = 0."""
@@ -26,10 +25,8 @@ HOPF = 0.64 * 0.5 / 1.14
 """The Hopf point without delay: omega^2 = epsilon = gamma^2 xi/(xi + gamma^2)."""
 
 
-def finding(test: str, curves, limit: float = LIMIT):
-    name = "planes" if test in ("equation_6", "hopf_curves") else "plane"
-    given = ["plane"] if name == "planes" else "plane"
-    return getattr(formula_claims, test)(on_plane(curves), **{name: given, "limit": limit})
+def on_plane(curves) -> dict:
+    return {"curves": {"plane": curves}}
 
 
 @pytest.mark.parametrize("gamma", [0.8, 3.0])
@@ -45,41 +42,6 @@ def test_corrected_formulas_hold_on_closed_form(gamma, k):
     )
 
 
-@pytest.mark.parametrize(
-    ("test", "curves", "limit", "verdict"),
-    [
-        *[(test, CURVE, LIMIT, PARTLY) for test in ("equation_3", "equation_4", "equation_8")],
-        *[(test, CURVE, BELOW_ROUNDING, NO) for test in ("equation_3", "equation_4", "equation_8")],
-        *[(test, ALIKE, LIMIT, YES) for test in ("equation_3", "equation_4")],
-        ("equation_6", CURVE, LIMIT, YES),
-        ("equation_6", changed(CURVE, epsilon=CURVE.epsilon.values + 0.1), LIMIT, NO),
-        # where gamma^1 is gamma^2 the printed (8) holds
-        ("equation_8", hopf_curve(gamma=1.0), LIMIT, YES),
-        ("equation_10", CURVE, LIMIT, PARTLY),
-        ("equation_10", FAST, LIMIT, YES),
-        # the largest of the residuals counts
-        ("equation_10", changed(FAST, epsilon=FAST.epsilon.values + (AT_12 == 7)), LIMIT, PARTLY),
-        ("equation_10", changed(CURVE, residual=(AT_12 == 3) * 0.1), LIMIT, NO),
-        ("hopf_curves", CURVE, LIMIT, PARTLY),
-        # tau as printed counts only where tau is drawn
-        ("hopf_curves", hopf_curve(gamma=1.0, ordinate="xi"), LIMIT, YES),
-        ("hopf_curves", hopf_curve(gamma=1.0), LIMIT, PARTLY),
-        ("hopf_curves", changed(CURVE, residual=1e-3), LIMIT, NO),
-        ("lag_of_the_plate", CURVE, LIMIT, NO),
-        # at tau = 0 (5) has no delay
-        (
-            "lag_of_the_plate",
-            changed(CURVE, epsilon=HOPF, omega=np.sqrt(HOPF), tau=0.0),
-            LIMIT,
-            YES,
-        ),
-    ],
-)
-def test_equations(test, curves, limit, verdict):
-    """Whether each holds as printed, as corrected, or not at all."""
-    assert finding(test, curves, limit).verdict == verdict
-
-
 def curve_at_delay(omega: np.ndarray):
     """A curve at a fixed delay of 12: xi by the closed form, from omega and tau."""
     tau = 12.0
@@ -91,16 +53,69 @@ def curve_at_delay(omega: np.ndarray):
     return changed(curves, omega=omega, tau=tau, xi=xi, epsilon=epsilon)
 
 
-def test_equation_9():
-    """Right on the curve; that it also gives points beside a longer curve is a remark."""
-    stretch = np.linspace(0.49, 0.53, 10)
-    curves = curve_at_delay(stretch)
-    found = finding("equation_9", curves)
-    assert found.verdict == YES
-    assert "at 0 of " in found.evidence
-    wrong = changed(curves, xi=curves.xi.values * 1.01)
-    assert finding("equation_9", wrong).verdict == NO
-    wide = finding("equation_9", curve_at_delay(np.append(stretch, 0.95)))
+BOTH = {"planes": ["plane", "other"]}
+BESIDE = changed(CURVE, epsilon=CURVE.epsilon.values + 0.1)
+LIKE_PRINT, WRONG = hopf_curve(gamma=1.0, ordinate="xi"), changed(CURVE, residual=1e-3)
+STRETCH = np.linspace(0.49, 0.53, 10)
+AT_DELAY = curve_at_delay(STRETCH)
+
+
+@cases(
+    ("equation_3", PLANE, (on_plane(CURVE), PARTLY), (on_plane(ALIKE), YES)),
+    ("equation_3", BELOW_ROUNDING, (on_plane(CURVE), NO)),
+    ("equation_4", PLANE, (on_plane(CURVE), PARTLY), (on_plane(ALIKE), YES)),
+    ("equation_4", BELOW_ROUNDING, (on_plane(CURVE), NO)),
+    (
+        *("equation_6", PLANES),
+        (on_plane(CURVE), YES),
+        (on_plane(BESIDE), NO),
+    ),
+    ("equation_6", BOTH, ({"curves": {"plane": CURVE, "other": BESIDE}}, NO)),
+    (
+        # where gamma^1 is gamma^2 the printed (8) holds
+        *("equation_8", PLANE),
+        *((on_plane(CURVE), PARTLY), (on_plane(hopf_curve(gamma=1.0)), YES)),
+    ),
+    ("equation_8", BELOW_ROUNDING, (on_plane(CURVE), NO)),
+    (
+        *("equation_9", PLANE),
+        (on_plane(AT_DELAY), YES, "at 0 of "),
+        (on_plane(changed(AT_DELAY, xi=AT_DELAY.xi.values * 1.01)), NO),
+    ),
+    (
+        *("equation_10", PLANE),
+        (on_plane(CURVE), PARTLY),
+        (on_plane(FAST), YES),
+        # the largest of the residuals counts
+        (on_plane(changed(FAST, epsilon=FAST.epsilon.values + (AT_12 == 7))), PARTLY),
+        (on_plane(changed(CURVE, residual=(AT_12 == 3) * 0.1)), NO),
+    ),
+    (
+        # tau as printed counts only where tau is drawn
+        *("hopf_curves", PLANES),
+        (on_plane(CURVE), PARTLY),
+        (on_plane(LIKE_PRINT), YES),
+        (on_plane(hopf_curve(gamma=1.0)), PARTLY),
+        (on_plane(WRONG), NO),
+    ),
+    # the worst plane counts
+    ("hopf_curves", BOTH, ({"curves": {"plane": LIKE_PRINT, "other": CURVE}}, PARTLY)),
+    ("hopf_curves", BOTH, ({"curves": {"plane": WRONG, "other": LIKE_PRINT}}, NO)),
+    (
+        # at tau = 0 (5) has no delay
+        *("lag_of_the_plate", PLANE),
+        (on_plane(CURVE), NO),
+        (on_plane(changed(CURVE, epsilon=HOPF, omega=np.sqrt(HOPF), tau=0.0)), YES),
+    ),
+)
+def test_verdicts(case):
+    """Whether each equation holds as printed, as corrected, or not at all."""
+    assert_finding(*case)
+
+
+def test_equation_9_gives_points_beside_a_longer_curve():
+    """As a remark: it is right on the curve."""
+    wide = finding("equation_9", on_plane(curve_at_delay(np.append(STRETCH, 0.95))), **PLANE)
     assert wide.verdict == YES
     beside = re.search(r"at (\d+) of (\d+) frequencies", wide.evidence)
     assert 0 < int(beside[1]) < int(beside[2])
@@ -109,4 +124,4 @@ def test_equation_9():
 def test_plane_without_curve_is_an_error():
     """Nothing is concluded from nothing."""
     with pytest.raises(ValueError, match="no Hopf curve in the window"):
-        finding("equation_8", CURVE.isel(point=slice(0)))
+        finding("equation_8", on_plane(CURVE.isel(point=slice(0))), **PLANE)

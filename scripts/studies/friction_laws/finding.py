@@ -1,9 +1,8 @@
 """The finding about other laws of friction."""
 
-from scripts.claims.claims_results import short
+from scripts.claims.filters import short
 from scripts.files.tsv import rows_by
-from scripts.studies.friction_laws.claims import CHAOTIC, PERIODIC, chaotic_points
-from scripts.studies.friction_laws.table import shares_of
+from scripts.studies.friction_laws.table import CHAOTIC, PERIODIC, chaotic_points, shares_of
 from scripts.tables.ranges_of_gamma import PAPER
 
 PLACE = 4

@@ -9,6 +9,9 @@ from scripts.files.tsv import rows_by, write_table
 from scripts.tables.attractor_tables import rows_of
 from scripts.tables.motion_rows import kind_of
 
+CHAOTIC, PERIODIC = "delayed_logarithm", "delayed_velocity"
+"""Places of the delay, as the names of laws end: those with chaos, and those without."""
+
 
 def law_rows(path: Path, run, scenes: list[str]) -> list[dict]:
     """Rows of a file: those of a plane, or that of a scene."""
@@ -35,6 +38,15 @@ def shares_of(table: list[dict]) -> list[dict]:
         }
         for (gamma, xi, law), here in planes_of(table).items()
     ]
+
+
+def chaotic_points(shares: list[dict], gamma: float) -> dict[str, list[int]]:
+    """Numbers of chaotic points of planes at this gamma, by the place of the delay."""
+    here = [share for share in shares if share["gamma"] == gamma]
+    return {
+        place: [share["kinds"]["chaos"] for share in here if share["law"].endswith(place)]
+        for place in (CHAOTIC, PERIODIC)
+    }
 
 
 def scenes_of(table: list[dict]) -> dict[str, list[dict]]:

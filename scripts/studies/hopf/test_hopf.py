@@ -4,22 +4,11 @@ The suite hopf_curves shows that curves are complete and smooth, and which way r
 suite hopf_unfoldings shows where curves of folds and of tori start.
 """
 
-import math
-
 import numpy as np
 import pytest
 import xarray as xr
 from characteristic_equation import closed_form, residual
-from made_up_results import (
-    NO,
-    PARTLY,
-    YES,
-    Results,
-    changed,
-    hopf_curve,
-    on_plane,
-    with_changes,
-)
+from made_up_results import NO, PARTLY, YES, assert_finding, cases, changed, changing, hopf_curve
 from matplotlib import pyplot as plt
 
 from scripts.drawing.wording import short
@@ -28,13 +17,6 @@ from scripts.files.tsv import read_table, rows_by
 from scripts.namelists.laws import PAPER
 from scripts.plans import studies
 from scripts.studies.hopf import figure as drawing
-from scripts.studies.hopf.claims import (
-    hopf_by_delay,
-    hopf_depends_on,
-    hopf_only_by_delay,
-    kinds_of_hopf,
-    pairs_gained_and_lost,
-)
 from scripts.studies.hopf.table import rows_of
 from scripts.tables.roots_of_5 import unstable_roots
 
@@ -154,76 +136,77 @@ FIRST = np.arange(12) < 3
 """Three of the points of a curve."""
 
 
-@pytest.mark.parametrize(
-    ("cells", "verdict", "words"),
-    [
-        # stable without delay and unstable at some delay, in one scene at least
-        (["2 (0 -> 2)", "1 (2 -> 0); 5 (0 -> 2)"], YES, "at $tau = 2$."),
-        (["1 (2 -> 0); 5 (0 -> 2)"], NO, "unstable without delay in a ($epsilon"),
-        ([math.nan], NO, "No pair crosses the axis in a ($epsilon"),
-    ],
-)
-def test_hopf_by_delay(cells, verdict, words):
-    found = hopf_by_delay(with_changes(*cells), scenes=list("abc"[: len(cells)]))
-    assert found.verdict == verdict
-    assert words.removesuffix(".") in found.evidence
+MIXED = np.where(FIRST, 0.1, -0.1)
+LOST, REGAINED = "2 (0 -> 2)", "1 (2 -> 0); 5 (0 -> 2)"
+WITHOUT_DELAY = {"of": "plane", "kind": "hopf_without_delay", "xi": 0.5, "gamma": 0.8}
+WITHOUT_DELAY |= {"l1_1": -0.05, "epsilon": 0.64 * 0.5 / 1.14}
+SUPERCRITICAL = {"planes": ["plane"], "expected": ["supercritical"]}
 
 
-def test_hopf_only_by_delay():
-    """A point without delay refutes "only by", in its own plane; "merely by" needs a scene."""
-    point = {"of": "plane", "kind": "hopf_without_delay", "xi": 0.5, "gamma": 0.8, "l1_1": -0.05}
-    point["epsilon"] = 0.64 * 0.5 / 1.14
-    made = with_changes("2 (0 -> 2)", "1 (2 -> 0); 5 (0 -> 2)")
-    made.hopf_points = [point]
-    assert hopf_only_by_delay(made, plane="plane", scenes=["b"]).verdict == NO
-    found = hopf_only_by_delay(made, plane="plane", scenes=["a", "b"])
-    assert found.verdict == PARTLY
-    assert "Read as 'merely by a delay' it holds." in found.evidence
-    made.hopf_points = [point | {"of": "other"}, point | {"kind": "double_hopf"}]
-    assert hopf_only_by_delay(made, plane="plane", scenes=["b"]).verdict == YES
+def on_curve(**values) -> dict:
+    return {"curves": {"plane": changed(hopf_curve(), **values)}}
 
 
-@pytest.mark.parametrize(
-    ("l1", "roots", "expected", "verdict"),
-    [
-        (-0.1, 0, ["supercritical"], YES),
-        (0.1, 0, ["supercritical"], NO),
-        (np.where(FIRST, 0.1, -0.1), 0, ["supercritical"], PARTLY),
-        (np.where(FIRST, 0.1, -0.1), 0, ["supercritical", "subcritical"], YES),
-        # a bifurcation beside other unstable roots is counted, not judged
-        (np.where(FIRST, 0.1, -0.1), np.where(FIRST, 2, 0), ["supercritical"], YES),
-        (-0.1, 2, ["supercritical"], NO),
-    ],
-)
-def test_kinds_of_hopf(l1, roots, expected, verdict):
-    """All of the kind, none, or some of another, where stability changes."""
-    made = on_plane(changed(hopf_curve(), l1=l1, unstable_roots=roots))
-    assert kinds_of_hopf(made, planes=["plane"], expected=expected).verdict == verdict
+def with_points(**values) -> dict:
+    """Results of two scenes, and of a Hopf point without delay but for these values."""
+    return {**changing(LOST, REGAINED), "hopf_points": [WITHOUT_DELAY | values]}
 
 
-@pytest.mark.parametrize(
-    ("crossing", "verdict"), [(np.where(FIRST, 1, -1), YES), (1, NO), (-1, NO)]
-)
-def test_pairs_gained_and_lost(crossing, verdict):
-    made = on_plane(changed(hopf_curve(), crossing=crossing))
-    assert pairs_gained_and_lost(made, plane="plane").verdict == verdict
-
-
-@pytest.mark.parametrize(
-    ("with_tau", "with_xi", "roots", "verdict"),
-    [(0.1, 0.1, 0, PARTLY), (0.0, 0.1, 0, YES), (0.1, 0.0, 0, NO), (0.1, 0.1, 2, NO)],
-)
-def test_hopf_depends_on(with_tau, with_xi, roots, verdict):
-    """On xi it must, on the delay it must not; where no stability changes it depends on nothing."""
+def with_spreads(with_tau: float, with_xi: float, roots: int = 0) -> dict:
+    """Results of two planes in which epsilon varies by so much."""
     curves = {
         name: changed(
             hopf_curve(), epsilon=np.linspace(0.3, 0.3 + spread, 12), unstable_roots=roots
         )
         for name, spread in (("a", with_tau), ("b", with_xi))
     }
-    found = hopf_depends_on(Results(curves=curves), at_fixed_xi="a", at_fixed_tau="b", limit=1e-3)
-    assert found.verdict == verdict
-    assert found.instead.endswith("also depends on $tau$.") == (verdict == PARTLY)
+    return {"curves": curves}
+
+
+@cases(
+    (
+        # stable without delay and unstable at some delay, in one scene at least
+        *("hopf_by_delay", {"scenes": ["a", "b"]}),
+        (changing(LOST, REGAINED), YES, "at $tau = 2$."),
+        (changing(np.nan, REGAINED), NO, "No pair crosses the axis in a ($epsilon"),
+        (changing(REGAINED, REGAINED), NO, "unstable without delay in a ($epsilon"),
+    ),
+    (
+        # a point without delay refutes "only by", in its own plane; "merely by" needs a scene
+        *("hopf_only_by_delay", {"plane": "plane", "scenes": ["a", "b"]}),
+        (with_points(), PARTLY, "Read as 'merely by a delay' it holds."),
+        (with_points(of="other"), YES),
+        (with_points(kind="double_hopf"), YES),
+    ),
+    ("hopf_only_by_delay", {"plane": "plane", "scenes": ["b"]}, (with_points(), NO)),
+    (
+        # all of the kind, none, or some of another, where stability changes
+        *("kinds_of_hopf", SUPERCRITICAL),
+        (on_curve(l1=-0.1), YES),
+        (on_curve(l1=0.1), NO),
+        (on_curve(l1=MIXED), PARTLY),
+        # a bifurcation beside other unstable roots is counted, not judged
+        (on_curve(l1=MIXED, unstable_roots=np.where(FIRST, 2, 0)), YES),
+        (on_curve(l1=-0.1, unstable_roots=2), NO),
+    ),
+    (
+        *("kinds_of_hopf", {"planes": ["plane"], "expected": ["subcritical", "supercritical"]}),
+        (on_curve(l1=MIXED), YES),
+    ),
+    (
+        *("pairs_gained_and_lost", {"plane": "plane"}),
+        (on_curve(crossing=np.where(FIRST, 1, -1)), YES),
+        *((on_curve(crossing=1), NO), (on_curve(crossing=-1), NO)),
+    ),
+    (
+        # on xi it must, on the delay it must not; without changes of stability on nothing
+        *("hopf_depends_on", {"at_fixed_xi": "a", "at_fixed_tau": "b", "limit": 1e-3}),
+        *((with_spreads(0.1, 0.1), PARTLY), (with_spreads(0.0, 0.1), YES)),
+        *((with_spreads(0.1, 0.0), NO), (with_spreads(0.1, 0.1, 2), NO)),
+    ),
+)
+def test_verdicts(case):
+    assert_finding(*case)
 
 
 def test_plane_without_a_curve_has_a_figure_and_a_caption(smoke):

@@ -5,12 +5,11 @@ import math
 import numpy as np
 import pytest
 from characteristic_equation import residual
-from made_up_results import NO, YES, with_changes
+from made_up_results import NO, YES, assert_finding, cases, changing
 
-from scripts.claims.claims_results import changes
+from scripts.claims.filters import with_changes
 from scripts.files.tsv import read_table
 from scripts.namelists.parameters import PARAMETERS
-from scripts.studies.linear_stability import claims
 from scripts.studies.linear_stability.table import amplitude_death, row_of
 from scripts.tables.roots_of_5 import unstable_roots
 
@@ -90,23 +89,26 @@ def test_bound_too_far_is_refused(programs, good_inputs):
     assert programs.left_behind() == []
 
 
-def test_changes_of_a_cell():
-    assert changes("2.5 (0 -> 2); 1e-3 (12 -> 10)") == [(2.5, 0, 2), (1e-3, 12, 10)]
-    assert changes(math.nan) == []
+def test_changes_of_a_row():
+    """Fewer unstable roots are not enough for stability: none must be left."""
+    row = with_changes({"tau_of_changes": "2.5 (0 -> 2); 3 (2 -> 4); 4 (4 -> 2); 5e+01 (2 -> 0)"})
+    assert row["changes"] == [(2.5, 0, 2), (3, 2, 4), (4, 4, 2), (50, 2, 0)]
+    assert (row["lost"], row["regained"]) == ([2.5], [50])
+    assert with_changes({"tau_of_changes": math.nan})["changes"] == []
 
 
-@pytest.mark.parametrize(
-    ("test", "cells", "verdict", "words"),
-    [
+@cases(
+    (
         # every scene must have such a delay
-        ("delay_destabilises", ["2 (0 -> 2); 5 (2 -> 0)", "3 (0 -> 2)"], YES, "; b at $tau = 3$."),
-        ("delay_destabilises", ["2 (0 -> 2)", "2 (2 -> 4); 5 (4 -> 2)"], NO, "; b at no $tau$."),
-        # fewer unstable roots are not enough: none must be left
-        ("amplitude_death", ["2 (0 -> 2); 5 (2 -> 0)"], YES, "stability: a at $tau = 5$."),
-        ("amplitude_death", ["2 (4 -> 2); 5 (2 -> 4)"], NO, "stability: none."),
-    ],
+        *("delay_destabilises", {"scenes": ["a", "b"]}),
+        (changing("2 (0 -> 2); 5 (2 -> 0)", "3 (0 -> 2)"), YES, "; b at $tau = 3$."),
+        (changing("2 (0 -> 2)", "2 (2 -> 4); 5 (4 -> 2)"), NO, "; b at no $tau$."),
+    ),
+    (
+        *("amplitude_death", {"scenes": ["a"]}),
+        (changing("2 (0 -> 2); 5 (2 -> 0)"), YES, "stability: a at $tau = 5$."),
+        (changing("2 (4 -> 2); 5 (2 -> 4)"), NO, "stability: none."),
+    ),
 )
-def test_changes_with_the_delay(test, cells, verdict, words):
-    found = getattr(claims, test)(with_changes(*cells), scenes=list("abc"[: len(cells)]))
-    assert found.verdict == verdict
-    assert words.removesuffix(".") in found.evidence
+def test_verdicts(case):
+    assert_finding(*case)

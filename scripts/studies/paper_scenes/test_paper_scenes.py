@@ -4,42 +4,37 @@ import numpy as np
 import pytest
 import xarray as xr
 from figure_contents import points_in
-from made_up_results import NO, PARTLY, YES, Results, attractor_row, spectrum
+from made_up_results import NO, PARTLY, YES, assert_finding, attractor_row, cases, spectrum
 from matplotlib.axes import Axes
 
 from scripts.studies.paper_scenes import portraits, spectra
-from scripts.studies.paper_scenes.claims import single_peak, spectrum_class
 
 pytestmark = pytest.mark.usefixtures("styled")
 
 
-@pytest.mark.parametrize(
-    ("made", "verdict"),
-    [
-        (spectrum(x1=50.0), YES),
-        (spectrum(x1=50.0, x2=0.4), YES),
-        (spectrum(x1=50.0, x2=3.4), PARTLY),
-        (spectrum("quasiperiodic", x1=50.0), NO),
-        (spectrum("undecided", x1=50.0), NO),
-        (spectrum("none"), NO),
-    ],
+def of_kind(kind: str = "periodic", **heights: float) -> dict:
+    return {"spectra": {"mine": spectrum(kind, **heights)}}
+
+
+@cases(
+    (
+        # one fundamental frequency with harmonics of 0.8 or 6.8 % or none, or another spectrum
+        *("single_peak", {"scene": "mine"}),
+        (of_kind(x1=50.0), YES, "peak is at the frequency 0.1."),
+        (of_kind(x1=50.0, x2=0.4), YES, "second highest is at 0.2 ($= 2 f1$). It has 0.8 % of"),
+        (of_kind(x1=50.0, x2=3.4), PARTLY),
+        *((of_kind(kind, x1=50.0), NO) for kind in ("quasiperiodic", "undecided")),
+        (of_kind("none"), NO),
+    ),
+    (
+        *("spectrum_class", {"scene": "mine", "expected": "quasiperiodic"}),
+        (of_kind("quasiperiodic", x1=1.0), YES, "scene mine: quasiperiodic."),
+        (of_kind("continuum", x1=1.0), NO, "scene mine: continuum. 69 % of the power"),
+        *((of_kind(kind, x1=1.0), NO) for kind in ("periodic", "undecided", "none")),
+    ),
 )
-def test_single_peak(made, verdict):
-    """One fundamental frequency with harmonics of 0.8 or 6.8 % or none, or another spectrum."""
-    assert single_peak(Results(spectra={"mine": made}), scene="mine").verdict == verdict
-
-
-@pytest.mark.parametrize("kind", ["periodic", "quasiperiodic", "continuum", "undecided", "none"])
-def test_spectrum_class(kind):
-    made = Results(spectra={"mine": spectrum(kind, x1=1.0)})
-    found = spectrum_class(made, scene="mine", expected="quasiperiodic")
-    assert found.verdict == (YES if kind == "quasiperiodic" else NO)
-    assert f"scene mine: {kind}." in found.evidence
-
-
-def test_scene_without_spectrum_is_an_error():
-    with pytest.raises(ValueError, match=r"results/spectra: no file of scene 'other'.*: mine"):
-        single_peak(Results(spectra={"mine": spectrum()}), scene="other")
+def test_verdicts(case):
+    assert_finding(*case)
 
 
 BASE, HARMONIC, OTHER = (0.1, 9.0, 0, 1, 0), (0.2, 5.0, 1, 2, 0), (0.27, 1.0, 4, 0, 0)

@@ -72,7 +72,7 @@ STUDY = Study(
             lambda config, route: {"runs": runs_of_route(config, route)},
             params={"of": lambda _config, **_: "route"},
             script="tables/attractor_tables.py",
-            data="routes",
+            data="route_points",
         ),
     ),
     figures=(Figure("routes", category="Atlas", place=330, **FIGURE),),

@@ -11,8 +11,9 @@ from made_up_results import (
     NO,
     PARTLY,
     YES,
-    Results,
+    assert_finding,
     attractor_row,
+    cases,
     changed,
     hopf_curve,
     of_other_model,
@@ -28,196 +29,146 @@ from scripts.namelists.parameters import HISTORY
 from scripts.page.captions import as_html
 from scripts.plans import studies
 from scripts.studies.routes import figure, plan
-from scripts.studies.routes.claims import (
-    chaos_by_a_and_b,
-    delays_in_turn,
-    independent_of_spring,
-    leads_to,
-    quasiperiodic_route,
-    route,
-    torus_route,
-    two_supercritical_hopfs,
-)
 from scripts.tables.attractor_tables import route_rows as route_rows_of
 from scripts.tables.motion_rows import UNDECIDED
 
-CYCLE_TORUS = {"routes": ["mine"], "expected": ["cycle", "torus"]}
 BREAKDOWN, STRICT = ["cycle", "torus", "chaos"], ["torus", "3-torus", "chaos"]
+TWO_LOOPS = ["cycle", "cycle", "torus", "chaos", "chaos"]
+CYCLE_TORUS, BEFORE = {"expected": ["cycle", "torus"]}, ["cycle", "fixed point"]
 
 
-def twice(*classes: str, **given) -> list[dict]:
-    """Rows of a route with each class at two neighbouring points."""
-    return route_rows(*(name for name in classes for _ in range(2)), **given)
+def on_routes(*lines: list[str], points: tuple = (), along: tuple = ("tau", "tau")) -> dict:
+    """Results of one or two routes with each class at two neighbouring points."""
+    rows = [
+        row
+        for classes, name, parameter in zip(lines, ("mine", "other"), along, strict=False)
+        for row in route_rows(*(c for c in classes for _ in "ab"), name=name, along=parameter)
+    ]
+    return {"route_points": rows, "cycle_points": list(points)}
 
 
-@pytest.mark.parametrize(
-    ("classes", "verdict"),
-    [
-        (["fixed point", "cycle", "torus", "chaos"], YES),
-        (["cycle", UNDECIDED, "torus", UNDECIDED, "chaos", "cycle"], YES),
-        (["cycle", "chaos", "cycle", "torus", "chaos"], YES),
-        (["cycle", "torus", "cycle/7", "chaos"], YES),
-        (["cycle", "torus", "cycle/1", "chaos"], NO),
-        (["cycle/1", "cycle/2", "cycle/4", "chaos"], NO),
-        ([UNDECIDED], NO),
-    ],
-)
-def test_route(classes, verdict):
-    """Classes follow each other; a cycle of several points behind a torus is locked there."""
-    made = Results(routes=twice(*classes))
-    assert route(made, routes=["mine"], expected=BREAKDOWN).verdict == verdict
+def at_points(*runs: str) -> dict:
+    """Results of a route whose runs have one point of each class."""
+    return {"route_points": [row for run in runs for row in route_rows(*TWO_LOOPS, run=run)]}
 
 
-def test_one_point_decides_nothing():
-    """Unless another run has the same class there."""
-    classes = ["cycle", "cycle", "torus", "chaos", "chaos"]
-    rows = route_rows(*classes)
-    assert route(Results(routes=rows), **CYCLE_TORUS).verdict == NO
-    found = route(Results(routes=rows + route_rows(*classes, run="up")), **CYCLE_TORUS)
-    assert found.verdict == YES
-    assert "cycle 0.1 to 0.2, torus 0.3; in 2 of 2 runs." in found.evidence
+def breaking(*lines: list[str]) -> dict:
+    """Results of two routes with a torus bifurcation, and of a fine one on which runs lock."""
+    made = on_routes(*lines, points=(torus_point(),))
+    made["route_points"] += route_rows("torus", "cycle/42", "chaos", name="fine")
+    made["route_points"] += route_rows("torus", "cycle/42", "cycle/38", name="fine", run="up")
+    return made
 
 
-def test_one_route_of_several_is_enough():
-    rows = twice("cycle", "torus") + twice("cycle", "chaos", name="other")
-    found = route(Results(routes=rows), **(CYCLE_TORUS | {"routes": ["other", "mine"]}))
-    assert found.verdict == YES
-    assert "in none of 1 runs. Along $tau$" in found.evidence
-
-
-@pytest.mark.parametrize(
-    ("first", "second", "verdict"),
-    [
-        (("cycle", "chaos"), ("torus", "fixed point", "chaos"), YES),
-        (("cycle", "chaos"), ("chaos", "cycle"), PARTLY),
-        (("chaos",), ("chaos", "cycle"), NO),
-    ],
-)
-def test_leads_to(first, second, verdict):
-    rows = twice(*first) + twice(*second, name="other", along="xi")
-    before = ["cycle", "fixed point"]
-    found = leads_to(Results(routes=rows), routes=["mine", "other"], before=before, after="chaos")
-    assert found.verdict == verdict
-    assert ("cycle 0.1 to 0.2, chaos 0.3 to 0.4" in found.evidence) == (first == ("cycle", "chaos"))
-
-
-@pytest.mark.parametrize(
-    ("met", "delays", "along", "points", "verdict"),
-    [
-        (["cycle", "torus"], [0.1, 7.0], ["chaos"], [], YES),
-        (["cycle", "torus"], [7.0, 7.0], ["cycle", "torus"], [torus_point()], PARTLY),
-        (["cycle", "cycle"], [0.1, 7.0], ["cycle", "torus"], [torus_point()], PARTLY),
-        (["cycle", "cycle"], [0.1, 7.0], ["cycle", "torus"], [], NO),
-        (["cycle", "cycle"], [0.1, 7.0], ["cycle"], [torus_point()], NO),
-    ],
-)
-def test_delays_in_turn(met, delays, along, points, verdict):
-    """By the scenes and their delays, or by a route with a torus bifurcation."""
-    made = Results(
-        attractors=[attractor_row(name, scene) for name, scene in zip(met, "ab", strict=True)],
-        linear_stability=[
-            stability_row(scene, tau=tau) for scene, tau in zip("ab", delays, strict=True)
-        ],
-        routes=twice(*along),
-        cycle_points=points,
-    )
-    claim = {"scenes": ["a", "b"], "expected": ["cycle", "torus"], "route": "mine"}
-    found = delays_in_turn(made, **claim)
-    assert found.verdict == verdict
-    assert ("These delays grow" in found.evidence) == (delays[0] < delays[1])
-
-
-@pytest.mark.parametrize(
-    ("point", "verdict"),
-    [
-        (torus_point(), YES),
-        (torus_point(0.15), NO),
-        (torus_point(xi=0.5), NO),
-        (torus_point(kind="period_doubling"), NO),
-        (torus_point(unstable_before=1.0), NO),
-    ],
-)
-def test_torus_route(point, verdict):
-    """Cycle, torus and chaos in turn, and a torus bifurcation between cycle and torus."""
-    made = Results(routes=twice(*BREAKDOWN), cycle_points=[point])
-    found = torus_route(made, routes=["mine"], expected=BREAKDOWN)
-    assert found.verdict == verdict
-    known = f"multipliers of a stable cycle leaves the unit circle at $tau = {point['tau']}$."
-    there = point["kind"] == "torus" and point["xi"] == 0.8 and not point["unstable_before"]
-    assert (known in found.evidence) == there
-
-
-@pytest.mark.parametrize(
-    ("first", "second", "verdict"),
-    [
-        (BREAKDOWN, STRICT, YES),
-        (BREAKDOWN, ["torus", "chaos"], PARTLY),
-        (["cycle", *STRICT], ["chaos"], PARTLY),
-        (["cycle", "chaos"], ["torus", "3-torus"], NO),
-    ],
-)
-def test_quasiperiodic_route(first, second, verdict):
-    """Torus breakdown and a third frequency, one of them, or neither."""
-    rows = twice(*first) + twice(*second, name="other")
-    rows += route_rows("torus", "cycle/42", "chaos", name="fine")
-    rows += route_rows("torus", "cycle/42", "cycle/38", name="fine", run="up")
-    made = Results(routes=rows, cycle_points=[torus_point()])
-    found = quasiperiodic_route(made, routes=["mine", "other"], fine="fine")
-    assert found.verdict == verdict
-    locked = "cycle with 42 loops in 2 runs at 0.2; chaos in 1 runs, cycle with 38 loops in 1 runs"
-    assert locked in found.evidence
-
-
-@pytest.mark.parametrize(
-    ("l1", "points", "verdict"),
-    [
-        (-0.1, [torus_point()], YES),
-        (0.1, [torus_point()], NO),
-        (-0.1, [torus_point(criticality="subcritical")], NO),
-        (-0.1, [], NO),
-        (-0.1, [torus_point(), torus_point(epsilon=0.4)], YES),
-    ],
-)
-def test_two_supercritical_hopfs(l1, points, verdict):
-    """That of steady sliding and all torus bifurcations of stable cycles on the line."""
+def with_hopf(l1: float, *points: dict) -> dict:
+    """Results of routes in tau and epsilon with this coefficient, and torus bifurcations."""
     curves = {"a": hopf_curve(), "b": changed(hopf_curve(xi=0.8), l1=l1)}
-    made = Results(curves=curves, routes=twice("cycle", "torus"), cycle_points=points)
-    found = two_supercritical_hopfs(made, routes=["mine"], planes=["a", "b"])
-    assert found.verdict == verdict
+    lines = on_routes(["cycle", "torus"], ["cycle"], points=points, along=("tau", "epsilon"))
+    return {"curves": curves, **lines}
 
 
-@pytest.mark.parametrize(
-    ("in_epsilon", "in_xi", "verdict"),
-    [
-        (["cycle", "chaos"], ["chaos", "cycle"], YES),
-        (["cycle", "chaos"], ["cycle", "chaos"], PARTLY),
-        (["chaos", "cycle"], ["chaos", "cycle"], PARTLY),
-        (["chaos"], ["cycle", "chaos"], NO),
-    ],
-)
-def test_chaos_by_a_and_b(in_epsilon, in_xi, verdict):
-    """B alone raises epsilon, A and B in proportion lower xi."""
-    rows = twice(*in_epsilon, name="one", along="epsilon") + twice(*in_xi, name="two", along="xi")
-    assert chaos_by_a_and_b(Results(routes=rows), routes=["one", "two"]).verdict == verdict
+def with_scenes(met: list[str], delays: list[float], line: list[str], *points: dict) -> dict:
+    """Results of two scenes with these classes and delays, and of a route."""
+    return {
+        "attractors": [attractor_row(kind, scene) for kind, scene in zip(met, "ab", strict=True)],
+        "linear_stability": [stability_row("a", tau=delays[0]), stability_row("b", tau=delays[1])],
+        **on_routes(line, points=points),
+    }
 
 
-@pytest.mark.parametrize(
-    ("given", "classes", "verdict"),
-    [
-        ({"epsilon": 0.3}, ["chaos"] * 4, YES),
-        ({}, ["chaos"] * 4, NO),
-        ({"epsilon": 0.3}, ["cycle"] * 2 + ["chaos"] * 2, NO),
-        ({"unstable_roots": 2}, ["chaos"] * 4, NO),
-    ],
-)
-def test_independent_of_spring(given, classes, verdict):
-    """The same epsilon and class at every xi, or one that changes; or no such point at all."""
+def by_spring(*classes: str, **given) -> dict:
+    """Results of a plane with any xi and of a route in xi."""
     curves = changed(hopf_curve(), xi=np.linspace(0.1, 1, 12), tau=12.0)
-    made = Results(
-        curves={"plane": changed(curves, **given)}, routes=route_rows(*classes, along="xi")
-    )
-    found = independent_of_spring(made, plane="plane", route="mine", limit=1e-3)
-    assert found.verdict == verdict
+    rows = route_rows(*classes, along="xi")
+    return {"curves": {"plane": changed(curves, **given)}, "route_points": rows}
+
+
+@cases(
+    (
+        *("route", {"routes": ["mine"], "expected": BREAKDOWN}),
+        (on_routes(["fixed point", *BREAKDOWN]), YES),
+        (on_routes(["cycle", UNDECIDED, "torus", UNDECIDED, "chaos", "cycle"]), YES),
+        (on_routes(["cycle", "chaos", *BREAKDOWN]), YES),
+        # a cycle of several points behind a torus is locked there
+        (on_routes(["cycle", "torus", "cycle/7", "chaos"]), YES),
+        (on_routes(["cycle", "torus", "cycle/1", "chaos"]), NO),
+        (on_routes(["cycle/1", "cycle/2", "cycle/4", "chaos"]), NO),
+        (on_routes([UNDECIDED]), NO),
+    ),
+    (
+        *("route", {"routes": ["mine"], **CYCLE_TORUS}),
+        # one point decides nothing, unless another run has the same class there
+        (at_points("near"), NO),
+        (at_points("near", "up"), YES, "cycle 0.1 to 0.2, torus 0.3; in 2 of 2 runs."),
+    ),
+    (
+        *("route", {"routes": ["mine", "other"], **CYCLE_TORUS}),
+        (on_routes(["cycle", "chaos"], ["cycle", "torus"]), YES, "in none of 1 runs. Along $tau$"),
+    ),
+    (
+        *("torus_route", {"routes": ["mine"], "expected": BREAKDOWN}),
+        (on_routes(BREAKDOWN, points=[torus_point()]), YES, "unit circle at $tau = 0.25$."),
+        (on_routes(BREAKDOWN, points=[torus_point(0.15)]), NO, "unit circle at $tau = 0.15$."),
+        (on_routes(BREAKDOWN, points=[torus_point(xi=0.5)]), NO, "No torus bifurcation"),
+        (on_routes(BREAKDOWN, points=[torus_point(kind="period_doubling")]), NO),
+        (on_routes(BREAKDOWN, points=[torus_point(unstable_before=1.0)]), NO),
+    ),
+    (
+        # torus breakdown and a third frequency, one of them, or neither
+        *("quasiperiodic_route", {"routes": ["mine", "other"], "fine": "fine"}),
+        (breaking(BREAKDOWN, STRICT), YES, "42 loops in 2 runs at 0.2; chaos in 1 runs, cycle"),
+        (breaking(BREAKDOWN, ["torus", "chaos"]), PARTLY),
+        (breaking(["cycle", *STRICT], ["chaos"]), PARTLY),
+        (breaking(["cycle", "chaos"], ["torus", "3-torus"]), NO),
+    ),
+    (
+        # that of steady sliding and all torus bifurcations of stable cycles on the line
+        *("two_supercritical_hopfs", {"routes": ["mine"], "planes": ["a", "b"]}),
+        (with_hopf(-0.1, torus_point()), YES),
+        (with_hopf(0.1, torus_point()), NO),
+        (with_hopf(-0.1, torus_point(criticality="subcritical")), NO),
+        (with_hopf(-0.1), NO, "stable cycles: none."),
+        (with_hopf(-0.1, torus_point(), torus_point(epsilon=0.4)), YES),
+    ),
+    (
+        # the torus bifurcation is not on the other line
+        *("two_supercritical_hopfs", {"routes": ["mine", "other"], "planes": ["a", "b"]}),
+        (with_hopf(-0.1, torus_point()), PARTLY),
+    ),
+    (
+        # B alone raises epsilon, A and B in proportion lower xi
+        *("chaos_by_a_and_b", {"routes": ["mine", "other"]}),
+        (on_routes(["cycle", "chaos"], ["chaos", "cycle"], along=("epsilon", "xi")), YES),
+        (on_routes(["cycle", "chaos"], ["cycle", "chaos"], along=("epsilon", "xi")), PARTLY),
+        (on_routes(["chaos", "cycle"], ["chaos", "cycle"], along=("epsilon", "xi")), PARTLY),
+        (on_routes(["chaos"], ["cycle", "chaos"], along=("epsilon", "xi")), NO),
+    ),
+    (
+        *("leads_to", {"routes": ["mine", "other"], "before": BEFORE, "after": "chaos"}),
+        (on_routes(["cycle", "chaos"], ["torus", "fixed point", "chaos"]), YES, "0.2, chaos 0.3"),
+        (on_routes(["cycle", "chaos"], ["chaos", "cycle"]), PARTLY, "cycle 0.1 to 0.2, chaos 0.3"),
+        (on_routes(["chaos"], ["chaos", "cycle"]), NO, "in none of 1 runs."),
+    ),
+    (
+        # by the scenes and their delays, or by a route with a torus bifurcation
+        *("delays_in_turn", {"scenes": ["a", "b"], "route": "mine", **CYCLE_TORUS}),
+        (with_scenes(["cycle", "torus"], [0.1, 7.0], ["chaos"]), YES, "These delays grow"),
+        (with_scenes(["cycle", "torus"], [7.0, 7.0], ["cycle", "torus"], torus_point()), PARTLY),
+        (with_scenes(["cycle", "cycle"], [0.1, 7.0], ["cycle", "torus"], torus_point()), PARTLY),
+        (with_scenes(["cycle", "cycle"], [0.1, 7.0], ["cycle", "torus"]), NO),
+        (with_scenes(["cycle", "cycle"], [7.0, 0.1], ["cycle"], torus_point()), NO, "do not grow"),
+    ),
+    (
+        # the same epsilon and class at every xi, or one that changes; or no such point at all
+        *("independent_of_spring", {"plane": "plane", "route": "mine", "limit": 1e-3}),
+        (by_spring(*["chaos"] * 4, epsilon=0.3), YES),
+        (by_spring(*["chaos"] * 4), NO),
+        (by_spring(*["cycle"] * 2, *["chaos"] * 2, epsilon=0.3), NO),
+        (by_spring(*["chaos"] * 4, unstable_roots=2), NO),
+    ),
+)
+def test_verdicts(case):
+    assert_finding(*case)
 
 
 def words_of_caption(rows: list[dict], run: xr.Dataset) -> str:

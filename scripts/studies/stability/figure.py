@@ -10,13 +10,12 @@ from scripts.drawing.parameters import number
 from scripts.drawing.style import FAINT, INK
 from scripts.drawing.wording import short
 from scripts.files.tsv import rows_by
+from scripts.studies.stability.table import WITHIN_EXPECTED, is_within_expected
 
 GRID = "grid_"
 """How names of the grid's families begin."""
 LEVELS = np.arange(-14, 1, 2)
 """Powers of ten between the colours of errors."""
-FACTOR = 100
-"""Errors up to this multiple of the expected error count as expected, in the ledger too."""
 
 
 def draw(table: list[dict]) -> Figure:
@@ -93,7 +92,8 @@ def draw_errors(axes: Axes, by_method: dict[str, list[dict]]) -> None:
                 label=f"{method}{'' if ended else ', ended early'}",
             )
     ends = np.array([1e-10, 1e6])
-    for factor, style, words in ((1, "-", ""), (100, ":", r"100 $\times$ ")):
+    for factor, style in ((1, "-"), (WITHIN_EXPECTED, ":")):
+        words = rf"{factor} $\times$ " if factor > 1 else ""
         label = f"error = {words}expected error"
         axes.plot(ends, factor * ends, color=FAINT, lw=0.8, ls=style, zorder=0, label=label)
     axes.set(
@@ -119,7 +119,7 @@ def numbers(table: list[dict]) -> dict:
                 "runs": len(rows),
                 "completed": len(ended),
                 "measured": len(measured),
-                "within": sum(row["error"] <= FACTOR * row["error_expected"] for row in measured),
+                "within": sum(map(is_within_expected, measured)),
             }
         )
     values = sorted({row["tolerance"] for row in table})

@@ -1,6 +1,7 @@
 """The finding about the equations of real faults."""
 
-from scripts.studies.stability.claims import SMALL, runs_between
+from scripts.claims.filters import between, where
+from scripts.studies.stability.table import SMALL
 from scripts.tables.ranges_of_gamma import FAULTS
 
 PLACE = 3
@@ -11,10 +12,9 @@ CLAIMS = ("real_gamma_left_out", "very_stiff_at_real_gamma")
 def describe(tables: dict[str, list[dict]]) -> dict:
     """Whether the equations can be solved at the gamma of real faults."""
     least, most = FAULTS
-    names = ("auto", "explicit")
-    runs = {method: runs_between(tables["stability"], method, *FAULTS) for method in names}
-    done = {method: [row for row in rows if row["status"] == "ok"] for method, rows in runs.items()}
-    started = len(runs["auto"])
+    runs = between(tables["stability"], "gamma", *FAULTS)
+    done = {method: where(runs, method=method, status="ok") for method in ("auto", "explicit")}
+    started = len(where(runs, method="auto"))
     steps = max((row["steps"] for row in done["auto"]), default=0)
     large = sum(row["error"] > SMALL for row in done["auto"])
     magnified = f" In {large} of them the problem magnifies errors beyond {SMALL:g}." * (large > 0)

@@ -20,6 +20,10 @@ WORDS = {
     "none": "none: a limit cycle over many periods",
 }
 """What errors are measured against, in words."""
+SMALL = 1e-3
+"""An error that a figure does not show."""
+WITHIN_EXPECTED = 100
+"""Largest error that is expected, over tolerance times amplification."""
 
 
 def row_of(family: str, kind: str, run: dict, reference: Reference | None) -> dict:
@@ -56,6 +60,11 @@ def row_of(family: str, kind: str, run: dict, reference: Reference | None) -> di
         "error_expected": run["setting"] * amplification,
         "reason": run["reason"],
     }
+
+
+def is_within_expected(row: dict) -> bool:
+    """Whether the error of a run is within what its tolerance lets expect."""
+    return row["error"] <= WITHIN_EXPECTED * row["error_expected"]
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@ import copy
 
 import numpy as np
 import pytest
-from made_up_results import NO, PARTLY, YES, Results, run_row
+from made_up_results import NO, PARTLY, YES, assert_finding, cases, run_row
 
 from scripts.claims.ledger import check_user_claims
 from scripts.config.check_config import checked
@@ -13,7 +13,6 @@ from scripts.files.tsv import read_table
 from scripts.namelists.laws import PAPER
 from scripts.namelists.program_groups import case_groups
 from scripts.studies.stability import figure as drawing
-from scripts.studies.stability.claims import out_of_reach, stationary_state, stiffness_forbids
 from scripts.studies.stability.finding import describe
 from scripts.studies.stability.plan import cases_of_family
 
@@ -51,44 +50,45 @@ def test_every_case_is_a_row_of_each_method(smoke, smoke_config):
 
 
 STOPPED = {"status": "too_many_steps", "error": np.nan, "error_expected": np.nan}
+AT_FAULTS = {"method": "auto", "least": 1e4, "most": 1e12}
 
 
-OTHERS = [run_row(gamma=1.0), run_row(method="explicit")]
+def runs(*given: dict) -> dict:
+    """Results of runs, beside those of another gamma and of another method."""
+    rows = [run_row(**one) for one in given]
+    return {"stability": [*rows, run_row(gamma=1.0), run_row(method="explicit")]}
 
 
-@pytest.mark.parametrize(
-    ("test", "runs", "verdict", "words"),
-    [
-        (out_of_reach, [run_row(**STOPPED)], YES, "0 of 1 runs by the method auto"),
-        (out_of_reach, [run_row(), run_row(**STOPPED)], NO, "1 of 2 runs"),
-        (out_of_reach, [], NO, "0 of 0 runs"),
-        (stiffness_forbids, [run_row(), run_row(error=1e-6)], NO, "2 have an error within"),
-        (stiffness_forbids, [run_row(), run_row(**STOPPED)], PARTLY, "1 of 2 runs by the method"),
-        (stiffness_forbids, [run_row(), run_row(error=0.1)], PARTLY, "1 have an error within"),
-        (stiffness_forbids, [run_row(error=0.1)], YES, "1 of 1 runs"),
-        (stiffness_forbids, [run_row(**STOPPED)], YES, "0 have an error of at most 0.001"),
-        (stiffness_forbids, [], YES, "0 of 0 runs"),
-    ],
+def long_run(reference: str = "exact stationary state, at t_end only", **given) -> dict:
+    """Results of a long run that decays."""
+    return {"stability": [run_row(reference=reference, **given)]}
+
+
+@cases(
+    (
+        # out of reach if none is completed
+        *("out_of_reach", AT_FAULTS),
+        (runs(STOPPED), YES, "0 of 1 runs by the method auto"),
+        *((runs({}, STOPPED), NO, "1 of 2 runs"), (runs(), NO, "0 of 0 runs")),
+    ),
+    (
+        # stiffness forbids if none is solved within its error
+        *("stiffness_forbids", AT_FAULTS),
+        (runs({}, {"error": 1e-6}), NO, "2 have an error within"),
+        (runs({}, STOPPED), PARTLY, "1 of 2 runs by the method"),
+        (runs({}, {"error": 0.1}), PARTLY, "a case has an error of 0.1 at $t = 100$: it magnifies"),
+        *((runs({"error": 0.1}), YES, "1 of 1 runs"), (runs(), YES, "0 of 0 runs")),
+        (runs(STOPPED), YES, "0 have an error of at most 0.001"),
+    ),
+    (
+        *("stationary_state", {"within": 1e-6}),
+        *((long_run(error=1e-9), YES), (long_run(error=1e-3), NO)),
+        (long_run(error=np.nan, status="too_many_steps"), NO),
+        (long_run(error=1e-9, reference="none: a limit cycle over many periods"), NO),
+    ),
 )
-def test_runs_at_the_gamma_of_faults(test, runs, verdict, words):
-    """Out of reach if none is completed; stiffness forbids if none is solved within its error."""
-    found = test(Results(stability=runs + OTHERS), method="auto", least=1e4, most=1e12)
-    assert found.verdict == verdict
-    assert words in found.evidence
-
-
-@pytest.mark.parametrize(
-    ("given", "verdict"),
-    [
-        ({"error": 1e-9}, YES),
-        ({"error": 1e-3}, NO),
-        ({"error": np.nan, "status": "too_many_steps"}, NO),
-        ({"error": 1e-9, "reference": "none: a limit cycle over many periods"}, NO),
-    ],
-)
-def test_stationary_state(given, verdict):
-    row = run_row(**{"reference": "exact stationary state, at t_end only", **given})
-    assert stationary_state(Results(stability=[row]), within=1e-6).verdict == verdict
+def test_verdicts(case):
+    assert_finding(*case)
 
 
 def test_numbers_of_stability():

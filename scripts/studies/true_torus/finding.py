@@ -1,6 +1,6 @@
 """The finding about the paper's torus."""
 
-from scripts.claims.claims_results import short
+from scripts.claims.filters import short
 from scripts.drawing.wording import count
 from scripts.tables.motion_rows import class_in_words, own_rows
 

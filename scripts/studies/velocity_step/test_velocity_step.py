@@ -2,15 +2,9 @@
 
 import numpy as np
 import pytest
-from made_up_results import NO, PARTLY, YES, Results
+from made_up_results import NO, PARTLY, YES, assert_finding, cases
 from scipy.integrate import solve_ivp
 
-from scripts.studies.velocity_step.claims import (
-    friction_falls_with_epsilon,
-    mu0_is_steady_friction,
-    same_state_law,
-    velocity_step,
-)
 from scripts.studies.velocity_step.table import effects_of, respond
 
 
@@ -51,57 +45,49 @@ def test_effects_are_those_of_the_law_where_all_slip_has_passed(step):
     assert evolution == pytest.approx(step["b"] * np.log(states[0] / states[1]), rel=1e-3)
 
 
-def a_step(direct=0.006, evolution=-0.009, theta=10.0, end=0.0, first=0.6, faster=1.0) -> Results:
+def a_step(direct=0.006, evolution=-0.009, theta=10.0, end=0.0, first=0.6, faster=1.0) -> dict:
     """Friction through a step of the velocity and back, at velocities `faster` than usual."""
     law = {"mu0": 0.6, "dc": 1e-5, "a": 0.01, "b": 0.015, "b_state": 10.0, "v0": 1e-6}
     mu = [first, first + direct, first + direct + evolution, 0.6 + end]
     velocity = [faster * v for v in (1e-6, 1e-5, 1e-5, 1e-6)]
     rows = [{"mu": m, "velocity": v, "theta": theta} for m, v in zip(mu, velocity, strict=True)]
-    return Results(velocity_step=[{**row, **law, "delta_v": 9e-6} for row in rows])
+    return {"velocity_step": [{**row, **law, "delta_v": 9e-6} for row in rows]}
 
 
-@pytest.mark.parametrize(
-    ("given", "verdict"),
-    [({}, YES), ({"direct": -0.006}, NO), ({"evolution": -0.003}, NO), ({"end": 0.01}, NO)],
-)
-def test_velocity_step(given, verdict):
-    assert velocity_step(a_step(**given)).verdict == verdict
+STEADY = {
+    "velocity_step": [row | {"velocity": 1e-5 / row["theta"]} for row in a_step()["velocity_step"]]
+}
+"""Sliding at Dc/theta, where both state laws are 0."""
 
 
-@pytest.mark.parametrize(
-    ("given", "verdict", "words"),
-    [
-        ({"theta": 10.0}, PARTLY, "by 0.6931 to 0.6931 per unit of $B$, and by 0.09531 to"),
-        ({"theta": -5.0}, PARTLY, "by -0.6931 to -0.6931 per unit of $B$"),
+@cases(
+    (
+        *("velocity_step", {}),
+        *((a_step(), YES), (a_step(direct=-0.006), NO)),
+        *((a_step(evolution=-0.003), NO), (a_step(end=0.01), NO)),
+    ),
+    (
+        # in every state by (1.1), by B and by A; in steady sliding by (2), where v > v0
+        *("friction_falls_with_epsilon", {}),
+        (a_step(), PARTLY, "by 0.6931 to 0.6931 per unit of $B$, and by 0.09531 to"),
+        (a_step(theta=-5.0), PARTLY, "by -0.6931 to -0.6931 per unit of $B$"),
         # ln 10 = 2.303
-        ({}, PARTLY, "of the step, 10 $v0$, it changes by -2.303 per unit of $B - A$"),
+        (a_step(), PARTLY, "of the step, 10 $v0$, it changes by -2.303 per unit of $B - A$"),
         # both logarithms are negative
-        ({"theta": -5.0, "faster": -5.0}, YES, ""),
-        ({"faster": 0.05}, NO, ""),
-    ],
+        *((a_step(theta=-5.0, faster=-5.0), YES), (a_step(faster=0.05), NO)),
+    ),
+    (
+        # by the friction before the step, with what is left in numbers
+        *("mu0_is_steady_friction", {"limit": 1e-6}),
+        (a_step(), YES, "$-A ln 2 = -0.006931$ and $B ln(theta/b + 1) = 0.0104$"),
+        (a_step(first=0.6035), NO, "it is $B ln(theta/b) = 0$."),
+    ),
+    (
+        # theta = 10 s at v = 1e-5 m/s: x = 10, 1 - x and -x ln x
+        *("same_state_law", {"limit": 1e-6}),
+        (a_step(), NO, "most at $x = 10$: $d theta/dt = -9$ by (1.2) and -23.03 by (2)"),
+        (STEADY, YES),
+    ),
 )
-def test_friction_falls_with_epsilon(given, verdict, words):
-    """In every state by (1.1), by B and by A; in steady sliding by (2), where v > v0."""
-    found = friction_falls_with_epsilon(a_step(**given))
-    assert found.verdict == verdict
-    assert words in found.evidence
-
-
-@pytest.mark.parametrize(("first", "verdict"), [(0.6, YES), (0.6035, NO)])
-def test_mu0_is_steady_friction(first, verdict):
-    """By the friction before the step, with what is left in numbers."""
-    found = mu0_is_steady_friction(a_step(first=first), limit=1e-6)
-    assert found.verdict == verdict
-    assert "$-A ln 2 = -0.006931$ and $B ln(theta/b + 1) = 0.0104$" in found.evidence
-    assert "it is $B ln(theta/b) = 0$." in found.evidence
-
-
-def test_same_state_law():
-    found = same_state_law(a_step(), limit=1e-6)
-    assert found.verdict == NO
-    # theta = 10 s at v = 1e-5 m/s: x = 10, 1 - x and -x ln x
-    assert "most at $x = 10$: $d theta/dt = -9$ by (1.2) and -23.03 by (2)" in found.evidence
-    made = a_step()
-    for row in made.velocity_step:
-        row["velocity"] = 1e-5 / row["theta"]
-    assert same_state_law(made, limit=1e-6).verdict == YES
+def test_verdicts(case):
+    assert_finding(*case)
