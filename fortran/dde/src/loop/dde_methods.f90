@@ -19,7 +19,7 @@ module dde_methods
    public :: choose_method, matching_method, methods, price_of_trial, read_by_methods
 
    !> All methods, in the order of messages: the name, and what the method reads of a problem beside
-   !> f, "jacobian" if it is implicit, "series", or "f" alone. The workflow reads the names here, too.
+   !> f: "jacobian" if it is implicit, "series", or "f" alone. The workflow reads the names here.
    character(len=8), parameter :: table(2, 8) = reshape([character(len=8) :: &
                                                          "auto", "f", &
                                                          "explicit", "f", &
