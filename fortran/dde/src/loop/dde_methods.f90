@@ -18,26 +18,18 @@ module dde_methods
    private
    public :: choose_method, matching_method, methods, price_of_trial, read_by_methods
 
-   !> A method.
-   type :: method_type
-      !> Its name
-      character(len=8) :: name
-      !> What it reads of a problem beside f: "jacobian" if it is implicit, "series", or "f" alone
-      character(len=8) :: reads
-   end type method_type
-
-   !> All methods, in the order of messages. The workflow reads their names here, too.
-   type(method_type), parameter :: table(8) = [ &
-                                   method_type("auto", "f"), &
-                                   method_type("explicit", "f"), &
-                                   method_type("bs5", "f"), &
-                                   method_type("dop853", "f"), &
-                                   method_type("taylor", "series"), &
-                                   method_type("radau5", "jacobian"), &
-                                   method_type("radau9", "jacobian"), &
-                                   method_type("radau13", "jacobian")]
-   !> Their names, and what they read.
-   character(len=8), parameter :: methods(*) = table%name, read_by_methods(*) = table%reads
+   !> All methods, in the order of messages: the name, and what the method reads of a problem beside
+   !> f: "jacobian" if it is implicit, "series", or "f" alone. The workflow reads the names here.
+   character(len=8), parameter :: table(2, 8) = reshape([character(len=8) :: &
+                                                         "auto", "f", &
+                                                         "explicit", "f", &
+                                                         "bs5", "f", &
+                                                         "dop853", "f", &
+                                                         "taylor", "series", &
+                                                         "radau5", "jacobian", &
+                                                         "radau9", "jacobian", &
+                                                         "radau13", "jacobian"], [2, 8])
+   character(len=8), parameter :: methods(*) = table(1, :), read_by_methods(*) = table(2, :)
 
    !> Least tolerance of the pair 5(4); below it the pair is 8(5,3).
    real(wp), parameter :: least_of_bs5 = 3.0e-6_wp
@@ -78,7 +70,7 @@ contains
       name = method
       if (name == "auto") name = matching_method(problem, tolerance, origin, implicit=.false.)
       if (name == "explicit") name = explicit_method(tolerance%level)
-      if (any(table%name == name .and. table%reads == "series") .and. .not. problem%analytic) then
+      if (any(methods == name .and. read_by_methods == "series") .and. .not. problem%analytic) then
          call raise(error, "integrate: method = '"//trim(name)//"' for a problem that gives no " &
                     //"Taylor series (analytic = .false.); another method expected")
          return

@@ -15,7 +15,6 @@ module dde_start
    use dde_run, only: run_type
    use dde_step, only: step_type
    use dde_step_context, only: step_context
-   use dde_switch, only: switch_type
    use dde_time, only: instant
    use dde_tolerance, only: hopeless, scaled_norm, tolerance_type
    use dde_work, only: work_type
@@ -37,10 +36,9 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Where an earlier run ended, if one did
       type(continuation_type), intent(in), optional :: continuation
-      character(len=8) :: explicit
       type(kink_type), allocatable :: kinks(:)
       logical :: continued
-      real(wp) :: price, reals
+      real(wp) :: reals
 
       run%t_start = t_start
       run%t_end = t_end
@@ -93,10 +91,12 @@ contains
          end if
          call run%find_longest()
          if (options%method /= "auto") return
-         price = price_of_trial(problem, context%tolerance)
-         explicit = matching_method(problem, context%tolerance, origin%hi, implicit=.false.)
-         run%switch = switch_type(least_price=price, price=price, series=explicit == "taylor", &
-                                  shortest=minval(problem%lag))
+         allocate (run%switch)
+         run%switch%least_price = price_of_trial(problem, context%tolerance)
+         run%switch%price = run%switch%least_price
+         run%switch%shortest = minval(problem%lag)
+         run%switch%series = matching_method(problem, context%tolerance, origin%hi, &
+                                             implicit=.false.) == "taylor"
       end associate
    end subroutine begin_run
 
