@@ -56,7 +56,7 @@ contains
       right(length - n + 1:) = conjg(chirp(n - 1:1:-1))
       left = transform(left)*transform(right)
       left = conjg(transform(conjg(left)))/length
-      sums = left(:size(sums))*chirp(:size(sums) - 1)
+      sums = left(:size(sums) - 1)*chirp(:size(sums) - 1)
    end subroutine transform_by_halves
 
    !> The same of complex numbers, as many as a power of two.
