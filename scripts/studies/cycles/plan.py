@@ -1,7 +1,7 @@
 """Figure of the cycles followed: their greatest v along a parameter, stable or not.
 
 Formulas and sources: `orbit_equations.f90`, `floquet_multipliers.f90`, `orbit_branch.f90`,
-`orbit_points.f90`, `torus_normal_form.f90`, `block_cycles.f90`.
+`orbit_points.f90`, `torus_normal_form.f90`, `cycle_branches.f90`.
 """
 
 from itertools import chain
