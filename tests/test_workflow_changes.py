@@ -69,16 +69,18 @@ def test_results_of_changed_scripts_and_commands_are_stale(scratch):
 
 
 def test_changed_files_of_the_project_make_their_results_anew(scratch):
-    """Templates, tables and what the page is made of; a changed style would redraw all figures."""
+    """Templates of captions and of tests of claims, functions that these call, tables and what the
+    page is made of; a changed style would redraw all figures."""
     change(
         scratch,
         "scripts/studies/paper_scenes/figure_6.rst",
         "scripts/studies/events/claims.jinja",
+        "scripts/studies/routes/stretches.py",
         "benchmarks/measured.tsv",
         "page/style.css",
     )
     run = scratch.snakemake("--dry-run", *SMOKE)
-    assert rules_in(run.stdout) == {"all", "page", "captions", "work_precision"}
+    assert rules_in(run.stdout) == {"all", "page", "captions", "claims", "work_precision"}
 
 
 def test_results_of_an_older_program_are_computed_again(scratch):
