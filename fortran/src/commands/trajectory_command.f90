@@ -68,8 +68,11 @@ contains
       call samples%begin(given%place, scene, error)
       if (allocated(error)) return
       call integrate(scene%problem, 0.0_wp, scene%t_end, scene%options(), outcome, error, samples)
-      if (allocated(data%error)) stop_requested = 0
-      if (allocated(error) .or. allocated(data%error)) return
+      if (allocated(data%error)) then
+         stop_requested = 0
+         error = data%error
+      end if
+      if (allocated(error)) return
       call samples%flush()
       call put_outcome(data, scene, outcome)
    end subroutine run_trajectory
