@@ -64,16 +64,17 @@ module results
       !> Path of the file
       character(len=:), allocatable :: path
    contains
-      procedure(end_file), deferred :: finish, discard
+      procedure(change_file), deferred :: begin, finish, discard
    end type written_type
 
    abstract interface
-      !> Write what is left and give the file its name, or leave nothing behind.
-      subroutine end_file(self)
+      !> Begin the file before the work; write what is left and give it its name; or leave nothing
+      !> behind.
+      subroutine change_file(self)
          import :: written_type
          implicit none (type, external)
          class(written_type), intent(inout) :: self
-      end subroutine end_file
+      end subroutine change_file
    end interface
 
 contains

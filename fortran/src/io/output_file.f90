@@ -33,11 +33,16 @@ module output_file
       !> Numbers of dimensions and variables that the file has
       integer :: dimensions_written = 0, variables_written = 0
    contains
-      procedure :: discard, finish, write_values
+      procedure :: begin, discard, finish, write_values
       procedure, private :: define, note, put_attribute, put_origin
    end type output_file_type
 
 contains
+
+   !> The file begins with the first values.
+   subroutine begin(self)
+      class(output_file_type), intent(inout) :: self
+   end subroutine begin
 
    !> Write the values that are held, and what defines them where the file has not got it.
    subroutine write_values(self, first)

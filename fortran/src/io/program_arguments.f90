@@ -54,6 +54,8 @@ contains
          call read_request(argument(2), given, error)
          call stop_on(error)
          data%path = argument(3)
+         call data%begin()
+         call stop_on(data%error)
          call commands(at)%run(given, data, error)
          if (allocated(error)) call data%discard()
          call stop_on(error)

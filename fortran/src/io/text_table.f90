@@ -16,17 +16,26 @@ module text_table
 
    !> A table.
    type, extends(written_type) :: text_table_type
+      private
+      !> Where it stands
+      type(unfinished_type) :: place
    contains
-      procedure :: finish, discard
+      procedure :: begin, finish, discard
       procedure, private :: cell, width
    end type text_table_type
 
 contains
 
+   !> Begin the file: another run of the same path sees it.
+   subroutine begin(self)
+      class(text_table_type), intent(inout) :: self
+
+      call self%place%begin(self%path, self%error)
+   end subroutine begin
+
    !> Write the table.
    subroutine finish(self)
       class(text_table_type), intent(inout) :: self
-      type(unfinished_type) :: place
       character(len=:), allocatable :: content
       integer :: i, k, rows, used, width
 
@@ -41,8 +50,7 @@ contains
             call append(self%cell(i, k)//merge(tab, line_end, k < size(self%variables)))
          end do
       end do
-      call place%begin(self%path, self%error)
-      if (.not. allocated(self%error)) call place%publish(content(:used), self%error)
+      call self%place%publish(content(:used), self%error)
 
    contains
 
@@ -90,8 +98,10 @@ contains
       end associate
    end function cell
 
-   !> Nothing is written before the end.
+   !> Leave nothing behind.
    subroutine discard(self)
       class(text_table_type), intent(inout) :: self
+
+      call self%place%discard()
    end subroutine discard
 end module text_table
