@@ -64,14 +64,11 @@ def dataset_of(found: Results) -> xr.Dataset:
     for name, (kind, names) in variables.items():
         shape = [dims[one] for one in names]
         about = attributes.get(name, {})
-        if about.get("units") == "1":
-            del about["units"]  # those of the model, which is nondimensional in files alone
         numpy_kind = {"real": np.float64, "integer": np.int32, "letters": "S1"}[kind]
         values = found.values(name, numpy_kind).reshape(shape)
         if kind == "letters":
             values = np.array(["".join(row.astype("U1")) for row in values], dtype=object)
             names = names[:-1]
-            about.pop("_Encoding", None)  # of letters in files
         elif "flag_meanings" in about:
             words = about.pop("flag_meanings").split()
             codes = np.atleast_1d(about.pop("flag_values"))

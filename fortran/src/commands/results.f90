@@ -141,7 +141,7 @@ contains
       !> Digits after the first in a table of text, if fewer than usual
       integer, intent(in), optional :: digits
 
-      call self%add(name, [dimension], long_name, "1", units)
+      call self%add(name, [dimension], long_name, units)
       allocate (self%variables(size(self%variables))%reals, source=values)
       if (present(digits)) self%variables(size(self%variables))%digits = digits
    end subroutine column_of_reals
@@ -155,7 +155,7 @@ contains
       real(wp), intent(in) :: values(:, :)
       character(len=*), intent(in) :: long_name
 
-      call self%add(name, dimensions, long_name, "1")
+      call self%add(name, dimensions, long_name)
       self%variables(size(self%variables))%reals = reshape(values, [size(values)])
    end subroutine table
 
@@ -170,7 +170,7 @@ contains
       !> Dimension along which lines of these lengths stand one after another, as CF 1.8 marks them
       character(len=*), intent(in), optional :: lengths_along
 
-      call self%add(name, [dimension], long_name, "1")
+      call self%add(name, [dimension], long_name)
       allocate (self%variables(size(self%variables))%integers, source=values)
       if (.not. present(lengths_along)) return
       call self%attribute("sample_dimension", lengths_along, size(self%variables))
@@ -190,7 +190,6 @@ contains
       length = max(1, maxval(len_trim(values)))
       letters = self%dimension(trim(self%dimensions(dimension)%prefix)//name//"_letters", length)
       call self%add(name, [letters, dimension], long_name)
-      call self%attribute("_Encoding", "utf-8", size(self%variables))
       line = repeat(achar(0), length*size(values))
       do i = 1, size(values)
          line(length*(i - 1) + 1:length*(i - 1) + len_trim(values(i))) = trim(values(i))
@@ -258,13 +257,11 @@ contains
    end function joined
 
    !> Begin a variable: all but its values.
-   subroutine add(self, name, dimensions, long_name, default, units)
+   subroutine add(self, name, dimensions, long_name, units)
       class(results_type), intent(inout) :: self
       character(len=*), intent(in) :: name
       integer, intent(in) :: dimensions(:)
       character(len=*), intent(in) :: long_name
-      !> Unit, if `units` does not say it
-      character(len=*), intent(in), optional :: default
       character(len=*), intent(in), optional :: units
       type(variable_type), allocatable :: longer(:)
       integer :: i
@@ -279,11 +276,7 @@ contains
       self%variables(i)%name = trim(self%dimensions(dimensions(size(dimensions)))%prefix)//name
       self%variables(i)%dimensions = dimensions
       call self%attribute("long_name", long_name, i)
-      if (present(units)) then
-         call self%attribute("units", units, i)
-      else if (present(default)) then
-         call self%attribute("units", default, i)
-      end if
+      if (present(units)) call self%attribute("units", units, i)
    end subroutine add
 
    !> Move a variable without a copy of its values.

@@ -34,7 +34,7 @@ module output_file
       integer :: dimensions_written = 0, variables_written = 0
    contains
       procedure :: begin, discard, finish, write_values
-      procedure, private :: define, note, put_attribute, put_origin
+      procedure, private :: define, note, put_attribute, put_implied, put_origin
    end type output_file_type
 
 contains
@@ -121,11 +121,27 @@ contains
          end associate
          do k = 1, size(self%variables(i)%attributes)
             call self%put_attribute(i, self%variables(i)%attributes(k))
+            if (k == 1) call self%put_implied(i)
          end do
       end do
       self%dimensions_written = size(self%dimensions)
       self%variables_written = size(self%variables)
    end subroutine define
+
+   !> Write what files say of a variable where results do not: letters are UTF-8, and numbers without
+   !> a unit are nondimensional.
+   subroutine put_implied(self, number)
+      class(output_file_type), intent(inout) :: self
+      integer, intent(in) :: number
+
+      associate (one => self%variables(number))
+         if (allocated(one%letters)) then
+            call self%note(nf90_put_att(self%id, number, "_Encoding", "utf-8"))
+         else if (all(one%attributes%name /= "units" .and. one%attributes%name /= "flag_values")) then
+            call self%note(nf90_put_att(self%id, number, "units", "1"))
+         end if
+      end associate
+   end subroutine put_implied
 
    !> Write an attribute.
    subroutine put_attribute(self, owner, one)
