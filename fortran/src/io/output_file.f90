@@ -128,8 +128,8 @@ contains
       self%variables_written = size(self%variables)
    end subroutine define
 
-   !> Write what files say of a variable where results do not: letters are UTF-8, and numbers without
-   !> a unit are nondimensional.
+   !> Write what files say of a variable where results do not: letters are UTF-8, and numbers
+   !> without a unit are nondimensional.
    subroutine put_implied(self, number)
       class(output_file_type), intent(inout) :: self
       integer, intent(in) :: number
@@ -137,7 +137,8 @@ contains
       associate (one => self%variables(number))
          if (allocated(one%letters)) then
             call self%note(nf90_put_att(self%id, number, "_Encoding", "utf-8"))
-         else if (all(one%attributes%name /= "units" .and. one%attributes%name /= "flag_values")) then
+         else if (all(one%attributes%name /= "units" &
+                      .and. one%attributes%name /= "flag_values")) then
             call self%note(nf90_put_att(self%id, number, "units", "1"))
          end if
       end associate
