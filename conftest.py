@@ -93,7 +93,7 @@ class Project:
 
     def use_packages_at_hand(self) -> None:
         """Let ./reproduce find everything set up."""
-        write_script(self.folder / "setup" / "setup.sh", "exit 0")
+        write_script(self.folder / "tools/setup/setup.sh", "exit 0")
         for tool in ("python", "snakemake"):
             path = Path(sys.executable).parent / tool
             write_script(self.folder / ".venv" / "bin" / tool, f"exec '{path}' \"$@\"")

@@ -6,7 +6,7 @@ draws docs/NAME.png of all `FIGURES` from results/figures/. Given a picture and 
 
     python docs/small_picture.py PICTURE.png docs/NAME.png
 
-it draws docs/page.png from build/page.png: after `setup/setup.sh tests/browser`
+it draws docs/page.png from build/page.png: after `tools/setup/setup.sh tests/browser`
 
     tests/browser/.venv/bin/python docs/page_picture.py results/index.html build/page.png
 """

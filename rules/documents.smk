@@ -22,7 +22,7 @@ rule docs:
             ]
         ),
     shell:
-        "said=$( (setup/setup.sh docs"
+        "said=$( (tools/setup/setup.sh docs"
         " && docs/.venv/bin/ford --quiet docs/ford.md"
         " && docs/.venv/bin/python docs/offline_pages.py {output:q})"
         ' 2>&1 | tee {log:q}) || {{ echo "$said" >&2; exit 1; }};'

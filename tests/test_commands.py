@@ -22,10 +22,10 @@ def recording(tmp_path) -> Path:
     """The two scripts in a folder in which the set-up has nothing to do, and tools only write down
     how they were called."""
     folder = tmp_path / "project"
-    shutil.copytree(ROOT / "compilers", folder / "compilers")
+    shutil.copytree(ROOT / "tools/compilers", folder / "tools/compilers")
     for script in ("reproduce", "test"):
         shutil.copy(ROOT / script, folder)
-    write_script(folder / "setup" / "setup.sh", "exit 0")
+    write_script(folder / "tools/setup/setup.sh", "exit 0")
     for tool in [*TOOLS, "python"]:
         write_script(folder / ".venv" / "bin" / tool, 'echo "${0##*/} $*" >>"$CALLS"')
     package = folder / "python"
@@ -114,7 +114,7 @@ def test_help_and_wrong_words(tmp_path):
 def test_test_runs_a_part(recording, tmp_path, arguments, tools, last):
     """Only its tools, from any folder; the quick part sets up neither browser nor formats."""
     if "quick" in arguments:
-        write_script(recording / "setup" / "setup.sh", "[[ ! ${1-} || $1 = python ]] || exit 7")
+        write_script(recording / "tools/setup/setup.sh", "[[ ! ${1-} || $1 = python ]] || exit 7")
     status, calls = calls_of(recording / "test", *arguments, cwd=tmp_path)
     assert status == 0
     assert {call.split()[0] for call in calls} == set(tools)
@@ -124,11 +124,11 @@ def test_test_runs_a_part(recording, tmp_path, arguments, tools, last):
 def test_test_stops_at_the_first_failure(recording):
     """With its exit status, be it a tool or the set-up of a part; nothing runs after it."""
     for part, missing in (
-        ("compilers", "compilers/*"),
+        ("compilers", "tools/compilers/*"),
         ("slurm", "tests/slurm"),
         ("slurm", "profiles/slurm"),
     ):
-        write_script(recording / "setup" / "setup.sh", f"[[ ${{1-}} != {missing} ]] || exit 7")
+        write_script(recording / "tools/setup/setup.sh", f"[[ ${{1-}} != {missing} ]] || exit 7")
         assert calls_of(recording / "test", part) == (7, [])
     for tool in ("ctest", "ruff"):
         write_script(recording / ".venv" / "bin" / tool, 'echo "${0##*/}" >>"$CALLS"; exit 3')
@@ -155,15 +155,15 @@ chmod +x $2/bin/trajectory_bits"""
 )
 def test_builds_that_differ_or_fail_are_named(tmp_path, second, failing, said):
     """With status 1; all builds are tried."""
-    (tmp_path / "compilers").mkdir()
-    shutil.copy(ROOT / "compilers" / "run", tmp_path / "compilers")
+    (tmp_path / "tools/compilers").mkdir(parents=True)
+    shutil.copy(ROOT / "tools/compilers/run", tmp_path / "tools/compilers")
     (tmp_path / "apt-packages.txt").write_text("gfortran-11\ngfortran-12\n")
     for name, bits in {"gfortran-11": "3F", "gfortran-12": second, "sanitize": "3F"}.items():
         (tmp_path / f"bits-{name}").write_text(bits)
     write_script(tmp_path / "bin" / "cmake", CMAKE)
     write_script(tmp_path / "bin" / "ctest", f"[[ $2 != build/{failing} ]]")
     run = subprocess.run(
-        ["compilers/run", "."],
+        ["tools/compilers/run", "."],
         cwd=tmp_path,
         env={**os.environ, "PATH": f"{tmp_path}/bin:{os.environ['PATH']}"},
         capture_output=True,

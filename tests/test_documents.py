@@ -220,7 +220,7 @@ def test_every_picture_is_shown_and_has_its_command():
 def cffconvert(*arguments: str) -> str:
     program = ROOT / "tests" / "formats" / ".venv" / "bin" / "cffconvert"
     if not program.exists():
-        pytest.skip("`setup/setup.sh tests/formats` sets it up, and so does ./test")
+        pytest.skip("`tools/setup/setup.sh tests/formats` sets it up, and so does ./test")
     command = [program, "--infile", ROOT / "CITATION.cff", *arguments]
     run = subprocess.run(command, capture_output=True, text=True)
     assert run.returncode == 0, run.stdout + run.stderr

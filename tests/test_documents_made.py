@@ -23,7 +23,7 @@ def test_pages_about_the_code_are_made(project):
     """By FORD with the settings of docs/ford.md, then made to fetch nothing; a warning is a
     failure that leaves no pages."""
     pages, ford = project.folder / "results" / "docs", project.folder / "docs/.venv/bin/ford"
-    write_script(project.folder / "setup" / "setup.sh", "exit 0")
+    write_script(project.folder / "tools/setup/setup.sh", "exit 0")
     write_script(ford.with_name("python"), "echo $* >results/docs/called")
     write_script(ford, "mkdir -p results/docs && echo 'Warning: a comment lost'")
     run = project.snakemake("docs")

@@ -26,7 +26,8 @@ def files(smoke) -> dict[str, str]:
 
 
 @pytest.mark.skipif(
-    not CHECKER.exists(), reason="`setup/setup.sh tests/formats` sets it up, and so does ./test"
+    not CHECKER.exists(),
+    reason="`tools/setup/setup.sh tests/formats` sets it up, and so does ./test",
 )
 def test_files_follow_the_cf_conventions(smoke, files):
     """All recommendations, too, by the checker of IOOS and the table of standard names it ships."""

@@ -106,7 +106,7 @@ def test_claims_that_fail_stand_first(tmp_path):
 def test_equations_mark_what_differs_from_the_print():
     """A corrected part is boxed and the print stands below; the claims beside them exist."""
     claims = [claim(name) for name in paper_claims()]
-    shown = page_content.set_equations(ROOT / "page" / "equations.yaml", claims)
+    shown = page_content.set_equations(ROOT / "scripts/page/templates/equations.yaml", claims)
     equations = shown["model"] + shown["hopf"]
     assert [one["number"] for one in equations] == ["(4)", "(5)", "(6)", "(7), (8)", "(9)", "(10)"]
     for one in equations:

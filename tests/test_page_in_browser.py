@@ -17,7 +17,7 @@ pytestmark = [
     pytest.mark.browser,
     pytest.mark.skipif(
         not (PYTHON.exists() and Path("/usr/bin/chromium").exists()),
-        reason="no Chromium; `setup/setup.sh tests/browser` sets it up, and so does ./test",
+        reason="no Chromium; `tools/setup/setup.sh tests/browser` sets it up, and so does ./test",
     ),
 ]
 

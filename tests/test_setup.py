@@ -9,11 +9,11 @@ from conftest import ROOT, project_files
 from scripts.files.read_config import read
 
 SCRIPTS = [
-    *("reproduce", "test", "setup/setup.sh", ".ci/run", "compilers/run"),
+    *("reproduce", "test", "tools/setup/setup.sh", ".ci/run", "tools/compilers/run"),
     *("benchmarks/run", "fortran/dde/benchmarks/run"),
 ]
 LOCKS = [
-    *(".", "setup", "docs", "fortran/dde/benchmarks", "profiles/slurm", "python"),
+    *(".", "tools/setup", "docs", "fortran/dde/benchmarks", "profiles/slurm", "python"),
     *("tests/browser", "tests/formats"),
 ]
 """Folders with a lock of Python packages."""
@@ -72,7 +72,7 @@ def test_continuous_integration_calls_the_tests():
     job = read(ROOT / ".github" / "workflows" / "ci.yml")["jobs"]["test"]
     images = job["strategy"]["matrix"]["image"]
     assert [re.match(r"debian:(\d+)", image)[1] for image in images] == ["12", "13"]
-    recipe = (ROOT / "containers" / "Containerfile").read_text()
+    recipe = (ROOT / "tools/containers" / "Containerfile").read_text()
     for image in [*images, *re.findall(r"^FROM (\S*/\S+)", recipe, re.MULTILINE)]:
         assert re.search("@sha256:[0-9a-f]{64}$", image)
     actions = [step["uses"] for step in job["steps"] if "uses" in step]

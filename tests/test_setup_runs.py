@@ -25,7 +25,7 @@ def bare() -> Iterator[Path]:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         folder.chmod(0o755)
-        shutil.copytree(ROOT / "setup", folder / "setup")
+        shutil.copytree(ROOT / "tools/setup", folder / "tools/setup")
         shutil.copy(ROOT / "requirements.lock", folder)
         pretend_installed(folder, debian_packages())
         write_script(folder / "bin" / "dpkg-query", f"cat '{folder}/installed'")
@@ -34,7 +34,7 @@ def bare() -> Iterator[Path]:
         calls = f"echo \"$*\" >>'{folder}/calls'"
         write_script(folder / "bin" / "apt-get", f"{calls}; [[ $1 == update ]]")
         write_script(folder / ".venv" / "bin" / "python", calls)
-        files = "setup/requirements.lock requirements.lock setup/setup.sh"
+        files = "tools/setup/requirements.lock requirements.lock tools/setup/setup.sh"
         noted = f"(sha256sum {files}; /usr/bin/python3 --version; pwd) >.venv/made-from"
         subprocess.run(["bash", "-c", noted], cwd=folder, check=True)
         yield folder
@@ -43,7 +43,7 @@ def bare() -> Iterator[Path]:
 def set_up_in(folder: Path, *before: str, part: tuple[str, ...] = ()) -> tuple[int, str]:
     """Exit status and words of the set-up of a folder, for all or for a part."""
     run = subprocess.run(
-        [*before, folder / "setup" / "setup.sh", *part],
+        [*before, folder / "tools/setup/setup.sh", *part],
         env={**os.environ, "PATH": f"{folder}/bin:/usr/bin:/bin", "PIP_NO_INDEX": "1"},
         stdin=subprocess.DEVNULL,
         capture_output=True,
@@ -59,7 +59,7 @@ def calls_in(folder: Path) -> list[str]:
     return calls.read_text().splitlines() if calls.exists() else []
 
 
-def debian_packages(folder: str = "setup") -> list[str]:
+def debian_packages(folder: str = "tools/setup") -> list[str]:
     text = (ROOT / folder / "apt-packages.txt").read_text()
     return sorted({line for line in text.split("\n") if line and not line.startswith("#")})
 
@@ -108,7 +108,7 @@ def test_packages_of_a_profile_are_added(bare):
         assert set_up_in(bare, part=("profiles/slurm",))[0] == 0
     build_tool, added = calls_in(bare)
     assert "pip install" in added
-    assert build_tool.endswith("--require-hashes -r setup/requirements.lock")
+    assert build_tool.endswith("--require-hashes -r tools/setup/requirements.lock")
     assert added.endswith("--require-hashes -r profiles/slurm/requirements.lock")
     assert "--no-build-isolation" in added
     (bare / ".venv" / "made-from-slurm").unlink()
@@ -139,7 +139,7 @@ def test_folder_in_which_nothing_can_be_built_is_refused(bare):
     were tried with a build and a run."""
     for character in [*'${};"\\|<>: []\n\t', "#%=()&*?~'!@,+`^é"]:
         folder = bare / f"a{character}b"
-        for name in ("setup", "bin"):
+        for name in ("tools", "bin"):
             shutil.copytree(bare / name, folder / name)
         status, said = set_up_in(folder)
         assert ("cannot work in" in said) == (len(character) == 1)
@@ -147,13 +147,13 @@ def test_folder_in_which_nothing_can_be_built_is_refused(bare):
             assert (status, len(said.splitlines())) == (1, 1)
             named = str(folder).replace("\n", "\\n").replace("\t", "\\t")
             assert f"'{named}': a path without " in said
-            assert {path.name for path in folder.iterdir()} == {"setup", "bin"}
+            assert {path.name for path in folder.iterdir()} == {"tools", "bin"}
 
 
 def test_each_compiler_has_a_preset():
-    """By the name of its package, which compilers/run builds with."""
+    """By the name of its package, which tools/compilers/run builds with."""
     presets = json.loads((ROOT / "fortran" / "CMakePresets.json").read_text())["configurePresets"]
     names = {preset["name"] for preset in presets}
-    lists = [path.parent for path in ROOT.glob("compilers/*/apt-packages.txt")]
+    lists = [path.parent for path in ROOT.glob("tools/compilers/*/apt-packages.txt")]
     wanted = {name for folder in lists for name in debian_packages(str(folder.relative_to(ROOT)))}
     assert {name for name in wanted if re.match("(gfortran|flang)-", name)} <= names

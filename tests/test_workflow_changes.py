@@ -77,7 +77,7 @@ def test_changed_files_of_the_project_make_their_results_anew(scratch):
         "scripts/studies/events/claims.jinja",
         "scripts/studies/routes/stretches.py",
         "benchmarks/measured.tsv",
-        "page/style.css",
+        "scripts/page/templates/style.css",
     )
     run = scratch.snakemake("--dry-run", *SMOKE)
     assert rules_in(run.stdout) == {"all", "page", "captions", "claims", "work_precision"}

@@ -12,11 +12,10 @@ from scripts.files import marked_words
 from scripts.files.outputs import logged, written
 from scripts.files.tsv import read_table
 from scripts.page import findings, mathematics, page_content, page_provenance
-from scripts.page.page_assets import ASSETS, PROJECT
+from scripts.page.page_assets import ASSETS, PROJECT, TEMPLATES
 from scripts.plans.declare import MAIN
 from scripts.tables.motion_rows import COLOURS
 
-TEMPLATES = PROJECT / "page"
 BLOCK, HERO = "figure_1", "true_torus"
 """The paper's figures of the model and of the findings, at the top of the page."""
 

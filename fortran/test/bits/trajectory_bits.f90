@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Trajectories to the last bit, so that those of different compilers can be compared
-!> (compilers/run): a line a sample with case, time, theta, u and ln v, numbers as the
+!> (tools/compilers/run): a line a sample with case, time, theta, u and ln v, numbers as the
 !> hexadecimal digits of their bits.
 program trajectory_bits
    use, intrinsic :: iso_fortran_env, only: output_unit

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Sets up what is missing: the Debian packages of setup/apt-packages.txt, then
+# Sets up what is missing: the Debian packages of tools/setup/apt-packages.txt, then
 # the Python packages of requirements.lock in .venv. When all is there it does
 # nothing and needs no network. An interrupted run is repaired by the next one.
-# `setup/setup.sh FOLDER` does the same for those lists that FOLDER has, with FOLDER/.venv; but
+# `tools/setup/setup.sh FOLDER` does the same for those lists that FOLDER has, with FOLDER/.venv; but
 # packages of a profile, which work inside Snakemake, are added to .venv.
 set -euo pipefail
-cd -P "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
+cd -P "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.."
 
-list=setup/apt-packages.txt
+list=tools/setup/apt-packages.txt
 lock=requirements.lock
 venv=.venv
 if (($#)); then
@@ -17,7 +17,7 @@ if (($#)); then
 fi
 made_from=$venv/made-from
 if [[ ${1-} == profiles/* ]]; then
-    setup/setup.sh
+    tools/setup/setup.sh
     venv=.venv
     made_from=.venv/made-from-${1##*/}
 fi
@@ -65,7 +65,7 @@ ask_for_packages() {
 # What the virtual environment must have been made from: the locked packages, the interpreter,
 # and the folder, since the scripts of a virtual environment hold its path.
 venv_source() {
-    sha256sum setup/requirements.lock "$lock" setup/setup.sh
+    sha256sum tools/setup/requirements.lock "$lock" tools/setup/setup.sh
     /usr/bin/python3 --version
     pwd
 }
@@ -82,7 +82,7 @@ make_venv() {
     unset PYTHONHOME PYTHONPATH PIP_CONSTRAINT PIP_PREFIX PIP_ROOT PIP_TARGET PIP_USER
     [[ $made_from != "$venv/made-from" ]] || /usr/bin/python3 -m venv --clear "$venv"
     # what comes as source is built by the locked build tool, not by one that pip would look for
-    install_locked setup/requirements.lock
+    install_locked tools/setup/requirements.lock
     install_locked "$lock" --no-build-isolation --use-pep517
     venv_source >"$made_from"
 }
