@@ -8,12 +8,10 @@ import math
 import numpy as np
 import pytest
 import xarray as xr
-from namelist_groups import OBSERVATION, in_groups
+from namelist_groups import OBSERVATION
 from scipy.integrate import solve_ivp
 
 ONE_HISTORY = {"theta": [0.0], "u": [0.0], "v": [1.1]}
-REST = {"epsilon_part": [2, 2], "tau_part": [1, 1]}
-"""A point at which the block comes to rest."""
 SECTION = ("maximum", "section_theta", "section_u")
 
 
@@ -73,26 +71,6 @@ def test_sweep_is_in_its_order(programs, groups):
     maxima, of_alone = found.maximum.values, alone.maximum.values[::-1]
     np.testing.assert_array_equal(maxima[0], of_alone[0])
     assert not np.array_equal(maxima[1], of_alone[1])
-
-
-def test_fixed_point_has_the_roots_and_no_more(programs, groups):
-    """Without delay three exponents, without error; maxima while it decays, NaN beyond them."""
-    groups["points"] |= REST
-    found = programs.made_of("attractors", groups)
-    assert found["class"].values.tolist() == [1, 1]
-    roots = np.roots([1, 1.8, 0.64 + 0.8 - 1.3 * 0.8, 0.64])
-    for exponents in found.lyapunov_exponent.values:
-        np.testing.assert_allclose(exponents[:3], np.sort(roots.real)[::-1], atol=1e-12)
-    assert found.lyapunov_error[:, :3].values.tolist() == [[0.0] * 3] * 2
-    assert np.isnan(found.lyapunov_exponent[:, 3]).all()
-    assert found.sign[:, :3].values.tolist() == [[-1.0] * 3] * 2
-    assert found.period.values.tolist() == found.base_1.values.tolist() == [0, 0]
-    # the approach ends where the block is close to rest: with the first history soon
-    kept = np.isfinite(found.maximum).sum("kept").values
-    assert kept[0] < 5 < kept[1] < 100
-    assert (np.diff(found.maximum.values[1, : kept[1]]) < 0).all()
-    np.testing.assert_array_equal(found.maximum.min("kept"), found.smallest_maximum)
-    np.testing.assert_array_equal(found.maximum.max("kept"), found.largest_maximum)
 
 
 def test_recurrence_time_of_a_cycle_is_its_period(programs, groups):
@@ -160,12 +138,3 @@ def test_same_bytes_in_one_thread_and_in_two(programs, groups, monkeypatch, refi
         programs.made_of("attractors", groups)
         contents.add(programs.output.read_bytes())
     assert len(contents) == 1
-
-
-def test_points_without_a_history_are_refused(programs, groups):
-    given = in_groups(groups)
-    del given["histories"]
-    done = programs.run_groups("attractors", given)
-    assert "namelist group &histories: " in done.stderr
-    assert "expected names and values before the initial time" in done.stderr
-    assert programs.left_behind() == []

@@ -116,7 +116,10 @@ def test_whatever_the_schema_does_not_allow_is_refused(whole):
         lines = refuse(spoiled)
         for path, wrong, words in spoils:
             start = f"{place_of(path[:-1])}: {path[-1]} = {wrong!r}; expected "
-            assert [line for line in lines if line.startswith(start) and words in line], (path, words)
+            assert [line for line in lines if line.startswith(start) and words in line], (
+                path,
+                words,
+            )
 
 
 def test_keys_that_the_schema_does_not_know_are_refused(whole):

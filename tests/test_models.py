@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 
 from conftest import torus
 from generator.compile import compile_module
-from generator.definition import read_files, read_model
+from generator.definition import read_files
 from generator.module import write_module
 from scripts.config.check_config import checked
 from scripts.config.checks import place_of
@@ -44,6 +44,10 @@ MACKEY_GLASS = {
     "steady_state": {"near": {"y": 1}},
 }
 PLACE = {"beta": 0.2, "n": 10.0, "rate": 0.1, "tau": 17.0}
+LINE = {
+    **{"model": "mackey_glass", "along": "tau", "window": [5, 20]},
+    **{key: PLACE[key] for key in ("beta", "n", "rate")},
+}
 
 
 @pytest.fixture
@@ -119,6 +123,8 @@ WRONG = [
     (("models", "slip_cut_off"), MACKEY_GLASS, "slip_cut_off: the project has a law of this name"),
     (("models", "mine"), MACKEY_GLASS, "mine: a law has this name"),
     (("models", "mackey_glass", "parameters"), {"t_end": {}}, "parameters t_end: keys of all that"),
+    (("routes", "lines", "mine"), {**LINE, "count": 2}, "key ['history'] is missing: y of"),
+    (("cycles", "lines", "mine"), LINE, "key ['history'] is missing: y of"),
     # laws
     (("scenes", "torus", "law"), "yours", "law = 'yours'; expected one of:"),
     (("scenes", "torus", "speed"), 0, "speed = 0; expected speed, nondim"),
@@ -209,16 +215,6 @@ def test_scene_of_a_driven_model_has_no_roots(config):
     # from the record of the first check, too
     assert laws.is_driven(whole, "driven")
     assert roots_in_words(None) == "not declared"
-
-
-@pytest.mark.parametrize(("section", "name"), [("routes", "lines"), ("cycles", "lines")])
-def test_line_of_a_model_has_its_own_history(with_model, section, name):
-    line = {"model": "mackey_glass", **PLACE, "along": "tau", "window": [5, 20], "count": 2}
-    del line["tau"]
-    if section == "cycles":
-        del line["count"]
-    words = refusals(with_model, (section, name, "mine"), line)
-    assert "key ['history'] is missing: y of" in words[0]
 
 
 def test_law_without_inertia_has_one_parameter_more(with_law):
@@ -412,23 +408,3 @@ def test_passages_near_steady_sliding_keep_their_digits(programs, good_groups, l
     expected = first_passage(law, 0.6, 0.5, own.get("c", 0.0), own.get("zeta", 0.0), 1.1)
     # the absolute tolerance is far above the motion
     assert passage == pytest.approx(expected, abs=0.05)
-
-
-def test_other_state_of_rest_is_a_fixed_point(programs, good_groups, monkeypatch):
-    """The definition has y = 0, which is unstable; the motion comes to rest at y = 1."""
-    fork = {
-        **{"name": "fork", "parameters": {"r": {}, "tau": {"at_least": 0}}},
-        **{"states": {"y": "state"}, "equations": {"y": "r*y(t - tau) - y**3"}},
-        "steady_state": {"y": "0"},
-    }
-    compile_module(write_module(read_model(fork)), programs.folder / "fork.so")
-    monkeypatch.setenv("MODELS", str(programs.folder))
-    model = {"name": "fork", "parameters": ["r", "tau"], "values": [1.0, 0.1]}
-    points = {"name": "fork", "model": model, "sweep": "none", "refinements": 0, "kept": 10}
-    histories = {"names": ["y"], "values": [0.5]}
-    observation = good_groups["attractors"]["observation"]
-    groups = {"observation": observation, "points": points, "histories": histories}
-    found = programs.made_of("attractors", groups)
-    assert found["class"].attrs["flag_meanings"].split()[int(found["class"][0])] == "fixed_point"
-    # of y' = y(t - 0.1) - 3 y, and none is zero
-    assert (found.lyapunov_exponent[0].dropna("exponent") < -0.5).all()

@@ -64,15 +64,6 @@ def test_scene_agrees_with_scipy(programs, scene, filled_config, name, tolerance
     check_against_scipy(programs.made_by("trajectory", scene), scene, 100 * tolerance)
 
 
-@pytest.mark.parametrize("tau", [0.0, 1e-3, 0.37, 29.9, 31.0])
-def test_delays_of_any_length_agree_with_scipy(programs, scene, tau):
-    """None, below a step, no multiple of a sample, nearly and more than the whole run."""
-    scene["history"] = {"theta": 0.3, "u": -0.2, "v": 0.7}
-    scene |= {"tau": tau, "t_end": min(30.0, 200 * tau or 30.0), "t_transient": 0.0}
-    scene["sample_interval"] = scene["t_end"] / 64
-    check_against_scipy(programs.made_by("trajectory", scene), scene, 1e-7)
-
-
 def test_maxima_of_fast_events_are_stored(programs, good_inputs, scene):
     """Events shorter than the interval, of a cycle with two maxima; `slip_events` locates those."""
     scene |= {"tau": 9.0, "epsilon": 0.9, "xi": 0.5, "gamma": 1e6, "t_end": 900.0}
