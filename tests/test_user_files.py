@@ -11,7 +11,7 @@ import pytest
 import xarray as xr
 from dry_runs import jobs_in
 
-from conftest import ROOT, Project, rules_in, write_script
+from conftest import ROOT, Project, rules_in
 from scripts.files.read_config import ConfigError, merge, parse, read
 from scripts.files.tsv import read_table
 from scripts.plans.studies import kinds_of_results
@@ -62,10 +62,6 @@ FIGURES = [
     *("scenes/my_scene", "exponents/my_scene", "planes/my_plane", "routes/my_route"),
     *("routes/my_start", "cycles/my_cycles", "atlas/my_atlas", "scenes/my_fault"),
 ]
-MY_SCENE = """
-scenes:
-  mine: { tau: 3, epsilon: 0.6, xi: 7e-1, gamma: 0.9, history: { v: 1.2 }, t_end: 60 }
-"""
 
 
 def write_new_file(path: Path) -> subprocess.CompletedProcess[str]:
@@ -167,23 +163,6 @@ def test_bad_file_stops_the_workflow_in_words(smoke, tmp_path):
     assert "scene 'torus': tau = -1.0; expected " in run.stdout
     assert "Traceback" not in run.stdout
     assert state_of(smoke.folder / "results") == before
-
-
-def test_program_that_fails_leaves_no_output(scratch):
-    """Even if it wrote half of it; its reason is on the screen without its progress, which is in
-    the log."""
-    told, reason = "trajectory: 5 %, 1 of 20, 2 s left", "error: it cannot go on"
-    words = f"echo half >\"$3\"; echo '{told}' >&2; echo '{reason}' >&2; exit 3"
-    write_script(scratch.folder / "build" / "release" / "bin" / "spring_block", words)
-    (scratch.folder / "mine.yaml").write_text(MY_SCENE)
-    run = scratch.reproduce("mine.yaml", "results/mine/trajectories/mine.nc")
-    assert run.returncode != 0
-    assert f"\n{reason}\n" in run.stdout
-    assert told not in run.stdout
-    results = scratch.folder / "results" / "mine"
-    assert list((results / "trajectories").glob("mine*")) == []
-    log = (results / "logs" / "trajectories" / "mine.log").read_text()
-    assert log.splitlines() == [told, reason]
 
 
 def test_build_that_fails_leaves_no_program(project):
@@ -291,13 +270,6 @@ def test_claims_of_a_user_may_name_scenes_of_the_paper(tmp_path):
     assert list(plan.config["scenes"]) == ["chaos"]
     assert plan.figures == {}
     assert "<results>/tables/claims.tsv" in plan.targets()
-
-
-def test_one_claim_is_one(tmp_path):
-    ledger = tmp_path / "tables" / "claims.json"
-    ledger.parent.mkdir()
-    ledger.write_text('[{"verdict": "reproduced", "whose": "the user"}]')
-    assert Plan({}, str(tmp_path), True, {}, {"mine": {}}).summary().startswith("1 claim: 1 repr")
 
 
 TWO_LAWS = """
