@@ -3,16 +3,11 @@
 The suite attractor_points shows that a failed run changes no other one.
 """
 
-import math
-
 import numpy as np
 import pytest
-import xarray as xr
 from namelist_groups import OBSERVATION
-from scipy.integrate import solve_ivp
 
 ONE_HISTORY = {"theta": [0.0], "u": [0.0], "v": [1.1]}
-SECTION = ("maximum", "section_theta", "section_u")
 
 
 @pytest.fixture
@@ -58,73 +53,6 @@ def test_own_parameter_of_a_law_is_an_axis(programs, groups):
     expected = np.array([one.lyapunov_exponent.values[0] for one in alone])
     np.testing.assert_array_equal(found.lyapunov_exponent, expected)
     assert np.nanmax(np.abs(expected[0] - expected[1])) > 1e-3
-
-
-def test_sweep_is_in_its_order(programs, groups):
-    """The first point is as in a run without sweep, the others start from the point before."""
-    groups["points"] |= {"tau_part": [2, 2], **ONE_HISTORY}
-    alone = programs.made_of("attractors", groups)
-    groups["points"]["sweep"] = "down"
-    found = programs.made_of("attractors", groups)
-    assert found.attrs["sweep"] == "down"
-    np.testing.assert_array_equal(found.epsilon, alone.epsilon[::-1])
-    maxima, of_alone = found.maximum.values, alone.maximum.values[::-1]
-    np.testing.assert_array_equal(maxima[0], of_alone[0])
-    assert not np.array_equal(maxima[1], of_alone[1])
-
-
-def test_recurrence_time_of_a_cycle_is_its_period(programs, groups):
-    """Without delay, beside SciPy's solution; a fixed point has none."""
-    groups["observation"]["t_transient"] = 400.0
-    groups["points"] |= {"tau_part": [1, 1], **ONE_HISTORY}
-    at_rest, of_cycle = programs.made_of("attractors", groups).recurrence_time.values
-    assert math.isnan(at_rest)
-
-    def slopes(_t, y):
-        theta, u, v = y[0], y[1], math.exp(y[2])
-        return [-v * (theta + 1.5 * y[2]), v - 1, -0.64 * (u + (theta + y[2]) / 0.8) / v]
-
-    def rise(_t, y):
-        return y[2]
-
-    rise.direction = 1
-    start = [0.0, 0.0, math.log(1.1)]
-    run = solve_ivp(slopes, (0.0, 600.0), start, method="DOP853", rtol=1e-9, events=rise)
-    np.testing.assert_allclose(of_cycle, np.diff(run.t_events[0])[-1], rtol=1e-6)
-
-
-def test_the_last_points_are_kept(programs, groups):
-    """The number of points that `kept` gives, or none at all."""
-    groups["points"] |= {"epsilon_part": [3, 3], "tau_part": [2, 2]}
-    whole = programs.made_of("attractors", groups)
-    groups["points"]["kept"] = 0
-    assert not {*SECTION} & {*programs.made_of("attractors", groups)}
-    groups["points"]["kept"] = 3
-    found = programs.made_of("attractors", groups)
-    for key in SECTION:
-        for values, kept in zip(whole[key].values, found[key].values, strict=True):
-            np.testing.assert_array_equal(kept, values[np.isfinite(values)][-3:])
-
-
-def test_paths_are_kept_where_the_block_moves(programs, groups):
-    """From v = 1 on for `t_path`, or a period; nothing else in the file changes."""
-    groups["points"] |= ONE_HISTORY
-    without = programs.made_of("attractors", groups)
-    groups["observation"]["t_path"] = 12.0
-    found = programs.made_of("attractors", groups)
-    assert found.attrs.pop("t_path") == 12.0
-    xr.testing.assert_identical(found.drop_dims("path_point").drop_vars("path_length"), without)
-    lengths = found.path_length.values
-    moving = found["class"].values != 1
-    assert (lengths > 0).tolist() == moving.tolist()
-    assert 0 < moving.sum() < 4
-    assert found.path_length.attrs["sample_dimension"] == "path_point"
-    ends = np.cumsum(lengths)[moving]
-    starts = ends - lengths[moving]
-    assert found.path_time.values[starts].tolist() == [0.0] * len(starts)
-    last = found.path_time.values[ends - 1]
-    assert ((9.0 < last) & (last <= 12.0)).all()
-    np.testing.assert_allclose(found.path_ln_v.values[starts], 0.0, atol=1e-6)
 
 
 @pytest.mark.parametrize("refinements", [0, 1])

@@ -10,7 +10,6 @@ from made_up_results import of_other_model, trajectory
 from matplotlib import pyplot as plt
 
 from scripts.drawing import trajectories
-from scripts.drawing.along_parameter import mark_scenes
 from scripts.drawing.style import METADATA, break_titles, logged, move_offsets, save
 
 pytestmark = pytest.mark.usefixtures("styled")
@@ -102,15 +101,3 @@ def test_axes_keep_their_titles_and_say_their_factor():
     assert axes.get_ylabel().endswith("+1}$)")
     assert_on_page(figure)
     assert not move_offsets(figure)
-
-
-def test_names_of_scenes_on_a_line_are_apart():
-    figure, axes = plt.subplots(figsize=(3.0, 2.0))
-    axes.set_xlim(0, 20)
-    place = {"epsilon": 0.5, "xi": 0.8, "gamma": 0.8}
-    mark_scenes(
-        axes, {"torus": {**place, "tau": 10.0}, "a_torus": {**place, "tau": 12.5}}, place, "tau"
-    )
-    figure.canvas.draw()
-    first, second = (text.get_window_extent() for text in axes.texts)
-    assert not first.overlaps(second)

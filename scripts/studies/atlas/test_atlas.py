@@ -63,17 +63,6 @@ def tiny(smoke_config) -> dict:
     return {**smoke_config, "atlas": {**smoke_config["atlas"]}}
 
 
-def test_number_of_parts_does_not_matter(programs, tiny):
-    """The tables of a plane in one part and in three are the same."""
-    tables = []
-    for parts in (1, 3):
-        runs = [xr.load_dataset(path) for path in made_parts(programs, tiny, parts)]
-        tables.append(programs.folder / f"{parts}.tsv")
-        write_table(tables[-1], [row for run in runs for row in attractor_tables.rows_of(run)])
-    assert len(read_table(tables[0])) == 16
-    assert tables[0].read_bytes() == tables[1].read_bytes()
-
-
 def test_points_not_computed_reach_table_figure_and_page(programs, tiny):
     """All of them, with class and without exponents; the page has words for the others."""
     (path,) = made_parts(programs, tiny, 1, refinements=1, abscissa_count=13, ordinate_count=13)

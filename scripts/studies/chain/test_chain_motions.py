@@ -35,17 +35,6 @@ def row_of(programs, config: dict, **given) -> dict:
     return motion_row(trajectory, programs.made_of("exponents", EXPONENTS.groups(config, "mine")))
 
 
-def test_stiff_springs_keep_blocks_alike(programs, config):
-    """At kappa = 10 two blocks of scene oscillation move as one: a cycle, one zero exponent."""
-    row = row_of(programs, config, kappa=10.0)
-    assert (row["motion"], row["positive_exponents"], row["zero_exponents"]) == (
-        "synchronous",
-        0,
-        1,
-    )
-    assert len(exponents_of(row)) == 4
-
-
 def test_blocks_without_springs_between_have_the_exponents_of_one(programs, config):
     """kappa = 0: each exponent of the block of scene oscillation twice, but for those of the flow,
     of which one is not measured.

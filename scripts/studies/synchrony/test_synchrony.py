@@ -75,21 +75,6 @@ def test_motion_without_cycle_has_no_multipliers(programs, config):
     assert growing_ranges(found) == [(1.0, found.zero_s.item())]
 
 
-@pytest.mark.parametrize(("blocks", "alike"), [(6, True), (7, False)])
-def test_largest_chain_that_moves_as_one(programs, config, blocks, alike):
-    """Along the paper's torus disturbances grow up to s = 1.255: seven blocks separate."""
-    assert (largest_alike([(1.0, 1.25493)], 1.0) >= blocks) == alike
-    config["scenes"]["mine"] = {
-        **{**config["scenes"]["torus"], "blocks": blocks, "kappa": 1.0, "t_end": 8000.0},
-        **{"disturbance": {"ln_v": 1e-6, "seed": 1, "block": 0}},
-        **{"sample_interval": 0.5, "tolerance": 1e-12},
-    }
-    found = programs.made_of("trajectory", scene_groups(config, "mine"))
-    spread = np.log(found.v).std("block")
-    early, late = (float(spread.sel(t=slice(t, t + 500)).max()) for t in (3000, 7500))
-    assert (late < early) == alike
-
-
 @pytest.mark.parametrize(
     "ranges", [[], [(1.0, 1.2)], [(1.0, math.inf)], [(1.5, 1.9)], [(1.1, 1.15), (2.0, 2.2)]]
 )
