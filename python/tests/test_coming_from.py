@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Inputs that gave wrong numbers elsewhere (docs/coming-from.md): right here, or refused in words.
+"""Inputs that gave wrong numbers elsewhere (docs/coming-from.md): right here.
 
-Refused, and tested elsewhere: no history, times before the start, a longer delay than a run knows
-(test_runs.py), as is a run that cannot go on.
+What is refused in words: test_refusals.py.
 """
 
 import math
@@ -65,14 +64,6 @@ def test_errors_follow_the_tolerance_whatever_the_output(method, tolerance):
         assert np.abs(run.y[0] - known).max() < CLOSE * tolerance
         ends.add(run.y[0, -1])
     assert len(ends) == 1
-
-
-@pytest.mark.parametrize("spacing", SPACINGS)
-def test_no_delay(spacing):
-    """ddeint: held between output times, y' = -y gave 0 at a spacing of 1."""
-    times = np.arange(0, 10 + spacing / 2, spacing).clip(max=10)
-    run = dk.Model({"y": "-y"}).integrate(1, 10, t_eval=times)
-    np.testing.assert_allclose(run.y[0], np.exp(-times), rtol=1e-8)
 
 
 @pytest.mark.parametrize("method", LEAST_ORDERS)
@@ -152,25 +143,6 @@ def test_one_number_in_any_form(one):
         assert DELAYED.integrate(given, 2, t_eval=[2]).y[0, 0] == pytest.approx(-1 / 2, abs=1e-12)
     if not callable(one):
         assert DELAYED.integrate(0, 1, initial=one, t_eval=[1]).y[0, 0] == 1
-
-
-REFUSED = {
-    "a short past": (lambda m, t: m.run((t, 0 * t), 2), "from t = -0.5 to 0.0; expected from -1"),
-    "a past that ends": (lambda m, t: m.run((t - 1, t), 2), "to -1.0; expected from -1.0 to 0"),
-    "a run too short": (
-        lambda m, _: m.run(m.run(1, 0.5), 2, t_start=0.5),
-        "known from t = 0.0 to 0.5; expected from -0.5 to 0.5",
-    ),
-    "times after the end": (lambda m, _: m.run(1, 0.3, t_eval=[0.1, 0.4]), "t_eval: 0.4; expected"),
-    "several numbers for one state": (lambda m, _: m.run([1.0, 2.0], 1), "expected a number"),
-    "no name": (lambda m, _: DECAY.run([1.0, 2.0], 1), "expected a value for each of y, z"),
-}
-
-
-@pytest.mark.parametrize(("call", "words"), REFUSED.values(), ids=REFUSED)
-def test_refused(call, words):
-    with pytest.raises(dk.ModelError, match=words):
-        call(DELAYED, np.linspace(-0.5, 0, 9))
 
 
 def test_a_past_that_begins_at_the_delay_but_for_rounding():
