@@ -237,18 +237,6 @@ def test_name_that_makes_no_file_name_is_refused(config, path):
         assert all(any(line.startswith(start) for line in lines) for start in starts), lines
 
 
-def test_all_problems_are_listed_at_once(config):
-    """One run of the check is enough to mend a file."""
-    config["scenes"]["torus"]["tau"] = -1.0
-    config["scenes"]["chaos"]["xi"] = "much"
-    config["spectra"]["segments"] = 0
-    config["threads"] = 4
-    lines = refuse(config)
-    for part in ("tau = -1.0", "xi = 'much'", "segments = 0", "unknown key ['threads']"):
-        assert sum(part in line for line in lines) == 1
-    assert len(lines) == 4
-
-
 def test_part_of_too_many_points_is_refused(config):
     """One run of the program takes a million of them."""
     config["atlas"] |= {
@@ -270,18 +258,6 @@ def test_endless_combinations_are_counted_not_made(config):
     put(config, (*FAMILY, "history"), {"theta": many, "u": many, "v": many})
     put(config, (*FAMILY, "epsilon"), [0.5])
     assert f"{10**18} combinations; expected at most 1000" in refuse(config)[0]
-
-
-@pytest.mark.parametrize("along", ["tau", "v"])
-def test_route_along_any_parameter_and_the_history(config, along):
-    values = {"tau": 7.0, "epsilon": 0.5, "xi": 0.5, "gamma": 0.8}
-    values.pop(along, None)
-    line = {"along": along, "window": [0.1, 0.2], "count": 3, **values}
-    config["routes"]["lines"]["mine"] = line
-    checked(copy.deepcopy(config))
-    missing = list(values)[-1]
-    del line[missing]
-    assert refuse(config) == [f"config routes lines mine: key ['{missing}'] is missing"]
 
 
 @pytest.mark.parametrize("section", ["attractors", "atlas"])

@@ -10,7 +10,7 @@ from made_up_results import of_other_model, trajectory
 from matplotlib import pyplot as plt
 
 from scripts.drawing import trajectories
-from scripts.drawing.style import METADATA, break_titles, logged, move_offsets, save
+from scripts.drawing.style import METADATA, break_titles, logged, save
 
 pytestmark = pytest.mark.usefixtures("styled")
 
@@ -86,18 +86,3 @@ def test_long_titles_are_broken_on_the_page():
     assert_on_page(figure)
     assert whole.get_window_extent().width == before
     assert formula.replace(" ", "") in figure.get_suptitle()
-
-
-def test_axes_keep_their_titles_and_say_their_factor():
-    """Empty tick labels are no titles to break, and no factor lies over a label."""
-    figure, axes = plt.subplots(figsize=(2.0, 2.0))
-    axes.plot([0, 4e-7], [1, 1 + 4e-9])
-    axes.set(xlabel="$u$")
-    break_titles(figure)
-    assert not any(label.get_wrap() for label in axes.get_yticklabels())
-    figure.draw_without_rendering()
-    assert move_offsets(figure)
-    assert re.fullmatch(r"\$u\$\n\(\$.*10\^\{.7\}.*\$\)", axes.get_xlabel())
-    assert axes.get_ylabel().endswith("+1}$)")
-    assert_on_page(figure)
-    assert not move_offsets(figure)
