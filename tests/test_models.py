@@ -229,49 +229,44 @@ def test_law_without_inertia_has_one_parameter_more(with_law):
 
 
 AXES = {
-    ("routes", "lines", "mine"): {
-        "along": "speed",
-        "window": [0.5, 2.0],
-        "count": 3,
-        "epsilon": 0.5,
-    },
-    ("cycles", "lines", "mine"): {"along": "speed", "window": [0.5, 2.0], "epsilon": 0.5},
-    ("atlas", "planes", "mine"): {"ordinate": "speed", "ordinate_window": [0.5, 2.0]},
-    ("hopf_curves", "mine"): {
-        **{"ordinate": "speed", "ordinate_window": [0.5, 2.0]},
-        "abscissa_window": [0.0, 1.0],
-    },
+    ("routes", "lines"): (
+        {"along": "speed", "window": [0.5, 2.0], "count": 3, "epsilon": 0.5},
+        lambda config: routes.groups(config, "mine", "near")["points"],
+    ),
+    ("cycles", "lines"): (
+        {"along": "speed", "window": [0.5, 2.0], "epsilon": 0.5},
+        lambda config: cycles.groups(config, "mine")["cycles"],
+    ),
+    ("atlas", "planes"): (
+        {"ordinate": "speed", "ordinate_window": [0.5, 2.0]},
+        lambda config: atlas.groups(config, "mine", "1")["points"],
+    ),
+    ("hopf_curves",): (
+        {"ordinate": "speed", "ordinate_window": [0.5, 2.0], "abscissa_window": [0.0, 1.0]},
+        lambda config: hopf.groups(config, "mine")["hopf_curves"],
+    ),
 }
-"""What may be along a law's own parameter."""
+"""What may be along a law's own parameter, by its section, and the group that a program gets."""
 
 
 @pytest.fixture(params=AXES)
 def axis(request, with_law) -> dict:
     """An entry along `speed`, in a configuration with it."""
-    *path, name = request.param
-    section = with_law
-    for key in path:
+    section, (entry, _) = with_law, AXES[request.param]
+    for key in request.param:
         section = section[key]
-    section[name] = AXES[request.param] | {"law": "mine", "tau": 7.0, "xi": 0.5, "gamma": 0.8}
-    return section[name]
+    section["mine"] = {**entry, "law": "mine", "tau": 7.0, "xi": 0.5, "gamma": 0.8}
+    return section["mine"]
 
 
-def test_own_parameter_is_an_axis(with_law, axis):
+@pytest.mark.parametrize("axis", AXES, indirect=True)
+def test_own_parameter_is_an_axis(request, with_law, axis):
     """It has no value, not even its default; programs get its name."""
-    config = checked(with_law)
+    _, group_of = AXES[request.node.callspec.params["axis"]]
+    group = group_of(checked(with_law))
     assert "speed" not in axis
-    if axis is config["hopf_curves"].get("mine"):
-        group = hopf.groups(config, "mine")["hopf_curves"]
-        named = group["along"][1]
-    elif axis is config["cycles"]["lines"].get("mine"):
-        group = cycles.groups(config, "mine")["cycles"]
-        named = group["along"]
-    else:
-        survey, part = (atlas, "1") if "ordinate" in axis else (routes, "near")
-        group = survey.groups(config, "mine", part)["points"]
-        named = group["axes"][-1]["along"]
-    assert named == "speed"
     assert "speed" not in group["model"]["parameters"]
+    assert "'speed'" in str({key: one for key, one in group.items() if key in ("along", "axes")})
 
 
 def test_wrong_axis_is_refused(with_law, axis):

@@ -85,20 +85,6 @@ def test_good_input_makes_one_file(programs, good_groups, program):
         assert again == programs.output.read_bytes()
 
 
-def test_result_is_on_the_disk_before_it_has_its_name(programs, good_groups, monkeypatch):
-    """A loss of power leaves no empty file under a final name. Here waiting for the disk ends the
-    program."""
-    source = programs.folder.with_name("fsync.c")
-    source.write_text("#include <unistd.h>\nint fsync(int file) { _exit(file < 0 ? 1 : 7); }\n")
-    preloaded = source.with_suffix(".so")
-    subprocess.run(["cc", "-shared", "-fPIC", "-o", preloaded, source], check=True)
-    programs.write(good_groups["linear_stability"])
-    monkeypatch.setenv("LD_PRELOAD", str(preloaded))
-    assert programs.run("linear_stability", "input.nml", "output.nc").returncode == 7
-    (unfinished,) = programs.left_behind()
-    assert re.fullmatch(r"output\.nc\.\d+\.part", unfinished)
-
-
 @pytest.mark.parametrize(("program", "group", "changes", "words"), REFUSED)
 def test_bad_value_is_refused(programs, good_groups, program, group, changes, words):
     """Before the run. The line names the file, group, key and range."""
