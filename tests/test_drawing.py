@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from figure_contents import assert_on_page
-from made_up_results import of_other_model, trajectory
+from made_up_results import trajectory
 from matplotlib import pyplot as plt
 
 from scripts.drawing import trajectories
@@ -43,18 +43,6 @@ def test_missed_part_of_a_maximum():
         assert trajectories.share_missed(wave) == pytest.approx(most, rel=0.1)
     steady = trajectory(np.arange(9.0), v=np.ones(9))
     assert trajectories.share_missed(steady) == 0
-
-
-def test_portrait_of_one_state_is_over_its_slope():
-    """Without a mark of steady sliding, which is that of the block."""
-    t = np.linspace(0.0, 60.0, 6001)
-    run = of_other_model(trajectory(t, v=np.cos(t)))
-    _, axes = plt.subplots()
-    trajectories.draw_portrait(axes, run, 20.0)
-    attractor = axes.lines[-1]
-    assert (attractor.get_label(), len(axes.lines)) == ("attractor", 2)
-    np.testing.assert_allclose(attractor.get_xdata()[1:-1], -np.sin(t[-2001:][1:-1]), atol=1e-4)
-    assert (axes.get_xlabel(), axes.get_ylabel()) == (r"slope $\dot{y}$", "the v $y$")
 
 
 def test_saved_figures_have_the_same_bytes_each_time(tmp_path):

@@ -15,7 +15,6 @@ from made_up_results import (
     cycles_to_a_torus,
     finding,
     followed_cycles,
-    of_other_model,
     route_rows,
     stability_row,
     torus_point,
@@ -125,24 +124,6 @@ def test_a_cusp_lies_beside_the_line():
         **{"of": "mine", "kind": "cusp", "period": "9", "v_most": "2.5", **place, "law": PAPER},
         **{"confirmed": "not simulated", "multiplier_error": "0.0001", "mesh_error": "1e-10"},
     }
-
-
-def test_table_of_a_model_that_is_not_the_block():
-    """Columns are named after its parameters and its signal; a cusp has no value of n in its law,
-    where its curve has others."""
-    cycles = cycles_to_a_torus("epsilon", cusps=1)
-    cycles["cusp_n"] = ("cusp", [7.0])
-    for key in ("n", "epsilon"):
-        cycles[f"curve_{key}"] = ("curve_point", [1.0])
-    torus, cusp = rows_of("mine", of_other_model(cycles), [])
-    assert (torus["law"], torus["beta"], torus["y_most"]) == (
-        *("model mackey_glass (n = 10)", "0.25", "1.25"),
-    )
-    assert (cusp["law"], cusp["beta"], cusp["n"]) == ("model mackey_glass", "0.5", "7")
-    assert not {"epsilon", "xi", "gamma"} & {*torus, *cusp}
-    swept = {"run": "up", "law": torus["law"], "beta": 0.2, "tau": 10.0, "class": "cycle"}
-    assert sweeps_over(of_other_model(cycles), [swept]) == [swept]
-    assert sweeps_over(cycles_to_a_torus("epsilon"), [swept]) == []
 
 
 def test_cycles_at_a_value_of_the_parameter():

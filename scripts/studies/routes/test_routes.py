@@ -15,7 +15,6 @@ from made_up_results import (
     cases,
     changed,
     hopf_curve,
-    of_other_model,
     route_rows,
     stability_row,
     survey_run,
@@ -202,16 +201,6 @@ def test_letters_of_routes_are_no_numbers_of_a_list(tmp_path):
     path = tmp_path / "routes.rst"
     path.write_text(render(text, None, paper=True, **given))
     assert "<p>(a)</p>" in as_html(path)
-
-
-def test_caption_of_a_route_of_a_model_that_is_not_the_block():
-    run = of_other_model(survey_run(["cycle", "chaos"], epsilon=[0.1, 0.2], period=[1, 0]))
-    run.attrs["axes"] = "beta"
-    rows = route_rows_of(Path("mine/own.nc"), run)
-    words = words_of_caption(rows, run)
-    place = r":math:`\tau = 1`, model mackey glass (n = 10)"
-    assert words.startswith(rf"Route along :math:`\beta` at {place}: 2 points.")
-    assert "maxima of y on the attractor." in words
 
 
 @pytest.mark.parametrize(("run", "sweep"), [("near", "none"), ("slip", "none"), ("up", "up")])
