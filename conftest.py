@@ -16,6 +16,7 @@ from pathlib import Path
 
 import pytest
 import xarray as xr
+from dry_runs import Job, jobs_in
 from namelist_groups import (
     CASES,
     EXPONENTS,
@@ -281,6 +282,14 @@ def project(tmp_path) -> Project:
 def fresh(tmp_path_factory) -> Project:
     """A fresh copy in which nothing was built; not to be changed."""
     return copy_of_project(tmp_path_factory.mktemp("fresh") / "project")
+
+
+@pytest.fixture(scope="session")
+def planned(fresh) -> list[Job]:
+    """Jobs of the paper, as a dry run in a fresh copy lists them."""
+    run = fresh.snakemake("--dry-run")
+    assert run.returncode == 0, run.stdout
+    return jobs_in(run.stdout)
 
 
 @pytest.fixture(scope="session")

@@ -11,7 +11,7 @@ from types import SimpleNamespace
 
 import f90nml
 import pytest
-from dry_runs import Job, data_of_jobs, jobs_in, needed_for
+from dry_runs import data_of_jobs, jobs_in, needed_for
 
 from conftest import ROOT, SMOKE, rules_in
 from scripts.plans import studies
@@ -105,13 +105,6 @@ def test_report_holds_figures_captions_and_verdicts(smoke, tmp_path):
     for figure in figures.values():
         assert json.dumps({"figure": figure.title.rstrip(".")})[1:-1] in text
     assert '"content": "Verdicts"' in text
-
-
-@pytest.fixture(scope="module")
-def planned(fresh) -> list[Job]:
-    run = fresh.snakemake("--dry-run")
-    assert run.returncode == 0, run.stdout
-    return jobs_in(run.stdout)
 
 
 TRAJECTORY = {"program", "model", "trajectory"}
