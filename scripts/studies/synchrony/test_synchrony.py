@@ -7,8 +7,6 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from scripts.config.check_config import checked
-from scripts.files.read_config import ConfigError
 from scripts.namelists.program_groups import scene_groups
 from scripts.studies.synchrony.figure import growing_ranges, largest_alike, zeros_in_words
 from scripts.studies.synchrony.plan import groups
@@ -113,18 +111,3 @@ def test_ranges_of_growth_end_at_zeros():
         assert growing_ranges(growth([2.0], [0], [0.0, -1.0], multipliers)) == [(1.0, 2.0)]
         two = growth([2.0, 3.0, 4.0], [1, 0, 1], [0.0, 1.0], multipliers)
         assert growing_ranges(two) == [(2.0, 3.0), (4.0, math.inf)]
-
-
-@pytest.mark.parametrize(
-    ("given", "words"),
-    [
-        ({"scenes": ["nowhere"]}, "'nowhere'; expected one of"),
-        ({"s_window": [0.5, 2.0]}, "s_window"),
-        ({"t_end": 10.0}, "t_end = 10.0; expected a finite number > t_transient"),
-    ],
-)
-def test_bad_settings_are_refused(config, given, words):
-    config["synchrony"] |= given
-    with pytest.raises(ConfigError) as refusal:
-        checked(config)
-    assert words in str(refusal.value)
