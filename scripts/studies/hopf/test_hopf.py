@@ -13,7 +13,6 @@ from matplotlib import pyplot as plt
 
 from scripts.drawing.write_captions import render
 from scripts.files.tsv import read_table, rows_by
-from scripts.namelists.laws import PAPER
 from scripts.plans import studies
 from scripts.studies.hopf import figure as drawing
 from scripts.studies.hopf.table import rows_of
@@ -84,33 +83,6 @@ def test_special_points_solve_the_characteristic_equation(curves):
         elif row["kind"] == "generalised_hopf":
             assert float(row["l2"]) != 0
             assert (row["unfolding"], row["torus_1"]) == ("", "")
-
-
-@pytest.mark.parametrize("along", ["gamma", "c"])
-def test_any_parameter_is_an_ordinate(programs, along):
-    """Points and counts; the law with a cut-off is here the paper's at (1 + c) xi."""
-    window = {"gamma": [0.4, 2.0], "c": [0.0, 3.0]}[along]
-    law = {"gamma": PAPER, "c": "slip_cut_off"}[along]
-    fixed = {"tau": 7.0, "xi": 0.5, "gamma": 0.8, "law": law}
-    fixed.pop(along, None)
-    plane = {"ordinate": along, "abscissa_window": [0.0, 1.2], "ordinate_window": window}
-    curves = programs.made_by("hopf", {**plane, **fixed, "cells": 16})
-    assert (curves.attrs["ordinate"], along in curves.attrs) == (along, False)
-    varied = curves[along].values
-    assert varied.size > 50
-    xi, gamma = (0.5, varied) if along == "gamma" else (0.5 * (1 + varied), 0.8)
-    assert residual(1j * curves.omega.values, curves.epsilon.values, 7.0, xi, gamma).max() < 1e-10
-    for i, epsilon in enumerate(curves.map_abscissa.values):
-        for j, y in enumerate(curves.map_ordinate.values):
-            place = (0.5, y) if along == "gamma" else (0.5 * (1 + y), 0.8)
-            counted = unstable_roots(epsilon, 7.0, *place)
-            assert curves.map_unstable_roots.values[j, i] == counted
-            # a pair becomes unstable at each curve
-            pieces = [curves.isel(point=curves.piece.values == k) for k in set(curves.piece.values)]
-            here = [one for one in pieces if one[along].min() <= y <= one[along].max()]
-            assert counted == 2 * sum(
-                np.interp(y, one[along], one.epsilon) < epsilon for one in here
-            )
 
 
 def test_table_of_the_workflow(smoke):
