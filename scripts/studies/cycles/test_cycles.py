@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-import xarray as xr
 from made_up_results import (
     LINES,
     NO,
@@ -87,33 +86,6 @@ def test_columns_of_a_torus_point():
         cycles[f"special_{key}"] = ("special", [float("nan")])
     (row,) = rows_of("mine", cycles, [])
     assert [row[key] for key in keys] == ["not determined", "", "", ""]
-
-
-def test_a_simulated_torus_has_the_amplitude_of_the_table(programs, good_inputs, good_groups):
-    """Beside a torus point a simulation reaches a torus of the amplitude that it predicts."""
-    line = {"along": "tau", "window": [14.0, 15.2], "starts": [], "most_orbits": 30}
-    place = {"epsilon": 0.4, "xi": 0.5, "gamma": 0.8}
-    values = {key: value for key, value in good_inputs["cycles"].items() if key != "tau"}
-    (row,) = rows_of("mine", programs.made_by("cycles", values | line | place), [])
-    assert (row["kind"], row["criticality"]) == ("torus", "supercritical")
-    assert float(row["coefficient"]) < 0
-    assert float(row["coefficient_error"]) < 1e-8
-    distance = 0.02
-    groups = good_groups["attractors"]
-    groups["observation"] |= {"t_transient": 4e4, "t_observed": 2000.0, "tolerance": 1e-8}
-    groups["observation"] |= {"most_steps": 10_000_000}
-    place["tau"] = float(row["tau"]) + distance
-    groups["points"] |= {"xi": place["xi"]}
-    for name in ("epsilon", "tau"):
-        groups["points"] |= {f"{name}_window": [place[name]] * 2, f"{name}_count": 1}
-        groups["points"] |= {f"{name}_part": [1, 1]}
-    groups["points"] |= {"theta": [0.0], "u": [0.0], "v": [1.1]}
-    # a run of some seconds reports its progress
-    done = programs.run_groups("attractors", groups)
-    assert done.returncode == 0, done.stderr
-    found = xr.load_dataset(programs.output)
-    simulated = np.log(found.largest_maximum / found.smallest_maximum).item() / 2
-    assert simulated == pytest.approx(float(row["amplitude"]) * np.sqrt(distance), rel=0.02)
 
 
 def test_a_cusp_lies_beside_the_line():

@@ -1,13 +1,13 @@
-"""The hopf program: every point in equation (5) and in closed form; the table, captions, verdicts.
+"""Special points of Hopf curves in equation (5); the table, captions, verdicts.
 
-The suite hopf_curves shows that curves are complete and smooth, and which way roots cross; the
-suite hopf_unfoldings shows where curves of folds and of tori start.
+The suite hopf_curves shows that curves are those of the closed form, complete and smooth, and which
+way roots cross; the suite hopf_unfoldings shows where curves of folds and of tori start.
 """
 
 import numpy as np
 import pytest
 import xarray as xr
-from characteristic_equation import closed_form, residual
+from characteristic_equation import residual
 from made_up_results import NO, PARTLY, YES, assert_finding, cases, changed, changing, hopf_curve
 from matplotlib import pyplot as plt
 
@@ -16,7 +16,6 @@ from scripts.files.tsv import read_table, rows_by
 from scripts.plans import studies
 from scripts.studies.hopf import figure as drawing
 from scripts.studies.hopf.table import rows_of
-from scripts.tables.roots_of_5 import unstable_roots
 
 PLANES = ["tau_of_epsilon", "xi_of_epsilon"]
 
@@ -30,36 +29,6 @@ def plane(request, filled_config) -> dict:
 @pytest.fixture
 def curves(programs, plane) -> xr.Dataset:
     return programs.made_by("hopf", plane)
-
-
-def parameters(curves: xr.Dataset) -> list[np.ndarray]:
-    """epsilon, tau, xi and gamma of all points."""
-    gamma = np.full(curves.sizes["point"], curves.attrs["gamma"])
-    return [curves.epsilon.values, curves.tau.values, curves.xi.values, gamma]
-
-
-def test_every_point_solves_the_characteristic_equation(curves, plane):
-    """Equation (5) at i omega, recomputed and as the file says; the closed form; the plane."""
-    recomputed = residual(1j * curves.omega.values, *parameters(curves))
-    assert recomputed.max() <= 1e-10
-    np.testing.assert_allclose(curves.residual, recomputed, rtol=0, atol=1e-14)
-    epsilon, angle = closed_form(curves.omega, curves.xi, plane["gamma"])
-    np.testing.assert_allclose(curves.epsilon, epsilon, rtol=1e-9, atol=1e-12)
-    turns = (curves.omega * curves.tau - angle) / (2 * np.pi)
-    np.testing.assert_allclose(turns, curves.branch, rtol=0, atol=1e-9)
-    fixed = {"tau": "xi", "xi": "tau"}[plane["ordinate"]]
-    np.testing.assert_allclose(curves[fixed], plane[fixed], rtol=1e-13)
-    known = {"gamma": plane["gamma"], "ordinate": plane["ordinate"], fixed: plane[fixed]}
-    assert curves.attrs.items() >= known.items()
-
-
-def test_map_counts_the_crossings(curves, plane):
-    """In every cell: roots at tau = 0 plus crossings of all curves below."""
-    for i, epsilon in enumerate(curves.map_abscissa.values):
-        for j, ordinate in enumerate(curves.map_ordinate.values):
-            place = {**plane, plane["ordinate"]: ordinate}
-            expected = unstable_roots(epsilon, place["tau"], place["xi"], plane["gamma"])
-            assert curves.map_unstable_roots.values[j, i] == expected
 
 
 def test_special_points_solve_the_characteristic_equation(curves):
