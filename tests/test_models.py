@@ -9,9 +9,6 @@ from scipy.linalg import expm
 from scipy.optimize import brentq
 
 from conftest import torus
-from generator.compile import compile_module
-from generator.definition import read_files
-from generator.module import write_module
 from scripts.config.check_config import checked
 from scripts.config.checks import place_of
 from scripts.drawing.roots import roots_in_words
@@ -300,31 +297,6 @@ def test_results_say_which_law_they_have(programs, filled_config):
     assert laws.law_of(attributes) == "slip_cut_off (c = 0.25)"
     assert (attributes["model"], attributes["c"]) == ("slip_cut_off", 0.25)
     assert "log1p(c/(1 + c)*expm1(w(t - tau)))" in attributes["model_equations"]
-
-
-@pytest.mark.parametrize("delayed", ["theta + (1 + epsilon)*w(t - 2*tau)", "theta(t - tau) + w"])
-def test_hopf_curves_of_any_linear_part(programs, good_groups, monkeypatch, delayed):
-    """Another delay, and a delayed state: points solve the characteristic equation by hand."""
-    path = programs.folder / "odd.yaml"
-    path.write_text(f'definitions: {{ evolution: "-v*({delayed})" }}')
-    compile_module(write_module(read_files([laws.BLOCK, path], "odd")), path.with_suffix(".so"))
-    monkeypatch.setenv("MODELS", str(programs.folder))
-    good_groups["hopf"]["hopf_curves"] |= {"law": "odd", "ordinate_window": [0.1, 15.0]}
-    curves = programs.made_of("hopf", good_groups["hopf"])
-    s = 1j * curves.omega.values
-    xi, square = curves.attrs["xi"], curves.attrs["gamma"] ** 2
-    late = np.exp(-s * curves.tau.values)
-    epsilon = curves.epsilon.values
-    of_theta, of_w = (-1, -(1 + epsilon) * late**2) if "2*tau" in delayed else (-late, -1)
-    # theta' = of_theta theta + of_w w, u' = w, w' = -gamma^2 (u + (theta + w)/xi)
-    terms = [
-        s * (s - of_theta) * (s + square / xi),
-        square * (s - of_theta),
-        s * of_w * square / xi,
-    ]
-    assert curves.sizes["point"] > ("2*tau" in delayed)
-    residual = np.abs(sum(terms)) / np.maximum.reduce(list(map(np.abs, terms)))
-    assert residual.max(initial=0.0) < 1e-9
 
 
 EXPONENTS = {

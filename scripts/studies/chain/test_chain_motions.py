@@ -34,16 +34,6 @@ def row_of(programs, config: dict, **given) -> dict:
     return motion_row(trajectory, programs.made_of("exponents", EXPONENTS.groups(config, "mine")))
 
 
-def test_blocks_without_springs_between_have_the_exponents_of_one(programs, config):
-    """kappa = 0: each exponent of the block of scene oscillation twice, but for those of the flow,
-    of which one is not measured.
-    """
-    values = exponents_of(row_of(programs, config, kappa=0.0))
-    np.testing.assert_allclose(values[:2], 0.0, atol=1e-3)
-    np.testing.assert_allclose(values[2], values[3], atol=1e-3)
-    assert values[2] < -0.001
-
-
 @pytest.mark.parametrize("ends", ["free", "plate"])
 def test_exponents_at_rest_are_those_of_the_linear_chain(programs, config, ends):
     """Without delay they are real parts of eigenvalues, by NumPy; all blocks come to rest."""
