@@ -123,17 +123,6 @@ def test_values_between_steps(method, rate, tolerance):
     assert np.abs(run.sol(t) - [np.exp(-rate * t), np.sin(t)]).max() < CLOSE * tolerance
 
 
-def test_events_are_those_of_the_run(sine):
-    """scikit-sundae: a second solve returns the events of the first."""
-    watched = [dk.Event("y", 0.5, 1)]
-    rises = math.pi / 6 + 2 * math.pi * np.arange(5)
-    first = sine.integrate(math.sin, 20, events=watched, dense_output=True)
-    second = sine.integrate(math.sin, 5, events=watched)
-    onward = sine.integrate(first, 30, events=watched)
-    for run, known in ((first, rises[:4]), (second, rises[:1]), (onward, rises[4:])):
-        np.testing.assert_allclose(run.t_events[0], known, atol=1e-6)
-
-
 HISTORIES = [1.0, [1.0], np.array(1.0), np.array([1.0]), (1.0,), np.float32(1), lambda t: [1.0]]
 
 
