@@ -131,6 +131,8 @@ def test_good_claims_are_accepted(accept):
     assert found["test"] == {"equation_10": {**PLANE, "limit": 1e-10}}
     assert accept({"mine": UNTESTED}) == {"mine": UNTESTED}
     assert accept({}) == {}
+    with pytest.raises(ConfigError, match="look_at expected beside test"):
+        accept({"mine": {**{key: TESTED[key] for key in ("place", "claim")}, **BY_10}})
 
 
 BAD = {
