@@ -54,8 +54,8 @@ GROUPS = {
     "slip_events": "scene",
 }
 """Namelist group of each command that reads one alone, as tests name it."""
-DEAR = {"visited", "made", "installed", "run_of", "planned"}
-"""Fixtures of a module that one of the processes of `./test` makes for all tests that use them."""
+DEAR = {"visited", "made", "installed", "planned"}
+"""Fixtures that one of the processes of `./test` makes for all tests that use them."""
 collect_ignore = (
     [] if (studies.FOLDER / "work_precision").exists() else ["tests/test_benchmarks.py"]
 )
