@@ -185,11 +185,15 @@ class Programs:
         return self.run(program, self.write(groups).name, self.output.name)
 
     def made_of(self, program: str, groups: dict[str, dict]) -> xr.Dataset:
-        run = self.run_groups(program, groups)
-        # progress is reported after a second, so on a busy machine by runs that are short elsewhere
+        self.check_silent(self.run_groups(program, groups))
+        return xr.load_dataset(self.output)
+
+    @staticmethod
+    def check_silent(run: subprocess.CompletedProcess[str]) -> None:
+        """It succeeded without words, but for progress, which a busy machine reports of runs that
+        are short elsewhere."""
         said = [line for line in run.stderr.splitlines() if not re.search(r": \d+ %, ", line)]
         assert (run.returncode, run.stdout, said) == (0, "", [])
-        return xr.load_dataset(self.output)
 
     def made_by(self, program: str, values: dict) -> xr.Dataset:
         return self.made_of(program, {GROUPS[program]: values})

@@ -53,7 +53,7 @@ def make_page(results: str, given: dict) -> None:
 def jobs_left(command: list[str]) -> list[dict[str, list[str]]]:
     """Inputs, outputs and logs of the jobs that a dry run lists: those that could not be done."""
     said = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    jobs = re.findall(r"^(?:local)?rule \w+:\n((?:    .*\n)*)", said.stdout, re.MULTILINE)
+    jobs = re.findall(r"^(?:local)?rule [\w/]+:\n((?:    .*\n)*)", said.stdout, re.MULTILINE)
     kinds = ("input", "output", "log")
     found = [dict(re.findall(r"^    (\w+): (.*)$", job, re.MULTILINE)) for job in jobs]
     return [{kind: job[kind].split(", ") if kind in job else [] for kind in kinds} for job in found]
