@@ -84,16 +84,28 @@ contains
          call past%append(instant(real(i, wp)), 1.0_wp, [0.0_wp], &
                           reshape([real(i, wp), 0.0_wp], [2, 1]), valid_for=1.0_wp)
       end do
-      call expect_number(error, past, cursor, problem, 2.5_wp, 2.0_wp)
+      call expect_number(2.5_wp, 2.0_wp)
       call past%forget(instant(100.5_wp))
-      call expect_number(error, past, cursor, problem, 2.5_wp, 100.0_wp)
-      call expect_number(error, past, cursor, problem, 100.25_wp, 100.0_wp)
-      call expect_number(error, past, cursor, problem, 101.5_wp, 101.0_wp)
-      call expect_number(error, past, cursor, problem, 199.5_wp, 199.0_wp)
+      call expect_number(2.5_wp, 100.0_wp)
+      call expect_number(100.25_wp, 100.0_wp)
+      call expect_number(101.5_wp, 101.0_wp)
+      call expect_number(199.5_wp, 199.0_wp)
       call past%forget(instant(150.0_wp))
-      call expect_number(error, past, cursor, problem, 2.5_wp, 150.0_wp)
+      call expect_number(2.5_wp, 150.0_wp)
       call past%forget(instant(1000.0_wp))
-      call expect_number(error, past, cursor, problem, 2.5_wp, 199.0_wp)
+      call expect_number(2.5_wp, 199.0_wp)
+
+   contains
+
+      !> The past reads this number at time t.
+      subroutine expect_number(t, number)
+         real(wp), intent(in) :: t, number
+         real(wp) :: z(1, 1)
+
+         call cursor%set(problem, past, instant(t + problem%lag(1)), 0.1_wp)
+         call cursor%values(problem, past, [0.0_wp], z)
+         call expect_close(error, z(:, 1), [number], 0.0_wp, "number of the step at t = "//text(t))
+      end subroutine expect_number
    end subroutine test_forget
 
    !> A step of low degree in a slot that had one of high degree before comes back with zeros above.
@@ -216,22 +228,8 @@ contains
       if (component == 3 .and. modulo(i, 2) == 0) value = i + (3.0_wp - 2.0_wp*s)*s**2
    end function value_at
 
-   !> The past reads this number at time t.
-   subroutine expect_number(error, past, cursor, problem, t, number)
-      type(error_type), allocatable, intent(inout) :: error
-      type(history_type), intent(in) :: past
-      type(cursor_type), intent(inout) :: cursor
-      type(wille_baker), intent(in) :: problem
-      real(wp), intent(in) :: t, number
-      real(wp) :: z(1, 1)
-
-      call cursor%set(problem, past, instant(t + problem%lag(1)), 0.1_wp)
-      call cursor%values(problem, past, [0.0_wp], z)
-      call expect_close(error, z(:, 1), [number], 0.0_wp, "number of the step at t = "//text(t))
-   end subroutine expect_number
-
    !> A problem of three components with any delays.
-   pure type(wille_baker) function delayed(lag, component) result(problem)
+   type(wille_baker) function delayed(lag, component) result(problem)
       real(wp), intent(in) :: lag(:)
       integer, intent(in) :: component(:)
 
