@@ -1,15 +1,15 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Kinks and jumps: steps end at each that matters, so that piecewise polynomials come out exact at
-!> any tolerance. They come from delays, from the caller, from changes between runs and from switching
-!> functions.
+!> any tolerance. They come from delays, from the caller, from changes between runs and from
+!> switching functions.
 module test_dde_breaks
-   use dde, only: continuation_type, dde_problem_type, event_table, integrate, integration_options, &
-                  integration_result
+   use dde, only: continuation_type, dde_problem_type, event_table, integrate, &
+                  integration_options, integration_result
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_close, expect_failure, expect_success
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use piecewise_problems, only: delayed_pulse, friction, jumping_history, many_delays, pulses, relay
+   use piecewise_problems, only: delayed_pulse, jumping_history, many_delays, sided
    use pseudo_random, only: uniform
    use solving, only: at_tolerance, run, solve
    use test_problems, only: linear, wille_baker
@@ -101,7 +101,8 @@ contains
    end function decayed
 
    !> Of the right-hand side in time (runs end within the pulse and go on), of the history, and of
-   !> switching functions: of a delayed value, and of time faster than the steps between them would be.
+   !> switching functions: of a delayed value, and of time faster than the steps between them would
+   !> be.
    subroutine test_jumps(error)
       type(error_type), allocatable, intent(out) :: error
       integer :: i
@@ -110,8 +111,8 @@ contains
          call expect_exact(delayed_pulse(), [50.1_wp, 50.0_wp, 80.0_wp], &
                            [50.05_wp, 50.1_wp, 51.0_wp, 55.0_wp], [10.0_wp, 39.5_wp], 1.0e-10_wp)
          call expect_exact(jumping_history(0.0_wp), [-0.5_wp], [2.5_wp], [0.875_wp], 1.0e-13_wp)
-         call expect_exact(relay(), [real(wp) ::], [21.25_wp], [-0.25_wp], 1.0e-12_wp)
-         call expect_exact(pulses(), [real(wp) ::], [10.0_wp*pi], [5.0_wp*pi], 1.0e-10_wp)
+         call expect_exact(sided("relay"), [real(wp) ::], [21.25_wp], [-0.25_wp], 1.0e-12_wp)
+         call expect_exact(sided("pulses"), [real(wp) ::], [10.0_wp*pi], [5.0_wp*pi], 1.0e-10_wp)
       end do
 
    contains
@@ -174,8 +175,8 @@ contains
    !> oldest step may begin a rounding after t - lag; not more.
    subroutine test_past_kept(error)
       type(error_type), allocatable, intent(out) :: error
-      real(wp), parameter :: past_kept(5) = [1, 0, 0, 1, 1], known(5) = [-1.0_wp/6, 0.0_wp, 0.0_wp, &
-                                                                      -1.0_wp/6, 0.0_wp]
+      real(wp), parameter :: past_kept(5) = [1, 0, 0, 1, 1]
+      real(wp), parameter :: known(5) = [-1.0_wp/6, 0.0_wp, 0.0_wp, -1.0_wp/6, 0.0_wp]
       real(wp), parameter :: middle(5) = [1.5_wp, 0.5_wp, 1.5_wp, 1.5_wp, 1.5_wp]
       real(wp), parameter :: late(5) = [0.0_wp, 0.0_wp, 0.0_wp, spacing(0.5_wp), 1.0e-9_wp]
       logical, parameter :: fails(5) = [.false., .false., .true., .false., .true.]
@@ -259,16 +260,17 @@ contains
 
       do i = 1, size(methods)
          options = at_tolerance(1.0e-3_wp, methods(i))
-         call run(error, relay(), 0.0_wp, 21.25_wp, options, outcome)
+         call run(error, sided("relay"), 0.0_wp, 21.25_wp, options, outcome)
          if (allocated(error)) return
          call expect(error, outcome%switched(1) == 10, methods(i)//" changes sides 10 times")
          events = event_table([1], [-0.5_wp], [1], [.true.])
          state = continuation_type()
-         call run(error, relay(), 0.0_wp, 21.25_wp, options, outcome, watcher=events, &
+         call run(error, sided("relay"), 0.0_wp, 21.25_wp, options, outcome, watcher=events, &
                   continuation=state)
          if (allocated(error)) return
          call expect_close(error, outcome%t, 2.5_wp, 1.0e-13_wp, "the event")
-         call run(error, relay(), state%time(1), 21.25_wp, options, outcome, continuation=state)
+         call run(error, sided("relay"), state%time(1), 21.25_wp, options, outcome, &
+                  continuation=state)
          call expect_close(error, outcome%y, [-0.25_wp], 1.0e-12_wp, methods(i)//" continued")
       end do
    end subroutine test_relay
@@ -277,19 +279,20 @@ contains
    subroutine test_friction(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
+      type(integration_options) :: options
       type(integration_result) :: outcome
       real(wp), parameter :: angle = 10.0_wp - 3.0_wp*pi
       integer :: i
 
       do i = 1, size(methods)
-         call run(error, friction(), 0.0_wp, 10.0_wp, at_tolerance(1.0e-9_wp, methods(i)), outcome)
+         options = at_tolerance(1.0e-9_wp, methods(i))
+         call run(error, sided("friction"), 0.0_wp, 10.0_wp, options, outcome)
          if (allocated(error)) return
          associate (y => [-0.1_wp - 0.3_wp*cos(angle), 0.3_wp*sin(angle)])
             call expect_close(error, outcome%y, [y, y], 1.0e-7_wp, methods(i))
          end associate
          call expect(error, all(outcome%switched == 3), methods(i)//" changes sides 3 times")
-         call integrate(friction(), 0.0_wp, 20.0_wp, at_tolerance(1.0e-9_wp, methods(i)), outcome, &
-                        failure)
+         call integrate(sided("friction"), 0.0_wp, 20.0_wp, options, outcome, failure)
          call expect_failure(error, failure, "from both sides of the zero of switching(")
          call expect_close(error, outcome%t, 5.0_wp*pi, 1.0e-4_wp, methods(i)//" stops")
       end do

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Time and the control of steps: bounds on the ratio of steps (those of Hairer, Norsett and Wanner's
-!> DOP853, 1/3 and 6), where the closed loop settles, the first step, samples, the work that is needed,
-!> and time that does not lose small steps.
+!> Time and the control of steps: bounds on the ratio of steps (those of Hairer, Norsett and
+!> Wanner's DOP853, 1/3 and 6), where the closed loop settles, the first step, samples, the work
+!> that is needed, and time that does not lose small steps.
 module test_dde_control
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde, only: continuation_type, integrate, integration_options, integration_result, methods, &
@@ -42,8 +42,8 @@ contains
    end subroutine collect_dde_control
 
    !> However small or large an error, steps grow at most sixfold and shrink at most to a third.
-   !> Where there was no value at all, the next try is much shorter. The step that follows a rejection
-   !> does not grow, the one after that may.
+   !> Where there was no value at all, the next try is much shorter. The step that follows a
+   !> rejection does not grow, the one after that may.
    subroutine test_ratios(error)
       type(error_type), allocatable, intent(out) :: error
       type(controller_type) :: control
@@ -129,8 +129,9 @@ contains
       end do
    end subroutine test_closed_loop
 
-   !> The first step is as long as asked for, no step longer. One that the solver chooses passes, and
-   !> fits the problem: between a thousandth of a radian and one of a slow and of a fast oscillator.
+   !> The first step is as long as asked for, no step longer. One that the solver chooses passes,
+   !> and fits the problem: between a thousandth of a radian and one of a slow and of a fast
+   !> oscillator.
    subroutine test_steps(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp), parameter :: rates(2) = [1.0_wp, 1.0e6_wp]
@@ -201,8 +202,8 @@ contains
    end subroutine test_work
 
    !> Steps of 1e-20 and of 1e-17 at t = 100, none of which moves a plain number, add up; the latter
-   !> to several spacings. Powers of two add up without any error, and what is lost in a difference of
-   !> the leading parts is made good.
+   !> to several spacings. Powers of two add up without any error, and what is lost in a difference
+   !> of the leading parts is made good.
    subroutine test_sums(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp), parameter :: steps(2) = [1.0e-20_wp, 1.0e-17_wp]

@@ -2,9 +2,8 @@
 !> Events: where they are found, in what order, and that one can end a run.
 module test_dde_events
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use dde, only: continuation_type, dde_problem_type, elapsed, event_met, event_table, &
-                  event_watcher_type, instant, integration_options, integration_result, methods, &
-                  reached_end, table_sampler
+   use dde, only: continuation_type, dde_problem_type, elapsed, event_met, event_table, instant, &
+                  integration_options, integration_result, methods, reached_end, table_sampler
    use dde_errors, only: text
    use expectations, only: expect, expect_between, expect_close
    use dde_kinds, only: wp
@@ -30,18 +29,6 @@ module test_dde_events
    type, extends(event_table) :: searched_table
    end type searched_table
 
-   !> Zeros of cos t and -sin t, each by its own component: 1 where the other was evaluated, too.
-   type, extends(event_watcher_type) :: frugal_watcher
-      !> Events, and those of which the other component is known
-      integer :: received = 0, whole = 0
-   contains
-      procedure :: reads_for => own_component
-      procedure :: takes => own_component
-      procedure :: values => both_components
-      procedure :: value => component_alone
-      procedure :: take => count_event
-   end type frugal_watcher
-
 contains
 
    subroutine collect_dde_events(testsuite)
@@ -52,17 +39,16 @@ contains
                    new_unittest("order of events", test_order), &
                    new_unittest("a fast function of time", test_fast), &
                    new_unittest("steps without events are not searched", test_bounds), &
-                   new_unittest("an event costs its own components", test_frugal), &
                    new_unittest("within a spacing of t", test_within_spacing), &
                    new_unittest("a zero where runs meet", test_zero_between), &
                    new_unittest("from event to event", test_turns)]
    end subroutine collect_dde_events
 
-   !> Passages of sin t through 1/2, rising, falling and both; those through 0, that at t = 0 is none.
-   !> Maxima and minima of cos t, and maxima of -sin t. t^2 passes 1/4 and 1/100 twice within one step
-   !> from -1 to 1, whose ends do not show it; t passes numbers where steps meet. The slope of
-   !> y' = -y(t - 1) from 0 with a jump to 1 jumps from 0 to -1 at t = 1, and passes -1/2 there and
-   !> again at 5/2.
+   !> Passages of sin t through 1/2, rising, falling and both; those through 0, that at t = 0 is
+   !> none. Maxima and minima of cos t, and maxima of -sin t. t^2 passes 1/4 and 1/100 twice within
+   !> one step from -1 to 1, whose ends do not show it; t passes numbers where steps meet. The slope
+   !> of y' = -y(t - 1) from 0 with a jump to 1 jumps from 0 to -1 at t = 1, and passes -1/2 there
+   !> and again at 5/2.
    subroutine test_times(error)
       type(error_type), allocatable, intent(out) :: error
       logical, parameter :: slopes(3) = .true.
@@ -73,7 +59,7 @@ contains
                     event_table([1, 1, 1, 1], [0.5_wp, 0.5_wp, 0.5_wp, 0.0_wp], [1, -1, 0, 0]), &
                     [1, 1, 5, 5, 6, 12, 13, 13]*pi/6, [1, 3, 2, 3, 4, 4, 1, 3])
          call check(swing(), 0.0_wp, 20.0_wp, &
-                    event_table([1, 1, 2], [0.0_wp, 0.0_wp, 0.0_wp], [-1, 1, -1], of_slope=slopes), &
+                    event_table([1, 1, 2], spread(0.0_wp, 1, 3), [-1, 1, -1], of_slope=slopes), &
                     [2, 3, 4, 6, 7, 8, 10, 11, 12]*0.5_wp*pi, [2, 3, 1, 2, 3, 1, 2, 3, 1])
          call check(quadrature(1, 1.0_wp), -1.0_wp, 1.0_wp, &
                     event_table([1, 1], [0.25_wp, 0.01_wp], [0, 0]), &
@@ -106,8 +92,9 @@ contains
          call expect(error, outcome%reason == reached_end, "the run goes to its end")
          call expect_events(error, table, times, 1.0e-10_wp, methods(i), which)
          if (allocated(error)) return
-         if (present(step)) call expect(error, outcome%accepted == ceiling((t_end - t_start)/step), &
-                                        text(outcome%accepted)//" steps")
+         if (present(step)) then
+            call expect(error, outcome%accepted == ceiling((t_end - t_start)/step), "steps")
+         end if
          if (any(table%of_slope)) return
          call expect_close(error, table%y(1, :table%received), table%level(which), 1.0e-14_wp, "y")
       end subroutine check
@@ -161,8 +148,8 @@ contains
    end subroutine test_terminal
 
    !> y = t passes 1000 levels in one step, each of 100 functions at one time: in order of time,
-   !> then of number. The square of their number would be 1e10 comparisons. Of events at one time, all
-   !> are handed over, though one of them ends the run; later ones are not.
+   !> then of number. The square of their number would be 1e10 comparisons. Of events at one time,
+   !> all are handed over, though one of them ends the run; later ones are not.
    subroutine test_order(error)
       type(error_type), allocatable, intent(out) :: error
       integer, parameter :: n = 100000
@@ -228,74 +215,12 @@ contains
                   outcome, watcher=searched)
          if (allocated(error)) return
          call expect(error, searched%received > 20, "many events")
-         call expect_events(error, table, searched%time(:searched%received)%hi, 0.0_wp, methods(i), &
-                            searched%which(:searched%received))
+         associate (n => searched%received)
+            call expect_events(error, table, searched%time(:n)%hi, 0.0_wp, methods(i), &
+                               searched%which(:n))
+         end associate
       end do
    end subroutine test_bounds
-
-   !> Neither the location of an event nor the event itself evaluates what it does not read.
-   subroutine test_frugal(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(frugal_watcher), allocatable :: watcher
-      type(integration_result) :: outcome
-      integer :: i
-
-      do i = 1, size(methods)
-         if (allocated(watcher)) deallocate (watcher)
-         allocate (watcher)
-         watcher%direction = [0, 0]
-         watcher%terminal = [.false., .false.]
-         call run(error, swing(), 0.1_wp, 12.0_wp, at_tolerance(1.0e-10_wp, methods(i)), outcome, &
-                  watcher=watcher)
-         call expect(error, watcher%received == 7, text(watcher%received)//" events")
-         call expect(error, watcher%whole == 0, text(watcher%whole)//" of them whole")
-      end do
-   end subroutine test_frugal
-
-   !> The component of a function.
-   pure function own_component(self, which, n) result(components)
-      class(frugal_watcher), intent(in) :: self
-      integer, intent(in) :: which, n
-      integer, allocatable :: components(:)
-
-      components = [which]
-   end function own_component
-
-   !> Both components.
-   pure subroutine both_components(self, t, y, slope, g)
-      class(frugal_watcher), intent(in) :: self
-      real(wp), intent(in) :: t, y(:), slope(:)
-      real(wp), intent(out) :: g(:)
-
-      g = y
-   end subroutine both_components
-
-   !> One component; no event is found where the other is that of the same time.
-   pure real(wp) function component_alone(self, which, t, y, slope) result(value)
-      class(frugal_watcher), intent(in) :: self
-      integer, intent(in) :: which
-      real(wp), intent(in) :: t, y(:), slope(:)
-
-      value = merge(1.0_wp, y(which), are_whole(y))
-   end function component_alone
-
-   !> Count an event.
-   subroutine count_event(self, which, t, y, slope)
-      class(frugal_watcher), intent(inout) :: self
-      integer, intent(in) :: which
-      type(instant), intent(in) :: t
-      real(wp), intent(in) :: y(:), slope(:)
-
-      self%received = self%received + 1
-      if (are_whole(y) .or. abs(y(which)) > 1.0e-6_wp) self%whole = self%whole + 1
-   end subroutine count_event
-
-   !> Whether cos t and -sin t are those of one time.
-   pure logical function are_whole(y) result(value)
-      real(wp), intent(in) :: y(:)
-
-      value = abs(sum(y**2) - 1.0_wp) < 1.0e-6_wp
-   end function are_whole
 
    !> sin 50 t, no number where it is near an extreme.
    pure subroutine fast_values(self, t, y, slope, g)
@@ -355,8 +280,9 @@ contains
          real(wp), intent(in) :: t_end
          type(integration_result) :: outcome
 
-         call run(error, swing(), continuation%time(1), t_end, at_tolerance(1.0e-10_wp, methods(i)), &
-                  outcome, watcher=table, continuation=continuation)
+         call run(error, swing(), continuation%time(1), t_end, &
+                  at_tolerance(1.0e-10_wp, methods(i)), outcome, watcher=table, &
+                  continuation=continuation)
       end subroutine go_on
    end subroutine test_zero_between
 

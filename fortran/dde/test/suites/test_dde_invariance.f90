@@ -90,8 +90,8 @@ contains
       end subroutine rename
    end subroutine test_names
 
-   !> Runs that go on from where one ended: in the middle of the first delay, at its end, and on; and
-   !> in steps of three. What was written to a file and read back gives the same bits.
+   !> Runs that go on from where one ended: in the middle of the first delay, at its end, and on;
+   !> and in steps of three. What was written to a file and read back gives the same bits.
    subroutine test_parts(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp), parameter :: pi = acos(-1.0_wp)
@@ -242,9 +242,9 @@ contains
                   .and. one%evaluations == other%evaluations, what//": same counts")
    end subroutine expect_same
 
-   !> A component that is no part of an equation, of any size, does not change how that is solved. The
-   !> first of several copies is solved by as many steps as alone: a limit cycle beside copies at rest,
-   !> and a component that the embedded error of implicit methods overlooks.
+   !> A component that is no part of an equation, of any size, does not change how that is solved.
+   !> The first of several copies is solved by as many steps as alone: a limit cycle beside copies
+   !> at rest, and a component that the embedded error of implicit methods overlooks.
    subroutine test_copies(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp), parameter :: sizes(3) = [1.0e-15_wp, 1.0e9_wp, 1.0e15_wp]
@@ -281,7 +281,8 @@ contains
          call run(error, one, 0.0_wp, 20.0_wp, at_tolerance(tolerance, methods(i)), known)
          call run(error, many, 0.0_wp, 20.0_wp, at_tolerance(tolerance, methods(i)), first)
          if (allocated(error)) return
-         call expect(error, first%accepted == known%accepted .and. first%rejected == known%rejected, &
+         call expect(error, first%accepted == known%accepted &
+                     .and. first%rejected == known%rejected, &
                      text(first%accepted)//" steps by "//trim(methods(i))//" at "//text(tolerance) &
                      //", alone "//text(known%accepted))
          call expect_close(error, first%y(1), known%y(1), 1.0e-3_wp*tolerance, methods(i))

@@ -45,7 +45,6 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("conditions of explicit pairs", test_conditions), &
-                   new_unittest("estimate of the error", test_estimate), &
                    new_unittest("estimate of far too long steps", test_long_steps), &
                    new_unittest("conditions of Radau IIA", test_radau_conditions), &
                    new_unittest("Radau IIA steps of an oscillator", test_oscillator), &
@@ -122,27 +121,6 @@ contains
                           what//": largest misfit of order "//text(highest + 1))
    end subroutine expect_order
 
-   !> The two make the estimate of eq. (II.10.17) of Hairer, Norsett and Wanner (1993) for each
-   !> component, of which the largest counts.
-   subroutine test_estimate(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(explicit_step_type) :: step
-      type(tree_system) :: trees
-      real(wp), parameter :: absolute = 1.0e-9_wp, relative = 1.0e-8_wp
-      real(wp) :: estimate
-      real(wp), dimension(sum(tree_counts(:6))) :: of_order_3, of_order_5, unit
-
-      trees = grow_trees(6)
-      call set_up(trees, "dop853", step)
-      call take_step(trees, 0.0_wp, h, step, estimate, relative, absolute)
-      unit = absolute + relative*step%y_new
-      of_order_3 = h*e_3(step)/unit
-      of_order_5 = h*e_5(step)/unit
-      call expect_close(error, estimate, &
-                        maxval(of_order_5**2/hypot(of_order_5, 0.1_wp*of_order_3), &
-                               abs(of_order_5) > 0.0_wp), 1.0e-12_wp*estimate, "the estimate")
-   end subroutine test_estimate
-
    !> y' = -rate y, rates up to 40 in a step of length 1: no step passes whose error is above the
    !> tolerance, not even near 5.66, where e5 of the pair 8(5,3) changes its sign and e3 is large.
    subroutine test_long_steps(error)
@@ -175,7 +153,8 @@ contains
       type(explicit_step_type), intent(in) :: step
       real(wp) :: e(size(step%y))
 
-      e = matmul([er1, er6, er7, er8, er9, er10, er11, er12], step%k([1, 6, 7, 8, 9, 10, 11, 12], :))
+      e = matmul([er1, er6, er7, er8, er9, er10, er11, er12], &
+                 step%k([1, 6, 7, 8, 9, 10, 11, 12], :))
    end function e_5
 
    pure function e_3(step) result(e)
@@ -187,8 +166,8 @@ contains
    end function e_3
 
    !> Butcher's conditions B(2 s - 1), C(s) and D(s - 1), which make the order 2 s - 1 (Hairer and
-   !> Wanner 1996, theorem IV.5.1). B and D are multiplied by the inverse of A, of which the last row
-   !> is b: so b A^-1 is (0, .., 0, 1).
+   !> Wanner 1996, theorem IV.5.1). B and D are multiplied by the inverse of A, of which the last
+   !> row is b: so b A^-1 is (0, .., 0, 1).
    subroutine test_radau_conditions(error)
       type(error_type), allocatable, intent(out) :: error
       type(stage_systems) :: systems
@@ -304,8 +283,9 @@ contains
    end subroutine test_taylor
 
    !> In steps of lengths that the delay is no multiple of, global errors fall as the step's order
-   !> promises; with an interpolant of low order they would not. The error follows the tolerance over
-   !> seven decades: between 0.05 and 1 times it by the pair of order 8, up to 5 times by the other.
+   !> promises; with an interpolant of low order they would not. The error follows the tolerance
+   !> over seven decades: between 0.05 and 1 times it by the pair of order 8, up to 5 times by the
+   !> other.
    subroutine test_fixed_steps(error)
       type(error_type), allocatable, intent(out) :: error
       type(integration_options) :: options

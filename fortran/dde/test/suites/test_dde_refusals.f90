@@ -36,8 +36,8 @@ contains
                    new_unittest("too many steps", test_too_many_steps)]
    end subroutine collect_dde_refusals
 
-   !> What the other tests spoil is accepted as it stands, by all methods, and without lists of delays.
-   !> A run of no length gives the first state and the sample there.
+   !> What the other tests spoil is accepted as it stands, by all methods, and without lists of
+   !> delays. A run of no length gives the first state and the sample there.
    subroutine test_good(error)
       type(error_type), allocatable, intent(out) :: error
       type(constant_past) :: alone

@@ -98,13 +98,13 @@ contains
                                           3.0_wp]), tolerance_type(1, 1.0e-6_wp, 1.0e-6_wp), work, &
                              0.0_wp, [0.3_wp], [(0.1_wp*i, i=1, 12)], 2.0_wp, finite)
       call expect(error, work%evaluations == 4, text(work%evaluations)//" evaluations")
-      call expect_close(error, jacobian%by_z(1, :), [spread(-1.0_wp/24, 1, 11), 0.0_wp], 1.0e-6_wp, &
-                        "derivatives")
+      call expect_close(error, jacobian%by_z(1, :), [spread(-1.0_wp/24, 1, 11), 0.0_wp], &
+                        1.0e-6_wp, "derivatives")
    end subroutine test_alike
 
-   !> If the Jacobian and the systems are right, the iteration for a linear problem converges at once:
-   !> two rounds of its stages a step, and what confirms and estimates. Delayed values lie in the step
-   !> at all stages, at some and at none, in equations of full and of banded matrices.
+   !> If the Jacobian and the systems are right, the iteration for a linear problem converges at
+   !> once: two rounds of its stages a step, and what confirms and estimates. Delayed values lie in
+   !> the step at all stages, at some and at none, in equations of full and of banded matrices.
    subroutine test_linear(error)
       type(error_type), allocatable, intent(out) :: error
       integer, parameter :: n = 9
@@ -144,8 +144,8 @@ contains
       end subroutine expect_few
    end subroutine test_linear
 
-   !> A block deep in stick (stiffness 1e22, near balance of forces), alone and with the delay in the
-   !> step: theta stays, u falls with time. The row of w must not be the pivot for the others.
+   !> A block deep in stick (stiffness 1e22, near balance of forces), alone and with the delay in
+   !> the step: theta stays, u falls with time. The row of w must not be the pivot for the others.
    subroutine test_huge_row(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp), parameter :: delays(2) = [10.0_wp, 1.0e-3_wp]
@@ -166,8 +166,9 @@ contains
       end do
    end subroutine test_huge_row
 
-   !> With a band, of differences or of derivatives that the problem gives, the solution is the same,
-   !> for fewer evaluations; and in steps longer than many short delays that of the explicit method.
+   !> With a band, of differences or of derivatives that the problem gives, the solution is the
+   !> same, for fewer evaluations; and in steps longer than many short delays that of the explicit
+   !> method.
    subroutine test_banded(error)
       type(error_type), allocatable, intent(out) :: error
       type(integration_result) :: banded, explicit, full, given

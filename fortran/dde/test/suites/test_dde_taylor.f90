@@ -10,7 +10,6 @@ module test_dde_taylor
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
    use dde_slow_series, only: series_reach
-   use dde_taylor_series, only: taylor_series
    use dde_taylor_step, only: taylor_step_type
    use expectations, only: expect, expect_close, expect_failure
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
@@ -37,8 +36,7 @@ contains
    subroutine collect_dde_taylor(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("slope", test_slope), &
-                   new_unittest("how far series reach", test_reach), &
+      testsuite = [new_unittest("how far series reach", test_reach), &
                    new_unittest("steps that are held back", test_held_back), &
                    new_unittest("the past of other methods", test_pasts), &
                    new_unittest("a transient", test_transient), &
@@ -48,23 +46,8 @@ contains
                    new_unittest("rounding errors and jumps", test_jumps)]
    end subroutine collect_dde_taylor
 
-   !> 1 + 3 s - 2 s^2 in powers of half a unit of time; what later terms are does not matter at 0.
-   subroutine test_slope(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(taylor_series) :: series
-
-      series%degree = 3
-      series%unit = 0.5_wp
-      allocate (series%coefficients(0:3, 1))
-      series%coefficients(:, 1) = [1.0_wp, 3.0_wp, -2.0_wp, 0.0_wp]
-      call expect_close(error, series%slope_of(1, 0.0_wp), 6.0_wp, 1.0e-15_wp, "at the start")
-      call expect_close(error, series%slope_of(1, 0.25_wp), 2.0_wp, 1.0e-15_wp, "in the middle")
-      series%coefficients(3, 1) = ieee_value(1.0_wp, ieee_quiet_nan)
-      call expect_close(error, series%slope_of(1, 0.0_wp), 6.0_wp, 1.0e-15_wp, "beside no number")
-   end subroutine test_slope
-
-   !> Very small terms that grow do not reach as far as the tolerance would let them: exp(4 s) - 1 in
-   !> units of 1e-30, whose terms grow up to s = 2. One that vanishes, or all, are no limit.
+   !> Very small terms that grow do not reach as far as the tolerance would let them: exp(4 s) - 1
+   !> in units of 1e-30, whose terms grow up to s = 2. One that vanishes, or all, are no limit.
    subroutine test_reach(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: reach, series(0:8, 1)
@@ -187,8 +170,8 @@ contains
       type(integration_result) :: outcome
       integer :: i
 
-      call run(error, misprint(nothing), 0.0_wp, 1.5_wp, at_tolerance(1.0e-9_wp, "taylor"), outcome, &
-               continuation=good)
+      call run(error, misprint(nothing), 0.0_wp, 1.5_wp, at_tolerance(1.0e-9_wp, "taylor"), &
+               outcome, continuation=good)
       call run(error, misprint(no_unit), 0.0_wp, 3.0_wp, at_tolerance(1.0e-9_wp, "radau9"), outcome)
       do i = 1, size(both)
          call refuse(no_unit, both(i), of_solution)
@@ -218,8 +201,8 @@ contains
          if (present(continuation)) t_start = continuation%time(1)
          known = refused
          if (present(reason)) known = reason
-         call integrate(misprint(wrong), t_start, 3.0_wp, at_tolerance(1.0e-9_wp, method), outcome, &
-                        failure, continuation=continuation)
+         call integrate(misprint(wrong), t_start, 3.0_wp, at_tolerance(1.0e-9_wp, method), &
+                        outcome, failure, continuation=continuation)
          call expect_failure(error, failure, words)
          call expect(error, outcome%reason == known, "the reason")
       end subroutine refuse
@@ -239,8 +222,8 @@ contains
    end subroutine test_slow
 
    !> With rate 1e12 the right-hand side of 0.3 and 0.1 + 0.2 is a rounding error: the series has
-   !> another one. A jump shortly after the first delayed time, which the series does not have: the run
-   !> lands on it where it is declared, and is refused where not.
+   !> another one. A jump shortly after the first delayed time, which the series does not have: the
+   !> run lands on it where it is declared, and is refused where not.
    subroutine test_jumps(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
@@ -266,8 +249,8 @@ contains
       call expect_failure(error, failure, "the same expected, or a jump in break_at")
    end subroutine test_jumps
 
-   !> y' = -rate (y - z) with delay 1, from y = 2, z = 3; y = past exp(growth t) for t < 0, and 1 more
-   !> from a time on. Parameters: rate, past, growth, time of the jump, and what is wrong.
+   !> y' = -rate (y - z) with delay 1, from y = 2, z = 3; y = past exp(growth t) for t < 0, and 1
+   !> more from a time on. Parameters: rate, past, growth, time of the jump, and what is wrong.
    type(constant_past) function misprint(wrong) result(problem)
       integer, intent(in) :: wrong
 

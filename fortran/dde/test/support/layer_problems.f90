@@ -27,8 +27,8 @@ module layer_problems
 
 contains
 
-   !> u1' = -r u1 + back u2(t - 1), u2' = r u1(t - 1), with u1(0) = 1 and else 0 up to t = 0: a pulse,
-   !> of which a share returns (none if it is not given).
+   !> u1' = -r u1 + back u2(t - 1), u2' = r u1(t - 1), with u1(0) = 1 and else 0 up to t = 0: a
+   !> pulse, of which a share returns (none if it is not given).
    type(solved) function layer(rate, back) result(problem)
       real(wp), intent(in) :: rate
       real(wp), intent(in), optional :: back

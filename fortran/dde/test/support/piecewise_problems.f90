@@ -3,25 +3,30 @@
 !> or delays.
 module piecewise_problems
    use dde_kinds, only: wp
-   use test_problems, only: constant_past, decay_of_past, fill, slopes_interface
+   use test_problems, only: constant_past, decay_of_past, fill
    implicit none (type, external)
    private
-   public :: cells, delayed_pulse, friction, jumping_history, logistic, many_delays, pulses, relay
-   public :: sided, switching, switching_kinds
+   public :: cells, changing_stiffness, delayed_pulse, jumping_history, logistic, many_delays
+   public :: sided, switching_kinds
 
    !> Number of problems that jump or change their stiffness again and again.
    integer, parameter :: switching_kinds = 6
 
-   !> A problem with switching functions g; its parameters are the sides, -1 or 1.
+   !> A problem with switching functions.
    type, extends(constant_past) :: sided
-      procedure(slopes_interface), pointer, nopass :: g => null()
+      character(len=8) :: kind = ""
+      !> -1 or 1 for each of them
+      real(wp), allocatable :: side(:)
    contains
-      procedure :: switching => values_of_g
-      procedure :: take_sides => take_signs
+      procedure :: rhs, switching, take_sides
    end type sided
 
-   !> A delayed logistic reaction that diffuses between cells, y_i' = 1.8 y_i (1 - z_i) + d (y_(i-1) -
-   !> 2 y_i + y_(i+1)) without flux at the ends, z_i = y_i(t - 1), or y_i itself without delay.
+   interface sided
+      module procedure :: new_sided
+   end interface sided
+
+   !> A delayed logistic reaction that diffuses between cells, y_i' = 1.8 y_i (1 - z_i) + d (y_(i-1)
+   !> - 2 y_i + y_(i+1)) without flux at the ends, z_i = y_i(t - 1), or y_i itself without delay.
    type, extends(constant_past) :: cells
       !> Whether it gives the derivatives, in a band of three diagonals
       logical :: gives_jacobian = .false.
@@ -59,39 +64,33 @@ contains
    end function many_delays
 
    !> One of those that change their stiffness, with a fast rate k.
-   type(constant_past) function switching(kind, k) result(problem)
+   type(constant_past) function changing_stiffness(kind, k) result(problem)
       integer, intent(in) :: kind
       real(wp), intent(in) :: k
 
       call fill(problem, 2, [0.5_wp, 0.5_wp], [0.5_wp, 0.5_wp], [1.0_wp, 1.0_wp], [1, 2], &
                 [real(kind, wp), k])
       problem%f => switch
-   end function switching
+   end function changing_stiffness
 
-   !> y' = -sign(y(t - 1)): from 1 a triangle of period 4.
-   type(sided) function relay() result(problem)
-      call fill(problem, 1, [1.0_wp], [1.0_wp], [1.0_wp], [1], [0.0_wp])
-      problem%switches = 1
-      problem%f => against_side
-      problem%g => delayed_value
-   end function relay
+   !> relay: y' = -sign(y(t - 1)), from 1 a triangle of period 4. pulses: y' = 1 where sin(40 t) >
+   !> 0, else 0. friction: twice y1' = y2, y2' = -y1 - sign(y2)/10 (Coulomb): each half period takes
+   !> 1/5 of the amplitude, and it stays at rest where |y1| <= 1/10.
+   type(sided) function new_sided(kind) result(problem)
+      character(len=*), intent(in) :: kind
 
-   !> y' = 1 where sin(40 t) > 0, else 0.
-   type(sided) function pulses() result(problem)
-      call fill(problem, 1, [0.0_wp], [0.0_wp], p=[0.0_wp])
-      problem%switches = 1
-      problem%f => on_one_side
-      problem%g => fast_sine
-   end function pulses
-
-   !> Twice y1' = y2, y2' = -y1 - sign(y2)/10 (Coulomb): each half period takes 1/5 of the amplitude,
-   !> and it stays at rest where |y1| <= 1/10.
-   type(sided) function friction() result(problem)
-      call fill(problem, 4, first=[1.0_wp, 0.0_wp, 1.0_wp, 0.0_wp], p=[0.0_wp, 0.0_wp])
-      problem%switches = 2
-      problem%f => rub
-      problem%g => velocities
-   end function friction
+      problem%kind = kind
+      select case (kind)
+      case ("relay")
+         call fill(problem, 1, [1.0_wp], [1.0_wp], [1.0_wp], [1])
+      case ("pulses")
+         call fill(problem, 1, first=[0.0_wp])
+      case default
+         call fill(problem, 4, first=[1.0_wp, 0.0_wp, 1.0_wp, 0.0_wp])
+      end select
+      problem%switches = (problem%n + 1)/2
+      allocate (problem%side(problem%switches), source=0.0_wp)
+   end function new_sided
 
    !> The cells, from one wave.
    type(cells) function new_cells(n, diffusion, delayed) result(problem)
@@ -168,63 +167,38 @@ contains
       end associate
    end subroutine switch
 
-   pure subroutine against_side(p, t, y, z, f)
-      real(wp), intent(in) :: p(:), t, y(:), z(:)
-      real(wp), intent(out) :: f(:)
+   pure subroutine rhs(self, t, y, z, dydt)
+      class(sided), intent(in) :: self
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
+      real(wp), intent(out) :: dydt(self%n)
 
-      f = -p
-   end subroutine against_side
+      select case (self%kind)
+      case ("relay")
+         dydt = -self%side
+      case ("pulses")
+         dydt = 0.5_wp*(1.0_wp + self%side)
+      case default
+         dydt(1::2) = y(2::2)
+         dydt(2::2) = -y(1::2) - 0.1_wp*self%side
+      end select
+   end subroutine rhs
 
-   pure subroutine delayed_value(p, t, y, z, f)
-      real(wp), intent(in) :: p(:), t, y(:), z(:)
-      real(wp), intent(out) :: f(:)
-
-      f = z
-   end subroutine delayed_value
-
-   pure subroutine on_one_side(p, t, y, z, f)
-      real(wp), intent(in) :: p(:), t, y(:), z(:)
-      real(wp), intent(out) :: f(:)
-
-      f = 0.5_wp*(1.0_wp + p)
-   end subroutine on_one_side
-
-   pure subroutine fast_sine(p, t, y, z, f)
-      real(wp), intent(in) :: p(:), t, y(:), z(:)
-      real(wp), intent(out) :: f(:)
-
-      f = sin(40.0_wp*t)
-   end subroutine fast_sine
-
-   pure subroutine rub(p, t, y, z, f)
-      real(wp), intent(in) :: p(:), t, y(:), z(:)
-      real(wp), intent(out) :: f(:)
-
-      f(1::2) = y(2::2)
-      f(2::2) = -y(1::2) - 0.1_wp*p
-   end subroutine rub
-
-   pure subroutine velocities(p, t, y, z, f)
-      real(wp), intent(in) :: p(:), t, y(:), z(:)
-      real(wp), intent(out) :: f(:)
-
-      f = y(2::2)
-   end subroutine velocities
-
-   pure subroutine values_of_g(self, t, y, z, values)
+   pure subroutine switching(self, t, y, z, values)
       class(sided), intent(in) :: self
       real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: values(self%switches)
 
-      call self%g(self%p, t, y, z, values)
-   end subroutine values_of_g
+      if (self%kind == "relay") values = z
+      if (self%kind == "pulses") values = sin(40.0_wp*t)
+      if (self%kind == "friction") values = y(2::2)
+   end subroutine switching
 
-   pure subroutine take_signs(self, above)
+   pure subroutine take_sides(self, above)
       class(sided), intent(inout) :: self
       logical, intent(in) :: above(:)
 
-      self%p = merge(1.0_wp, -1.0_wp, above)
-   end subroutine take_signs
+      self%side = merge(1.0_wp, -1.0_wp, above)
+   end subroutine take_sides
 
    pure subroutine react_and_diffuse(p, t, y, z, f)
       real(wp), intent(in) :: p(:), t, y(:), z(:)

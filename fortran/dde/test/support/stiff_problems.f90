@@ -42,7 +42,7 @@ contains
       integer, intent(in), optional :: n
 
       call fill(problem, 1, [0.0_wp], [1.0_wp])
-      if (present(n)) call fill(problem, n, spread(0.0_wp, 1, n), [1.0_wp, spread(0.0_wp, 1, n - 1)])
+      if (present(n)) call fill(problem, n, first=[1.0_wp, spread(0.0_wp, 1, n - 1)])
       problem%p = [rate, problem%first]
       problem%f => relax_to_cosine
       problem%exact => cosine_of_each

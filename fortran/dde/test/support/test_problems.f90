@@ -6,7 +6,7 @@ module test_problems
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: constant_past, decay_of_past, fill, linear, series_interface, sine, slopes_interface, wille_baker
+   public :: constant_past, decay_of_past, fill, linear, sine, wille_baker
 
    abstract interface
       !> f of parameters p.
@@ -91,7 +91,8 @@ module test_problems
 contains
 
    !> Fill what every problem has, as far as it is given; without delays if none are. (flang 19
-   !> crashes on structure constructors with components of a parent type, llvm-project issue 118270.)
+   !> crashes on structure constructors with components of a parent type, llvm-project issue
+   !> 118270.)
    pure subroutine fill(problem, n, past, first, lag, component, p)
       class(constant_past), intent(inout) :: problem
       integer, intent(in), optional :: n, component(:)

@@ -10,7 +10,7 @@ module undelayed_problems
 
 contains
 
-   !> y' = (power + 1) t^power, from a first state.
+   !> y' = (power + 1) t^power, power 0 or 1, from a first state.
    type(constant_past) function quadrature(power, first) result(problem)
       integer, intent(in) :: power
       real(wp), intent(in) :: first
@@ -55,17 +55,14 @@ contains
       f = (p(1) + 1.0_wp)*t**nint(p(1))
    end subroutine power_of_time
 
-   !> Those of (t + unit s)**(power + 1).
+   !> Of powers 0 and 1.
    pure subroutine binomials(p, t, unit, z, y)
       real(wp), intent(in) :: p(:), t, unit, z(0:, :)
       real(wp), intent(inout) :: y(0:, :)
-      integer :: j, k
 
       y(1:, :) = 0.0_wp
-      do k = 1, min(ubound(y, 1), nint(p(1)) + 1)
-         y(k, 1) = unit**k*t**(nint(p(1)) + 1 - k) &
-                   *product([(p(1) + 2.0_wp - j, j=1, k)])/gamma(k + 1.0_wp)
-      end do
+      y(1, 1) = unit*(p(1) + 1.0_wp)*t**nint(p(1))
+      y(2, 1) = unit**2*p(1)
    end subroutine binomials
 
    pure subroutine turn(p, t, y, z, f)
