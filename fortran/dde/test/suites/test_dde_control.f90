@@ -4,13 +4,12 @@
 !> that is needed, and time that does not lose small steps.
 module test_dde_control
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use dde, only: continuation_type, integrate, integration_options, integration_result, methods, &
-                  table_sampler, too_many_steps
+   use dde, only: integrate, integration_options, integration_result, table_sampler
    use dde_controller, only: controller_type, method_constants
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: int64, wp
    use dde_time, only: elapsed, instant, later
-   use expectations, only: expect, expect_between, expect_close, expect_success
+   use expectations, only: expect, expect_between, expect_close
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use solving, only: at_tolerance, run
    use test_problems, only: linear
@@ -37,8 +36,7 @@ contains
                    new_unittest("first and longest step", test_steps), &
                    new_unittest("samples", test_samples), &
                    new_unittest("work", test_work), &
-                   new_unittest("sums of small steps", test_sums), &
-                   new_unittest("delays and periods within a spacing of t", test_late)]
+                   new_unittest("sums of small steps", test_sums)]
    end subroutine collect_dde_control
 
    !> However small or large an error, steps grow at most sixfold and shrink at most to a third.
@@ -231,47 +229,4 @@ contains
       call expect_close(error, elapsed(instant(1.5_wp*2.0_wp**(-53)), one), &
                         1.0_wp - 2.0_wp**(-53), 0.0_wp, "time over almost 1")
    end subroutine test_sums
-
-   !> y' = -y(t - lag)/lag with a delay of 8 spacings at t = 100, and of 2**(-24) at t = 1e6, exact
-   !> after 5 and 10 delays; and a fast oscillator at t = 100, whose phase is lost with less than a
-   !> spacing of t, in runs of a hundred steps.
-   subroutine test_late(error)
-      type(error_type), allocatable, intent(out) :: error
-      real(wp), parameter :: starts(2) = [100.0_wp, 1.0e6_wp], &
-                             lags(2) = [8*spacing_of_100, 2.0_wp**(-24)]
-      real(wp), parameter :: phase = 2.2_wp*128*acos(-1.0_wp), length = 64*spacing_of_100
-      type(continuation_type) :: continuation
-      type(failure_type), allocatable :: failure
-      type(integration_options) :: options
-      type(integration_result) :: outcome
-      type(linear) :: problem
-      real(wp) :: t_start
-      integer :: i, runs
-
-      do i = 1, size(lags)
-         problem = linear(lag=lags(i:i), rate=1.0_wp/lags(i))
-         options = at_tolerance(1.0e-12_wp)
-         options%longest_step = lags(i)/7
-         call run(error, problem, starts(i), starts(i) + 5*lags(i), options, outcome)
-         call expect(error, outcome%breaking_points == 4, "4 breaking points before 5 delays")
-         call expect_close(error, outcome%y, [19.0_wp/120], 1.0e-13_wp, "y after 5 delays")
-         call run(error, problem, starts(i), starts(i) + 10*lags(i), options, outcome)
-         call expect_close(error, outcome%y, [10493.0_wp/518400], 1.0e-13_wp, "y after 10 delays")
-      end do
-      do i = 1, size(methods)
-         options = at_tolerance(1.0e-12_wp, methods(i))
-         options%most_steps = 100
-         continuation = continuation_type()
-         t_start = 100.0_wp
-         do runs = 1, 1000
-            call integrate(swing(phase/length), t_start, 100.0_wp + length, options, outcome, &
-                           failure, continuation=continuation)
-            t_start = outcome%t
-            if (outcome%reason /= too_many_steps) exit
-         end do
-         call expect_success(error, failure)
-         call expect(error, runs > 3, "several runs")
-         call expect_close(error, outcome%y, [cos(phase), -sin(phase)], 1.0e-8_wp, methods(i))
-      end do
-   end subroutine test_late
 end module test_dde_control
