@@ -190,7 +190,6 @@ contains
       call run(error, swing(), 0.0_wp, 20.0_wp, options, sampled, table)
       call expect(error, sampled%evaluations == outcome%evaluations + 6, &
                   "evaluations for two steps with samples: "//text(sampled%evaluations))
-      if (allocated(error)) return
       call expect_close(error, sampled%y, outcome%y, 0.0_wp, "state with and without samples")
       options%first_step = 0.9_wp
       call run(error, linear(), 0.0_wp, 20.0_wp, options, outcome)

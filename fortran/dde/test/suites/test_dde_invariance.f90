@@ -127,7 +127,6 @@ contains
          end do
          call expect_success(error, failure)
          call expect_between(error, real(runs, wp), 3.0_wp, 200.0_wp, "runs of "//methods(i))
-         if (allocated(error)) return
          call expect_close(error, outcome%y, [sin(20.0_wp)], 1.0e-7_wp, methods(i))
       end do
       ! a cut costs a Taylor step, not those of a whole delay
@@ -291,7 +290,6 @@ contains
 
          call run(error, one, 0.0_wp, 20.0_wp, at_tolerance(tolerance, methods(i)), known)
          call run(error, many, 0.0_wp, 20.0_wp, at_tolerance(tolerance, methods(i)), first)
-         if (allocated(error)) return
          call expect(error, first%accepted == known%accepted &
                      .and. first%rejected == known%rejected, &
                      text(first%accepted)//" steps by "//trim(methods(i))//" at "//text(tolerance) &
@@ -313,7 +311,6 @@ contains
          call run(error, enzyme(), 0.0_wp, 20.0_wp, options, outcome)
          options%each_absolute = [1.0e-9_wp, 1.0e-9_wp, 1.0e-9_wp, 1.0e6_wp]
          call run(error, enzyme(), 0.0_wp, 20.0_wp, options, loose)
-         if (allocated(error)) return
          call expect_between(error, loose%accepted/real(outcome%accepted, wp), 0.8_wp, 1.2_wp, &
                              methods(i))
       end do

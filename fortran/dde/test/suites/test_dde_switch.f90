@@ -59,7 +59,6 @@ contains
          analytic%analytic = .true.
          call run(error, analytic, 0.0_wp, 50.0_wp, at_tolerance(tolerance, method), known)
          call run(error, analytic, 0.0_wp, 50.0_wp, at_tolerance(tolerance, "auto"), outcome)
-         if (allocated(error)) return
          call expect(error, outcome%accepted == known%accepted &
                      .and. outcome%evaluations == known%evaluations, method)
       end subroutine expect_method
@@ -129,7 +128,6 @@ contains
       do i = 1, size(tolerances)
          call run(error, problem, 0.0_wp, t_end, at_tolerance(tolerances(i), "auto"), auto)
          call run(error, problem, 0.0_wp, t_end, at_tolerance(tolerances(i), "radau9"), implicit)
-         if (allocated(error)) return
          if (present(known)) then
             call expect_close(error, auto%y, known, 10*tolerances(i), name//" by auto")
             call expect_close(error, implicit%y, known, 10*tolerances(i), name//" by radau9")
@@ -167,7 +165,6 @@ contains
       problem = follower(1.0e22_wp, 0.0_wp, wrong_by=ieee_value(1.0_wp, ieee_quiet_nan))
       call run(error, problem, 0.0_wp, 5.0_wp, at_tolerance(1.0e-8_wp, "auto"), auto)
       call run(error, problem, 0.0_wp, 5.0_wp, at_tolerance(1.0e-8_wp, "radau9"), implicit)
-      if (allocated(error)) return
       call expect(error, auto%switches > 1, "trials of the explicit method")
       call expect(error, auto%work <= 2*implicit%work, &
                   text(auto%work)//" by auto, "//text(implicit%work)//" by radau9")

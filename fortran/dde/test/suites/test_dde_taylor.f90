@@ -153,7 +153,6 @@ contains
          analytic%analytic = .true.
          call run(error, problem, 0.0_wp, t_end, at_tolerance(tight, method), known)
          call run(error, analytic, 0.0_wp, t_end, at_tolerance(tolerance, "taylor"), outcome)
-         if (allocated(error)) return
          call expect_close(error, outcome%y, known%y, 10*tolerance, "beside "//method)
          if (present(most)) known%accepted = most
          call expect(error, outcome%accepted < known%accepted, "steps: "//text(outcome%accepted))
@@ -217,7 +216,6 @@ contains
                at_tolerance(1.0e-9_wp, "auto"), outcome)
       call run(error, follower(1.0e6_wp, 0.0_wp), 0.0_wp, 3.0_wp, &
                at_tolerance(1.0e-11_wp, "radau9"), reference)
-      if (allocated(error)) return
       call expect_close(error, outcome%y, reference%y, 1.0e-8_wp, "a wrong slow series")
    end subroutine test_slow
 
