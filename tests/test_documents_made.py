@@ -118,7 +118,7 @@ def with_procedures(source: str, *procedures: str) -> str:
 def test_values_in_the_manual():
     """The example, which test_solver_package.py runs, has the published values."""
     printed = re.findall(r"y\((\d+)\) = (\d+\.\d+)", prose_of(MANUAL))
-    # as in fortran/dde/test/suites/test_dde_solutions.f90
+    # as in fortran/dde/test/suites/test_dde_accuracy.f90
     assert printed == [("50", f"{1.060954362898:.6f}"), ("200", f"{1.186718107117:.6f}")]
 
 
