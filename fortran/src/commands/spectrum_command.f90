@@ -10,7 +10,7 @@ module spectrum_command
    use results, only: results_type
    use spectral_peaks, only: base_peak, combination_peak, find_peaks, harmonic_peak, other_peak, &
                              peak_type, second_base_peak
-   use spectrum, only: power_spectrum
+   use spectral_density, only: power_spectrum
    use spectrum_verdict, only: continuum_share, line_share, spectrum_kind, spectrum_kind_name
    use value_checks, only: check_choice, check_count, missing, missing_count
    implicit none (type, external)

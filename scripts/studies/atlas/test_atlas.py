@@ -1,6 +1,6 @@
 """The atlas in the workflow: its parts and their namelists, its table, and no point twice.
 
-The suites refined_grid and attractor_points show which points of a refined plane are computed.
+The suite attractor_points shows which points of a refined plane are computed.
 """
 
 import math

@@ -1,6 +1,6 @@
 """Exponents: the program against known roots, its refusals, the config, table and figure.
 
-The suites lyapunov_spectrum and tangent_runs show long intervals and other methods.
+The suites lyapunov_spectrum and floquet_multipliers show long intervals and other methods.
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
 """Hopf curves in a plane of epsilon and another parameter.
 
 Formulas and sources: (5) `characteristic_function.f90`; curves `hopf_curves.f90`;
-supercritical or subcritical `normal_form.f90`; special points `hopf_points.f90`,
+supercritical or subcritical `hopf_normal_form.f90`; special points `hopf_points.f90`,
 `hopf_unfoldings.f90`, `double_hopf.f90`.
 """
 

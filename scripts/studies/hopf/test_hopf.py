@@ -1,7 +1,7 @@
 """The hopf program: every point in equation (5) and in closed form; the table, captions, verdicts.
 
 The suite hopf_curves shows that curves are complete and smooth, and which way roots cross; the
-suite hopf_unfoldings shows where curves of folds and of tori start.
+suite hopf_points shows where curves of folds and of tori start.
 """
 
 import numpy as np

@@ -1,6 +1,7 @@
 """Figure of one scene: in time, phase portrait, section, exponents, and spectrum.
 
-Formulas and sources: (3), (4) `spring_block.yaml`, `slip_delayed_logarithm.yaml`; `spectrum.f90`.
+Formulas and sources: (3), (4) `spring_block.yaml`, `slip_delayed_logarithm.yaml`;
+`spectral_density.f90`.
 """
 
 from scripts.namelists.laws import has_rest

@@ -73,7 +73,6 @@ module dde_problem
       procedure :: relaxation_rate => no_relaxation
       !> Taylor series of the solution on which they are in balance
       procedure :: slow_series => no_slow_series
-      procedure, non_overridable :: shortest_lag, delayed_time
    end type dde_problem_type
 
    abstract interface
@@ -128,22 +127,6 @@ module dde_problem
    end type problem_with_tangents
 
 contains
-
-   !> The shortest delay; huge without delays.
-   pure real(wp) function shortest_lag(self) result(lag)
-      class(dde_problem_type), intent(in) :: self
-
-      lag = minval(self%lag)
-   end function shortest_lag
-
-   !> The time t - lag(k) that delayed value k shows at time t.
-   pure real(wp) function delayed_time(self, k, t) result(time)
-      class(dde_problem_type), intent(in) :: self
-      integer, intent(in) :: k
-      real(wp), intent(in) :: t
-
-      time = t - self%lag(k)
-   end function delayed_time
 
    !> Derivatives of the right-hand side by y and z: `not_given` unless the extension gives them.
    pure subroutine no_jacobian(self, t, y, z, by_y, by_z)

@@ -97,7 +97,7 @@ contains
             do i = 1, size(problem%lag)
                if (ieee_is_finite(z(i, place))) cycle
                words = problem%name_of("y", problem%component(i))//" is "//text(z(i, place)) &
-                       //" at t = "//text(problem%delayed_time(i, t))
+                       //" at t = "//text(t - problem%lag(i))
                if (cursor%before_origin(i)) words = "the history of "//words
                return
             end do

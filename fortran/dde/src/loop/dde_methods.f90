@@ -125,7 +125,7 @@ contains
          if (2*size(problem%lag) >= problem%n .and. tolerance%level >= least_of_many) then
             allocate (y(problem%n))
             call problem%initial(y)
-            if (problem%relaxation_rate(origin, y) < least_balance/problem%shortest_lag()) return
+            if (problem%relaxation_rate(origin, y) < least_balance/minval(problem%lag)) return
          end if
          method = "taylor"
       end if

@@ -109,7 +109,7 @@ contains
          end associate
       end if
       associate (context => self%context, problem => self%context%problem)
-         call context%go_to(self%now, min(self%options%longest_step, problem%shortest_lag(), &
+         call context%go_to(self%now, min(self%options%longest_step, minval(problem%lag), &
                                           self%points%time_to_next(self%now)))
          call bound_times(self)
          if (.not. allocated(self%sides%above)) then
@@ -148,7 +148,7 @@ contains
          self%longest = min(self%longest, most_places*min(self%watcher%look_every, endless))
       end if
       if (.not. self%step%constants%implicit) then
-         self%longest = min(self%longest, self%context%problem%shortest_lag())
+         self%longest = min(self%longest, minval(self%context%problem%lag))
       end if
    end subroutine find_longest
 
@@ -166,7 +166,7 @@ contains
          call self%step%propose(self%context, self%h)
          self%h = min(self%h, longest)
          if (self%step%constants%implicit) then
-            associate (lag => self%context%problem%shortest_lag())
+            associate (lag => minval(self%context%problem%lag))
                if (self%h > lag .and. self%h/uncoupled < lag) self%h = lag
             end associate
          end if
@@ -205,7 +205,7 @@ contains
       class(run_type), intent(inout) :: self
 
       self%step%y = self%sides%y
-      call self%context%go_to(self%now, min(self%step%h, self%context%problem%shortest_lag()))
+      call self%context%go_to(self%now, min(self%step%h, minval(self%context%problem%lag)))
       call self%sides%change(self%context, self%step%y)
       call self%prepare_start()
       call self%points%add(kink_type(self%now))

@@ -94,7 +94,7 @@ contains
          allocate (run%switch)
          run%switch%least_price = price_of_trial(problem, context%tolerance)
          run%switch%price = run%switch%least_price
-         run%switch%shortest = problem%shortest_lag()
+         run%switch%shortest = minval(problem%lag)
          run%switch%series = matching_method(problem, context%tolerance, origin%hi, &
                                              implicit=.false.) == "taylor"
       end associate
@@ -181,7 +181,7 @@ contains
       if (slope > 1.0e-5_wp .and. length_of(step%y, step%scale) > 1.0e-5_wp) then
          h = 0.01_wp*length_of(step%y, step%scale)/slope*unit
       end if
-      h = min(h, longest, context%problem%shortest_lag())
+      h = min(h, longest, minval(context%problem%lag))
       call context%delayed_values([h], step%z)
       step%y_new = step%y + h*step%slope
       call context%evaluate(context%cursor%t + h, step%y_new, step%z, slope_ahead)

@@ -140,7 +140,7 @@ contains
       given = slope(i)
       do j = 1, size(z, 1)
          associate (component => context%problem%component(j), &
-                    t => context%problem%delayed_time(j, context%cursor%t + time))
+                    t => context%cursor%t + time - context%problem%lag(j))
             if (elapsed(instant(t), context%past%origin) <= 0.0_wp) cycle
             of_series = series_value(series%degree, series%delayed%coefficients(:, j), &
                                      time/series%unit)

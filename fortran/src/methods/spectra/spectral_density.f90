@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Power spectral density after Welch (1967): segments that overlap, windowed, transformed by FFTW,
 !> averaged. One-sided, normalised so that its integral over frequency is the variance.
-module spectrum
+module spectral_density
    use dde_errors, only: error_type, raise, text
    use fourier_transform, only: transform_real
    use dde_kinds, only: wp
@@ -72,4 +72,4 @@ contains
       power(2:(length + 1)/2) = 2.0_wp*power(2:(length + 1)/2)
       frequency = [(i/(length*interval), i=0, length/2)]
    end subroutine power_spectrum
-end module spectrum
+end module spectral_density

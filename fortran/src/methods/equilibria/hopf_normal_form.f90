@@ -1,9 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The normal form of a Hopf bifurcation of a delayed model.
-module normal_form
+module hopf_normal_form
    use dde_errors, only: error_type
    use dde_kinds, only: wp
-   use lapack, only: null_vectors, solve
+   use lapack_algebra, only: null_vectors, solve
    use linear_system, only: linear_part, linear_system_type
    use model_problem, only: model_type
    implicit none (type, external)
@@ -92,4 +92,4 @@ contains
       call solve(linear%characteristic_matrix(s), reshape(forcing, shape(answer)), answer, error)
       history = linear%history(answer, s)
    end subroutine find_response
-end module normal_form
+end module hopf_normal_form

@@ -2,10 +2,10 @@
 !> Linear maps that are known by what they do to a vector: systems of equations by GMRES (Saad and
 !> Schultz 1986, SIAM J. Sci. Stat. Comput. 7, 856), eigenvalues of greatest modulus by Arnoldi's
 !> method. Both converge fast where all eigenvalues but a few are close to one value.
-module linear_map
+module orbit_map
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use lapack, only: eigenvectors
+   use lapack_algebra, only: eigenvectors
    implicit none (type, external)
    private
    public :: leading_eigenvalues, linear_map_type, solve_by_gmres
@@ -189,4 +189,4 @@ contains
       basis(:, k + 1) = image
       if (h(k + 1) > 0.0_wp) basis(:, k + 1) = image/h(k + 1)
    end subroutine extend_basis
-end module linear_map
+end module orbit_map

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Dense linear algebra by LAPACK: eigenvalues and eigenvectors, systems of equations and null
 !> vectors.
-module lapack
+module lapack_algebra
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    implicit none (type, external)
@@ -194,4 +194,4 @@ contains
       q = conjg(right(n, :))
       p = conjg(left(:, n))
    end subroutine null_vectors
-end module lapack
+end module lapack_algebra
