@@ -16,15 +16,14 @@ sys.path.insert(0, str(workflow.basedir))
 from scripts.files.read_config import ConfigError, read_overlay
 from scripts.workflow import manifest, records, run_times
 from scripts.workflow.check_run import problem_of
-from scripts.workflow.failed_run import make_page
+from scripts.workflow.failed_run import make_page, read_failed_run
 from scripts.workflow.plan import read_plan
 
 try:
     given = read_overlay(workflow.config_settings)
-    config = dict(given)
-    # of a run that failed, whose page is to be made: reasons by path, and all that is missing
-    failed, unmade = config.pop("failed", {}), config.pop("unmade", [])
-    plan = read_plan(config).without(unmade)
+    # of a run that failed, whose page is to be made
+    failed, unmade = read_failed_run()
+    plan = read_plan(given).without(unmade)
 except ConfigError as problem:
     sys.exit(f"error: {problem}")
 config = plan.config
@@ -70,6 +69,6 @@ onsuccess:
 
 
 onerror:
-    manifest.record_run(plan.results)
     if not failed:
-        make_page(workflow, plan.results, given)
+        make_page(plan.results, given)
+    manifest.record_run(plan.results)

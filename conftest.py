@@ -16,6 +16,7 @@ from pathlib import Path
 
 import pytest
 import xarray as xr
+from dry_runs import Job, jobs_in
 from namelist_groups import (
     CASES,
     EXPONENTS,
@@ -53,8 +54,8 @@ GROUPS = {
     "slip_events": "scene",
 }
 """Namelist group of each command that reads one alone, as tests name it."""
-DEAR = {"visited", "made", "installed", "run_of", "planned"}
-"""Fixtures of a module that one of the processes of `./test` makes for all tests that use them."""
+DEAR = {"visited", "made", "installed", "planned"}
+"""Fixtures that one of the processes of `./test` makes for all tests that use them."""
 collect_ignore = (
     [] if (studies.FOLDER / "work_precision").exists() else ["tests/test_benchmarks.py"]
 )
@@ -184,11 +185,15 @@ class Programs:
         return self.run(program, self.write(groups).name, self.output.name)
 
     def made_of(self, program: str, groups: dict[str, dict]) -> xr.Dataset:
-        run = self.run_groups(program, groups)
-        # progress is reported after a second, so on a busy machine by runs that are short elsewhere
+        self.check_silent(self.run_groups(program, groups))
+        return xr.load_dataset(self.output)
+
+    @staticmethod
+    def check_silent(run: subprocess.CompletedProcess[str]) -> None:
+        """It succeeded without words, but for progress, which a busy machine reports of runs that
+        are short elsewhere."""
         said = [line for line in run.stderr.splitlines() if not re.search(r": \d+ %, ", line)]
         assert (run.returncode, run.stdout, said) == (0, "", [])
-        return xr.load_dataset(self.output)
 
     def made_by(self, program: str, values: dict) -> xr.Dataset:
         return self.made_of(program, {GROUPS[program]: values})
@@ -281,6 +286,14 @@ def project(tmp_path) -> Project:
 def fresh(tmp_path_factory) -> Project:
     """A fresh copy in which nothing was built; not to be changed."""
     return copy_of_project(tmp_path_factory.mktemp("fresh") / "project")
+
+
+@pytest.fixture(scope="session")
+def planned(fresh) -> list[Job]:
+    """Jobs of the paper, as a dry run in a fresh copy lists them."""
+    run = fresh.snakemake("--dry-run")
+    assert run.returncode == 0, run.stdout
+    return jobs_in(run.stdout)
 
 
 @pytest.fixture(scope="session")

@@ -19,10 +19,3 @@ def residual(s, *parameters):
     """|(5)| over its largest term."""
     parts = terms(s, *parameters)
     return np.abs(np.sum(parts, axis=0)) / np.max(np.abs(parts), axis=0)
-
-
-def closed_form(omega, xi, gamma):
-    """epsilon, and omega tau but for whole turns, of a pair i omega."""
-    b = xi * (gamma**2 - omega**2) / (gamma**2 * omega)
-    epsilon = np.sqrt((1 + omega**2) * (1 + b**2)) - 1
-    return epsilon, np.arctan(b) - np.arctan(omega)

@@ -1,8 +1,6 @@
 """Results made up for tests of the ledger: curves, spectra and events, and rows of tables."""
 
 import math
-import re
-from collections.abc import Iterable
 
 import numpy as np
 import pytest
@@ -304,21 +302,3 @@ def survey_run(classes: list[str], **given) -> xr.Dataset:
     data["sign"] = (("point", "exponent"), np.sign(data["lyapunov_exponent"][1]))
     data["problem"] = ("point", words.astype(object))
     return xr.Dataset(data, attrs=BLOCK)
-
-
-def of_other_model(data: xr.Dataset) -> xr.Dataset:
-    """The same of a model that is not the block: beta is in the place of epsilon and y in that of
-    v; it has no xi, gamma, theta and u, and n = 10."""
-
-    def renamed(name: str) -> str:
-        return re.sub(r"(?<![^_])epsilon$", "beta", re.sub(r"(?<![^_])v(?![^_])", "y", name))
-
-    def own(names: Iterable) -> dict[str, str]:
-        kept = [name for name in map(str, names) if not re.search("(^|_)(xi|gamma|theta|u)$", name)]
-        return {name: renamed(name) for name in kept}
-
-    attributes = {new: data.attrs[name] for name, new in own(data.attrs).items()}
-    attributes |= {key: renamed(str(attributes[key])) for key in ("along",) if key in attributes}
-    attributes |= {"model": "mackey_glass", "parameters": "beta n tau", "n": 10.0, "signal": "y"}
-    names = own(data.variables)
-    return data[list(names)].rename(names).drop_attrs(deep=False).assign_attrs(attributes)

@@ -5,19 +5,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from made_up_results import of_other_model
 from made_up_results import survey_run as a_run
 
 from scripts.namelists.attractor_surveys import drawn_histories
 from scripts.namelists.parameters import HISTORY, PARAMETERS
 from scripts.tables import attractor_tables
 from scripts.tables.motion_rows import (
-    axes_of,
     count_in_words,
     kind_of,
     parameter_of,
-    plane_of,
-    planes_of,
 )
 
 
@@ -124,25 +120,6 @@ def test_parameter_of_a_route(along):
         varied = {f"history_{along}" if along == "v" else along: [1.0, 2.0], "history_u": u}
         rows += attractor_tables.route_rows(Path(path), a_run(["cycle", "cycle"], **varied))
     assert parameter_of(rows) == along
-
-
-def test_rows_of_a_model_that_is_not_the_block():
-    """Parameters and states are named as the model names them; its law is its name with what is
-    fixed."""
-    run = of_other_model(a_run(["cycle", "fixed point"], epsilon=[0.1, 0.2], history_v=[1.0, 3.0]))
-    run["computed"] = ("point", [1, 0], {"flag_meanings": "no yes"})
-    run.attrs["axes"] = "beta tau"
-    first, second = attractor_tables.atlas_rows(run)
-    columns = list(first)
-    assert columns[: columns.index("computed")] == ["tau", "law", "beta", "y", "abscissa"]
-    assert (second["beta"], second["y"], second["class"]) == (0.2, 3.0, "fixed point")
-    assert math.isnan(second["exponent_1"])
-    assert first["law"] == "model mackey_glass (n = 10)"
-    assert axes_of(first) == ("beta", "tau")
-    assert planes_of([first, second]) == {plane_of(run.attrs, ("beta", "tau")): [first, second]}
-    assert parameter_of(attractor_tables.route_rows(Path("mine/own.nc"), run)) == "beta"
-    # the second history is faster than the attractors
-    assert [row["tame_histories"] for row in attractor_tables.scene_rows("mine", run)] == 2 * ["no"]
 
 
 def test_points_are_counted_and_cycles_parted():

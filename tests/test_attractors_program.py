@@ -3,18 +3,11 @@
 The suite attractor_points shows that a failed run changes no other one.
 """
 
-import math
-
 import numpy as np
 import pytest
-import xarray as xr
-from namelist_groups import OBSERVATION, in_groups
-from scipy.integrate import solve_ivp
+from namelist_groups import OBSERVATION
 
 ONE_HISTORY = {"theta": [0.0], "u": [0.0], "v": [1.1]}
-REST = {"epsilon_part": [2, 2], "tau_part": [1, 1]}
-"""A point at which the block comes to rest."""
-SECTION = ("maximum", "section_theta", "section_u")
 
 
 @pytest.fixture
@@ -62,93 +55,6 @@ def test_own_parameter_of_a_law_is_an_axis(programs, groups):
     assert np.nanmax(np.abs(expected[0] - expected[1])) > 1e-3
 
 
-def test_sweep_is_in_its_order(programs, groups):
-    """The first point is as in a run without sweep, the others start from the point before."""
-    groups["points"] |= {"tau_part": [2, 2], **ONE_HISTORY}
-    alone = programs.made_of("attractors", groups)
-    groups["points"]["sweep"] = "down"
-    found = programs.made_of("attractors", groups)
-    assert found.attrs["sweep"] == "down"
-    np.testing.assert_array_equal(found.epsilon, alone.epsilon[::-1])
-    maxima, of_alone = found.maximum.values, alone.maximum.values[::-1]
-    np.testing.assert_array_equal(maxima[0], of_alone[0])
-    assert not np.array_equal(maxima[1], of_alone[1])
-
-
-def test_fixed_point_has_the_roots_and_no_more(programs, groups):
-    """Without delay three exponents, without error; maxima while it decays, NaN beyond them."""
-    groups["points"] |= REST
-    found = programs.made_of("attractors", groups)
-    assert found["class"].values.tolist() == [1, 1]
-    roots = np.roots([1, 1.8, 0.64 + 0.8 - 1.3 * 0.8, 0.64])
-    for exponents in found.lyapunov_exponent.values:
-        np.testing.assert_allclose(exponents[:3], np.sort(roots.real)[::-1], atol=1e-12)
-    assert found.lyapunov_error[:, :3].values.tolist() == [[0.0] * 3] * 2
-    assert np.isnan(found.lyapunov_exponent[:, 3]).all()
-    assert found.sign[:, :3].values.tolist() == [[-1.0] * 3] * 2
-    assert found.period.values.tolist() == found.base_1.values.tolist() == [0, 0]
-    # the approach ends where the block is close to rest: with the first history soon
-    kept = np.isfinite(found.maximum).sum("kept").values
-    assert kept[0] < 5 < kept[1] < 100
-    assert (np.diff(found.maximum.values[1, : kept[1]]) < 0).all()
-    np.testing.assert_array_equal(found.maximum.min("kept"), found.smallest_maximum)
-    np.testing.assert_array_equal(found.maximum.max("kept"), found.largest_maximum)
-
-
-def test_recurrence_time_of_a_cycle_is_its_period(programs, groups):
-    """Without delay, beside SciPy's solution; a fixed point has none."""
-    groups["observation"]["t_transient"] = 400.0
-    groups["points"] |= {"tau_part": [1, 1], **ONE_HISTORY}
-    at_rest, of_cycle = programs.made_of("attractors", groups).recurrence_time.values
-    assert math.isnan(at_rest)
-
-    def slopes(_t, y):
-        theta, u, v = y[0], y[1], math.exp(y[2])
-        return [-v * (theta + 1.5 * y[2]), v - 1, -0.64 * (u + (theta + y[2]) / 0.8) / v]
-
-    def rise(_t, y):
-        return y[2]
-
-    rise.direction = 1
-    start = [0.0, 0.0, math.log(1.1)]
-    run = solve_ivp(slopes, (0.0, 600.0), start, method="DOP853", rtol=1e-9, events=rise)
-    np.testing.assert_allclose(of_cycle, np.diff(run.t_events[0])[-1], rtol=1e-6)
-
-
-def test_the_last_points_are_kept(programs, groups):
-    """The number of points that `kept` gives, or none at all."""
-    groups["points"] |= {"epsilon_part": [3, 3], "tau_part": [2, 2]}
-    whole = programs.made_of("attractors", groups)
-    groups["points"]["kept"] = 0
-    assert not {*SECTION} & {*programs.made_of("attractors", groups)}
-    groups["points"]["kept"] = 3
-    found = programs.made_of("attractors", groups)
-    for key in SECTION:
-        for values, kept in zip(whole[key].values, found[key].values, strict=True):
-            np.testing.assert_array_equal(kept, values[np.isfinite(values)][-3:])
-
-
-def test_paths_are_kept_where_the_block_moves(programs, groups):
-    """From v = 1 on for `t_path`, or a period; nothing else in the file changes."""
-    groups["points"] |= ONE_HISTORY
-    without = programs.made_of("attractors", groups)
-    groups["observation"]["t_path"] = 12.0
-    found = programs.made_of("attractors", groups)
-    assert found.attrs.pop("t_path") == 12.0
-    xr.testing.assert_identical(found.drop_dims("path_point").drop_vars("path_length"), without)
-    lengths = found.path_length.values
-    moving = found["class"].values != 1
-    assert (lengths > 0).tolist() == moving.tolist()
-    assert 0 < moving.sum() < 4
-    assert found.path_length.attrs["sample_dimension"] == "path_point"
-    ends = np.cumsum(lengths)[moving]
-    starts = ends - lengths[moving]
-    assert found.path_time.values[starts].tolist() == [0.0] * len(starts)
-    last = found.path_time.values[ends - 1]
-    assert ((9.0 < last) & (last <= 12.0)).all()
-    np.testing.assert_allclose(found.path_ln_v.values[starts], 0.0, atol=1e-6)
-
-
 @pytest.mark.parametrize("refinements", [0, 1])
 def test_same_bytes_in_one_thread_and_in_two(programs, groups, monkeypatch, refinements):
     """Also if only some points are computed."""
@@ -160,12 +66,3 @@ def test_same_bytes_in_one_thread_and_in_two(programs, groups, monkeypatch, refi
         programs.made_of("attractors", groups)
         contents.add(programs.output.read_bytes())
     assert len(contents) == 1
-
-
-def test_points_without_a_history_are_refused(programs, groups):
-    given = in_groups(groups)
-    del given["histories"]
-    done = programs.run_groups("attractors", given)
-    assert "namelist group &histories: " in done.stderr
-    assert "expected names and values before the initial time" in done.stderr
-    assert programs.left_behind() == []

@@ -1,19 +1,17 @@
 """Checking a configuration: defaults filled in, and each refusal in words."""
 
 import copy
-import math
+from collections import defaultdict
 from collections.abc import Iterator
 
 import pytest
+from wrong_values import Place, rules_in, wrong_values
 
 from scripts.config.check_config import checked
 from scripts.config.checks import FEWEST_SAMPLES
 from scripts.files.read_config import ConfigError
 from scripts.plans import studies
 
-NO_NUMBERS = ["0.5", True, None, [0.5], {"a": 0.5}, math.nan, math.inf, -math.inf]
-Place = tuple[str | int, ...]
-"""Keys, and places in lists, that lead to a value."""
 ROUTE = ("routes", "lines", "chaos_in_epsilon")
 FAMILY = ("stability", "families", "growth")
 DEFAULT = studies.merged("config.yaml")
@@ -33,23 +31,6 @@ def section_of(config: dict, path: Place) -> dict:
 
 def put(config: dict, path: Place, value) -> None:
     section_of(config, path[:-1])[path[-1]] = value
-
-
-def numbers_in(value, path: Place = ()) -> Iterator[Place]:
-    """Places of all numbers, of a list the last one."""
-    if isinstance(value, dict | list):
-        items = value.items() if isinstance(value, dict) else [*enumerate(value)][-1:]
-        for key, item in items:
-            yield from numbers_in(item, (*path, key))
-    elif isinstance(value, int | float) and not isinstance(value, bool):
-        yield path
-
-
-def sections_in(config: dict, path: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
-    yield path
-    for key, value in config.items():
-        if isinstance(value, dict):
-            yield from sections_in(value, (*path, key))
 
 
 def places(config: dict, path: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
@@ -119,46 +100,49 @@ def test_missing_keys_get_their_defaults(config):
     assert scenes["other"]["history"]["v"] == 1.1
 
 
-def test_every_number_must_be_one(whole):
-    """In place of any number text, truth, nothing, lists, NaN and infinity are refused."""
-    places = list(numbers_in(whole))
-    assert len(places) > 200
-    # of those in SI: tests/test_si.py
-    places = [path for path in places if "si" not in whole["scenes"].get(path[1], ())]
-    for value in NO_NUMBERS:
+def test_whatever_the_schema_does_not_allow_is_refused(whole):
+    """Each number, word, list and section in turn: the line names place, key, value and range."""
+    rounds: dict[tuple[int, int], list] = defaultdict(list)
+    for path, value, rules in rules_in(whole):
+        # of those in SI: scripts/studies/si/test_si.py
+        if path and "si" not in whole["scenes"].get(path[1] if path[1:] else "", ()):
+            for i, (wrong, words) in enumerate(wrong_values(value, rules)):
+                rounds[len(path), i].append((path, wrong, words))
+    assert sum(map(len, rounds.values())) > 5000
+    for spoils in rounds.values():
         spoiled = copy.deepcopy(whole)
-        for path in places:
-            put(spoiled, path, value)
+        for path, wrong, _ in spoils:
+            put(spoiled, path, wrong)
         lines = refuse(spoiled)
-        for path in places:
-            if isinstance(value, list) and path[0] in ("scenes", "stability") and "history" in path:
-                continue  # a list has one number a block, or a case
-            start = f"{place_of(path[:-1])}: {path[-1]} = {value!r}; expected "
-            assert [line for line in lines if line.startswith(start) and "number" in line], path
+        for path, wrong, words in spoils:
+            start = f"{place_of(path[:-1])}: {path[-1]} = {wrong!r}; expected "
+            assert [line for line in lines if line.startswith(start) and words in line], (
+                path,
+                words,
+            )
+
+
+def test_keys_that_the_schema_does_not_know_are_refused(whole):
+    """In every section of fixed keys: the line names section and key, and lists what is known."""
+    closed = [
+        path for path, _, rules in rules_in(whole) if rules.get("additionalProperties") is False
+    ]
+    assert len(closed) > 100
+    for path in closed:
+        section_of(whole, path)["colour"] = 1
+    lines = refuse(whole)
+    for path in closed:
+        start = f"{place_of(path)}: unknown key ['colour']; allowed: "
+        assert [line for line in lines if line.startswith(start)], path
 
 
 REFUSED = [
-    # ranges of one value
-    (("scenes", "torus", "tau"), -1e-300, "delay, nondimensional, a finite number >= 0"),
-    (("scenes", "torus", "epsilon"), -1.0, "epsilon = -1.0; expected"),
-    (("scenes", "torus", "t_end"), 10**400, "a finite number > 0"),
-    (("scenes", "torus", "tolerance"), 9.9e-14, "tolerance = 9.9e-14; expected"),
-    (("scenes", "torus", "method"), "radau", "one of: auto, explicit"),
-    (("scenes", "torus", "variables"), ["v", "v"], "theta, u, v"),
-    (("scenes", "torus", "exponents", "count"), 65, "a whole number >= 2"),
-    (("spectra", "segments"), 8.0, "a whole number >= 1"),
-    (("spectra", "overlap"), 1.0, "overlap = 1.0; expected"),
-    (("linear_stability", "root_bound"), 0.1, "<= 0"),
-    (("routes", "sweeps", 0), "left", "one of: up, down"),
-    ((*FAMILY, "tau"), [], "at least one finite number >= 0"),
     (("pathvars", "results"), "results/$(touch X)", "folder of the results"),
     *(
         (("pathvars", "results"), path, "folder of the results")
         for path in ("../outside/", "../outside", ".", ".git", "results/../..", "-x")
     ),
     # windows
-    ((*ROUTE, "window"), [0.5], "two ascending"),
-    ((*ROUTE, "window"), 0.5, "two ascending"),
     ((*ROUTE, "window"), [0.5, 0.5], "two ascending"),
     ((*ROUTE, "window"), [0.6, 0.5], "two ascending"),
     ((*ROUTE, "window"), [-1.0, 0.5], "> -1.0"),
@@ -187,6 +171,9 @@ REFUSED = [
         {"tolerance": 1e-17, "check_tolerance": 1e-17},
         "check_tolerance = 1e-17; expected a finite number > tolerance = 1e-17",
     ),
+    (("synchrony", "scenes"), ["nowhere"], "'nowhere'; expected one of"),
+    (("synchrony", "s_window"), [0.5, 2.0], "s_window = [0.5, 2.0]; expected two ascending"),
+    (("synchrony", "t_end"), 10.0, "t_end = 10.0; expected a finite number > t_transient"),
     ((*FAMILY, "tau"), MANY, "2000 combinations; expected at most 1000"),
     (("stability", "families", "abcdefghij" * 6), LONG_NAMES, "of 72 letters; expected at most 64"),
     ((*FAMILY, "reference"), "stationary", "t_end = 400.0; expected a finite number >= 10000.0"),
@@ -206,26 +193,6 @@ def test_bad_value_is_refused(whole, path, value, words):
     lines = refuse(whole)
     start = place_of(path[:-1])
     assert [line for line in lines if line.startswith(start) and words in line], lines
-
-
-def test_unknown_keys_are_refused(whole):
-    """In every section of fixed keys: the line names section and key, and lists what is known."""
-    named = ["scenes", "hopf_curves", "si", "claims", "laws", "models"]
-    named += ["parameters", "planes", "families", "histories", "lines", "places", "cases", "rows"]
-    sections = [path for path in sections_in(whole) if not path or path[-1] not in named]
-    sections = [path for path in sections if path[:1] != ("claims",)]
-    sections = [path for path in sections if path != ("work_precision", "scenes")]
-    # of histories: tests/test_models.py; of curves: the parameters of a model
-    beside = {"history", "histories", "curves", "disturbance"}
-    sections = [path for path in sections if not beside & {*path[-1:], *path[-2:-1]}]
-    sections = [path for path in sections if path[:2] != ("friction_laws", "planes")]
-    for path in sections:
-        put(whole, (*path, "colour"), 1)
-    lines = refuse(whole)
-    assert len(sections) > 30
-    for path in sections:
-        start = f"{place_of(path)}: unknown key ['colour']; allowed: "
-        assert [line for line in lines if line.startswith(start)], path
 
 
 @pytest.mark.parametrize(
@@ -255,12 +222,6 @@ def test_missing_key_is_named_once(config, path):
     assert refuse(config) == [f"{place_of(path[:-1])}: key ['{path[-1]}'] is missing"]
 
 
-@pytest.mark.parametrize(("path", "value"), [(("scenes",), None), (("figures",), [])])
-def test_section_that_is_no_mapping_is_refused(config, path, value):
-    put(config, path, value)
-    assert f"{path[-1]} = {value!r}" in "\n".join(refuse(config))
-
-
 @pytest.mark.parametrize("path", [("scenes",), ("routes", "lines")])
 def test_name_that_makes_no_file_name_is_refused(config, path):
     """Snakemake takes a name that ends with 20 equal parts for an endless recursion."""
@@ -277,18 +238,6 @@ def test_name_that_makes_no_file_name_is_refused(config, path):
         lines = refuse(spoiled)
         starts = [f"{place_of(path)}: name {name!r}; expected " for name in names]
         assert all(any(line.startswith(start) for line in lines) for start in starts), lines
-
-
-def test_all_problems_are_listed_at_once(config):
-    """One run of the check is enough to mend a file."""
-    config["scenes"]["torus"]["tau"] = -1.0
-    config["scenes"]["chaos"]["xi"] = "much"
-    config["spectra"]["segments"] = 0
-    config["threads"] = 4
-    lines = refuse(config)
-    for part in ("tau = -1.0", "xi = 'much'", "segments = 0", "unknown key ['threads']"):
-        assert sum(part in line for line in lines) == 1
-    assert len(lines) == 4
 
 
 def test_part_of_too_many_points_is_refused(config):
@@ -312,18 +261,6 @@ def test_endless_combinations_are_counted_not_made(config):
     put(config, (*FAMILY, "history"), {"theta": many, "u": many, "v": many})
     put(config, (*FAMILY, "epsilon"), [0.5])
     assert f"{10**18} combinations; expected at most 1000" in refuse(config)[0]
-
-
-@pytest.mark.parametrize("along", ["tau", "v"])
-def test_route_along_any_parameter_and_the_history(config, along):
-    values = {"tau": 7.0, "epsilon": 0.5, "xi": 0.5, "gamma": 0.8}
-    values.pop(along, None)
-    line = {"along": along, "window": [0.1, 0.2], "count": 3, **values}
-    config["routes"]["lines"]["mine"] = line
-    checked(copy.deepcopy(config))
-    missing = list(values)[-1]
-    del line[missing]
-    assert refuse(config) == [f"config routes lines mine: key ['{missing}'] is missing"]
 
 
 @pytest.mark.parametrize("section", ["attractors", "atlas"])

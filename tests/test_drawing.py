@@ -6,12 +6,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from figure_contents import assert_on_page
-from made_up_results import of_other_model, trajectory
+from made_up_results import trajectory
 from matplotlib import pyplot as plt
 
 from scripts.drawing import trajectories
-from scripts.drawing.along_parameter import mark_scenes
-from scripts.drawing.style import METADATA, break_titles, logged, move_offsets, save
+from scripts.drawing.style import METADATA, break_titles, logged, save
 
 pytestmark = pytest.mark.usefixtures("styled")
 
@@ -46,18 +45,6 @@ def test_missed_part_of_a_maximum():
     assert trajectories.share_missed(steady) == 0
 
 
-def test_portrait_of_one_state_is_over_its_slope():
-    """Without a mark of steady sliding, which is that of the block."""
-    t = np.linspace(0.0, 60.0, 6001)
-    run = of_other_model(trajectory(t, v=np.cos(t)))
-    _, axes = plt.subplots()
-    trajectories.draw_portrait(axes, run, 20.0)
-    attractor = axes.lines[-1]
-    assert (attractor.get_label(), len(axes.lines)) == ("attractor", 2)
-    np.testing.assert_allclose(attractor.get_xdata()[1:-1], -np.sin(t[-2001:][1:-1]), atol=1e-4)
-    assert (axes.get_xlabel(), axes.get_ylabel()) == (r"slope $\dot{y}$", "the v $y$")
-
-
 def test_saved_figures_have_the_same_bytes_each_time(tmp_path):
     for name in ("first", "second"):
         with logged(tmp_path / "log"):
@@ -87,30 +74,3 @@ def test_long_titles_are_broken_on_the_page():
     assert_on_page(figure)
     assert whole.get_window_extent().width == before
     assert formula.replace(" ", "") in figure.get_suptitle()
-
-
-def test_axes_keep_their_titles_and_say_their_factor():
-    """Empty tick labels are no titles to break, and no factor lies over a label."""
-    figure, axes = plt.subplots(figsize=(2.0, 2.0))
-    axes.plot([0, 4e-7], [1, 1 + 4e-9])
-    axes.set(xlabel="$u$")
-    break_titles(figure)
-    assert not any(label.get_wrap() for label in axes.get_yticklabels())
-    figure.draw_without_rendering()
-    assert move_offsets(figure)
-    assert re.fullmatch(r"\$u\$\n\(\$.*10\^\{.7\}.*\$\)", axes.get_xlabel())
-    assert axes.get_ylabel().endswith("+1}$)")
-    assert_on_page(figure)
-    assert not move_offsets(figure)
-
-
-def test_names_of_scenes_on_a_line_are_apart():
-    figure, axes = plt.subplots(figsize=(3.0, 2.0))
-    axes.set_xlim(0, 20)
-    place = {"epsilon": 0.5, "xi": 0.8, "gamma": 0.8}
-    mark_scenes(
-        axes, {"torus": {**place, "tau": 10.0}, "a_torus": {**place, "tau": 12.5}}, place, "tau"
-    )
-    figure.canvas.draw()
-    first, second = (text.get_window_extent() for text in axes.texts)
-    assert not first.overlaps(second)

@@ -3,20 +3,16 @@
 The Fortran that it makes is tested in generator/test/, in quadruple precision.
 """
 
-import ctypes
-import re
 import subprocess
 import sys
 
-import numpy as np
 import pytest
 import sympy
 
 from conftest import ROOT
-from generator.compile import compile_module
 from generator.definition import overlaid, read_model
 from generator.flow import flow_of
-from generator.fortran import FUNCTIONS, in_words, literal, text_of, wrapped
+from generator.fortran import FUNCTIONS, in_words, literal, wrapped
 from generator.model import ModelError
 from generator.module import write_module
 from generator.rest import characteristic_terms
@@ -32,27 +28,6 @@ DECAY = {
     "equations": {"a": "-rate_of*a(t - 1) + v - 1", "w": "-a"},
     "steady_state": {"a": 0, "w": 0},
 }
-
-
-NAMES = {
-    "plain": "aa bb cc dd ee ff gg hh pp qq",
-    "of the code": "y z k i rate dy w_0 d_w w w_delayed_1",
-    "of Fortran, in cases": "sum real a A exp_ do end_ if V v",
-    "of Python and SymPy": "lambda None is E I S N Q beta zeta",
-    "of constants and functions": "e pi ln erf atan2 log10 cot sec N P",
-    "of other alphabets": "α β ε µ τ é Ψ_1 ϕ₂ ñ 変",
-    "long": " ".join(f"{47 * 'long'[:1]}{letter}" for letter in "abcdefghij"),
-}
-"""Six parameters, three states and exp(state)."""
-
-
-class Shape(ctypes.Structure):
-    """`shape_type` of one block."""
-
-    _fields_ = [
-        *((name, ctypes.c_int) for name in ("n", "values", "blocks", "delays", "reach", "upper")),
-        ("mode", ctypes.c_double),
-    ]
 
 
 def of_a(text: str) -> dict[str, str]:
@@ -218,14 +193,6 @@ def test_text_of_a_definition_becomes_no_code(end):
             assert before.startswith("!>") or before.count('"') % 2 == 1
 
 
-def test_long_texts_are_refused():
-    """They would be cut in files of results."""
-    with pytest.raises(ModelError, match=r"source: 'xxx.*; expected at most 500 letters"):
-        read_model({**DECAY, "source": 501 * "x"})
-    with pytest.raises(ModelError, match=r"unit of p: .*; expected at most 60 letters"):
-        read_model({**DECAY, "parameters": {"p": {"unit": 61 * "x"}}})
-
-
 def test_later_files_add_and_replace():
     """An entry without a value goes, a whole section is joined."""
     whole = overlaid(DECAY, {"parameters": {"q": {}, "rate_of": None}, "fast": None, "name": "b"})
@@ -250,65 +217,11 @@ def test_literals_are_exact(number, text):
     assert literal(sympy.Rational(sympy.sympify(number))) == text
 
 
-def test_expressions_keep_their_brackets():
-    a, b, c = sympy.symbols("a b c", real=True)
-    assert text_of(-(a**2) * (b + (a + c) / 3) / c) == "-a**2*(a/3.0_wp + b + c/3.0_wp)/c"
-    assert text_of(-(a**2) * (b + (a + c) / b) / c) == "-a**2*(b + (a + c)/b)/c"
-    assert text_of((a + b) ** sympy.Rational(1, 2) - 1 / (a * b)) == "sqrt(a + b) - 1.0_wp/(a*b)"
-    assert text_of((a * b) ** c) == "(a*b)**c"
-    assert text_of(a * sympy.Rational("0.33333333333333331")) == "3.3333333333333331e-1_wp*a"
-    assert text_of(sympy.exp(1) - a) == "exp(1.0_wp) - a"
-    assert text_of(sympy.atan(1) * sympy.tanh(a)) == "acos(-1.0_wp)*tanh(a)/4.0_wp"
-
-
 def test_long_lines_are_broken_outside_of_constants():
     line = 'text = "' + "a " * 20 + '" // "' + "b " * 30 + '"'
     lines = wrapped(line, 60)
     assert all(part.count('"') % 2 == 0 for part in lines)
     assert " ".join(part.removesuffix(" &").strip() for part in lines) == line
-
-
-def values_of_model(names: str, folder) -> list[np.ndarray]:
-    """Rates, derivatives and series of a compiled model whose parts have these names."""
-    p, q, r, s, lag, bound, a, b, w, v = names.split()
-    definition = {
-        "name": "named",
-        "parameters": {p: {}, q: {}, r: {}, s: {}, lag: {"at_least": 0}, bound: {}},
-        "states": {a: "", b: "", w: ""},
-        "auxiliary": {v: f"exp({w})"},
-        "definitions": {"of_all": f"{p}*{a} + {q}*{b}(t - {lag})*{r} - {s}/(1 + {a}**2)*{bound}"},
-        "equations": {a: "of_all", b: f"expm1({w}) + log1p({a}**2)", w: f"-{p}**2/{v}*({a} + {w})"},
-    }
-    model = read_model(definition)
-    path = folder / "named.so"
-    compile_module(write_module(model), path, flags="-O0 -std=f2018 -ffree-line-length-none")
-    code = ctypes.CDLL(str(path))
-    shape, degree = Shape(3, 1, 1, 1, 1, 2, 0.0), 4
-    parameters, y, z = np.arange(1.0, 7.0), np.array([0.3, -0.4, 0.2]), np.array([0.7])
-    series, delayed = np.zeros((3, degree + 1)), np.full((1, degree + 1), 0.1)
-    series[:, 0] = y
-    place, dydt, rows, columns = np.array([1], np.int32), np.zeros(3), np.zeros((3, 3)), np.zeros(3)
-    of = np.ctypeslib.as_ctypes
-    start = (ctypes.byref(shape), of(parameters), of(place), of(place), of(place))
-    number, integer = (lambda x: ctypes.byref(ctypes.c_double(x))), ctypes.byref(ctypes.c_int(3))
-    code.model_rhs(*start, number(0.0), of(y), of(z), of(dydt))
-    code.model_jacobian(
-        *(*start, number(0.0), of(y), of(z), integer, integer, of(rows), of(columns))
-    )
-    code.model_series(
-        *(*start, number(0.0), number(1.0), ctypes.byref(ctypes.c_int(degree))),
-        *(of(delayed), of(series)),
-    )
-    return [dydt, rows, columns, series]
-
-
-def test_names_are_free(tmp_path):
-    """Any name that is not a function's: the model is the same, and messages keep the name."""
-    found = {kind: values_of_model(names, tmp_path / kind) for kind, names in NAMES.items()}
-    assert all(np.isfinite(values).all() for values in found["plain"])
-    for values in found.values():
-        for mine, plain in zip(values, found["plain"], strict=True):
-            np.testing.assert_allclose(mine, plain, rtol=1e-13)
 
 
 def test_velocity_of_the_block_is_integrated():
@@ -341,15 +254,6 @@ def test_characteristic_function_of_the_papers_law_is_5():
     }
     assert terms.keys() == printed.keys()
     assert all(sympy.simplify(terms[key] - value) == 0 for key, value in printed.items())
-
-
-def test_equation_stands_above_each_procedure():
-    """And the lines have a length that compilers take."""
-    text = write_module(read_model(block()))
-    assert "!>     w' = -gamma**2/v*(stretch + friction/xi)\n   pure subroutine rhs" in text
-    assert "!>     v' = -gamma**2*(u + (theta + w)/xi)\n   pure subroutine series" in text
-    assert max(map(len, text.splitlines())) <= 132
-    assert not re.search(r"[ \t]$", text, re.MULTILINE)
 
 
 def test_command_writes_a_module_or_nothing(tmp_path):

@@ -9,9 +9,6 @@ from scipy.linalg import expm
 from scipy.optimize import brentq
 
 from conftest import torus
-from generator.compile import compile_module
-from generator.definition import read_files, read_model
-from generator.module import write_module
 from scripts.config.check_config import checked
 from scripts.config.checks import place_of
 from scripts.drawing.roots import roots_in_words
@@ -44,6 +41,10 @@ MACKEY_GLASS = {
     "steady_state": {"near": {"y": 1}},
 }
 PLACE = {"beta": 0.2, "n": 10.0, "rate": 0.1, "tau": 17.0}
+LINE = {
+    **{"model": "mackey_glass", "along": "tau", "window": [5, 20]},
+    **{key: PLACE[key] for key in ("beta", "n", "rate")},
+}
 
 
 @pytest.fixture
@@ -119,6 +120,8 @@ WRONG = [
     (("models", "slip_cut_off"), MACKEY_GLASS, "slip_cut_off: the project has a law of this name"),
     (("models", "mine"), MACKEY_GLASS, "mine: a law has this name"),
     (("models", "mackey_glass", "parameters"), {"t_end": {}}, "parameters t_end: keys of all that"),
+    (("routes", "lines", "mine"), {**LINE, "count": 2}, "key ['history'] is missing: y of"),
+    (("cycles", "lines", "mine"), LINE, "key ['history'] is missing: y of"),
     # laws
     (("scenes", "torus", "law"), "yours", "law = 'yours'; expected one of:"),
     (("scenes", "torus", "speed"), 0, "speed = 0; expected speed, nondim"),
@@ -211,16 +214,6 @@ def test_scene_of_a_driven_model_has_no_roots(config):
     assert roots_in_words(None) == "not declared"
 
 
-@pytest.mark.parametrize(("section", "name"), [("routes", "lines"), ("cycles", "lines")])
-def test_line_of_a_model_has_its_own_history(with_model, section, name):
-    line = {"model": "mackey_glass", **PLACE, "along": "tau", "window": [5, 20], "count": 2}
-    del line["tau"]
-    if section == "cycles":
-        del line["count"]
-    words = refusals(with_model, (section, name, "mine"), line)
-    assert "key ['history'] is missing: y of" in words[0]
-
-
 def test_law_without_inertia_has_one_parameter_more(with_law):
     with_law["hopf_curves"]["tau_of_epsilon"] |= {"law": "quasistatic_mine", "zeta": 0.1}
     groups = hopf.groups(checked(with_law), "tau_of_epsilon")
@@ -233,49 +226,44 @@ def test_law_without_inertia_has_one_parameter_more(with_law):
 
 
 AXES = {
-    ("routes", "lines", "mine"): {
-        "along": "speed",
-        "window": [0.5, 2.0],
-        "count": 3,
-        "epsilon": 0.5,
-    },
-    ("cycles", "lines", "mine"): {"along": "speed", "window": [0.5, 2.0], "epsilon": 0.5},
-    ("atlas", "planes", "mine"): {"ordinate": "speed", "ordinate_window": [0.5, 2.0]},
-    ("hopf_curves", "mine"): {
-        **{"ordinate": "speed", "ordinate_window": [0.5, 2.0]},
-        "abscissa_window": [0.0, 1.0],
-    },
+    ("routes", "lines"): (
+        {"along": "speed", "window": [0.5, 2.0], "count": 3, "epsilon": 0.5},
+        lambda config: routes.groups(config, "mine", "near")["points"],
+    ),
+    ("cycles", "lines"): (
+        {"along": "speed", "window": [0.5, 2.0], "epsilon": 0.5},
+        lambda config: cycles.groups(config, "mine")["cycles"],
+    ),
+    ("atlas", "planes"): (
+        {"ordinate": "speed", "ordinate_window": [0.5, 2.0]},
+        lambda config: atlas.groups(config, "mine", "1")["points"],
+    ),
+    ("hopf_curves",): (
+        {"ordinate": "speed", "ordinate_window": [0.5, 2.0], "abscissa_window": [0.0, 1.0]},
+        lambda config: hopf.groups(config, "mine")["hopf_curves"],
+    ),
 }
-"""What may be along a law's own parameter."""
+"""What may be along a law's own parameter, by its section, and the group that a program gets."""
 
 
 @pytest.fixture(params=AXES)
 def axis(request, with_law) -> dict:
     """An entry along `speed`, in a configuration with it."""
-    *path, name = request.param
-    section = with_law
-    for key in path:
+    section, (entry, _) = with_law, AXES[request.param]
+    for key in request.param:
         section = section[key]
-    section[name] = AXES[request.param] | {"law": "mine", "tau": 7.0, "xi": 0.5, "gamma": 0.8}
-    return section[name]
+    section["mine"] = {**entry, "law": "mine", "tau": 7.0, "xi": 0.5, "gamma": 0.8}
+    return section["mine"]
 
 
-def test_own_parameter_is_an_axis(with_law, axis):
+@pytest.mark.parametrize("axis", AXES, indirect=True)
+def test_own_parameter_is_an_axis(request, with_law, axis):
     """It has no value, not even its default; programs get its name."""
-    config = checked(with_law)
+    _, group_of = AXES[request.node.callspec.params["axis"]]
+    group = group_of(checked(with_law))
     assert "speed" not in axis
-    if axis is config["hopf_curves"].get("mine"):
-        group = hopf.groups(config, "mine")["hopf_curves"]
-        named = group["along"][1]
-    elif axis is config["cycles"]["lines"].get("mine"):
-        group = cycles.groups(config, "mine")["cycles"]
-        named = group["along"]
-    else:
-        survey, part = (atlas, "1") if "ordinate" in axis else (routes, "near")
-        group = survey.groups(config, "mine", part)["points"]
-        named = group["axes"][-1]["along"]
-    assert named == "speed"
     assert "speed" not in group["model"]["parameters"]
+    assert "'speed'" in str({key: one for key, one in group.items() if key in ("along", "axes")})
 
 
 def test_wrong_axis_is_refused(with_law, axis):
@@ -309,31 +297,6 @@ def test_results_say_which_law_they_have(programs, filled_config):
     assert laws.law_of(attributes) == "slip_cut_off (c = 0.25)"
     assert (attributes["model"], attributes["c"]) == ("slip_cut_off", 0.25)
     assert "log1p(c/(1 + c)*expm1(w(t - tau)))" in attributes["model_equations"]
-
-
-@pytest.mark.parametrize("delayed", ["theta + (1 + epsilon)*w(t - 2*tau)", "theta(t - tau) + w"])
-def test_hopf_curves_of_any_linear_part(programs, good_groups, monkeypatch, delayed):
-    """Another delay, and a delayed state: points solve the characteristic equation by hand."""
-    path = programs.folder / "odd.yaml"
-    path.write_text(f'definitions: {{ evolution: "-v*({delayed})" }}')
-    compile_module(write_module(read_files([laws.BLOCK, path], "odd")), path.with_suffix(".so"))
-    monkeypatch.setenv("MODELS", str(programs.folder))
-    good_groups["hopf"]["hopf_curves"] |= {"law": "odd", "ordinate_window": [0.1, 15.0]}
-    curves = programs.made_of("hopf", good_groups["hopf"])
-    s = 1j * curves.omega.values
-    xi, square = curves.attrs["xi"], curves.attrs["gamma"] ** 2
-    late = np.exp(-s * curves.tau.values)
-    epsilon = curves.epsilon.values
-    of_theta, of_w = (-1, -(1 + epsilon) * late**2) if "2*tau" in delayed else (-late, -1)
-    # theta' = of_theta theta + of_w w, u' = w, w' = -gamma^2 (u + (theta + w)/xi)
-    terms = [
-        s * (s - of_theta) * (s + square / xi),
-        square * (s - of_theta),
-        s * of_w * square / xi,
-    ]
-    assert curves.sizes["point"] > ("2*tau" in delayed)
-    residual = np.abs(sum(terms)) / np.maximum.reduce(list(map(np.abs, terms)))
-    assert residual.max(initial=0.0) < 1e-9
 
 
 EXPONENTS = {
@@ -412,23 +375,3 @@ def test_passages_near_steady_sliding_keep_their_digits(programs, good_groups, l
     expected = first_passage(law, 0.6, 0.5, own.get("c", 0.0), own.get("zeta", 0.0), 1.1)
     # the absolute tolerance is far above the motion
     assert passage == pytest.approx(expected, abs=0.05)
-
-
-def test_other_state_of_rest_is_a_fixed_point(programs, good_groups, monkeypatch):
-    """The definition has y = 0, which is unstable; the motion comes to rest at y = 1."""
-    fork = {
-        **{"name": "fork", "parameters": {"r": {}, "tau": {"at_least": 0}}},
-        **{"states": {"y": "state"}, "equations": {"y": "r*y(t - tau) - y**3"}},
-        "steady_state": {"y": "0"},
-    }
-    compile_module(write_module(read_model(fork)), programs.folder / "fork.so")
-    monkeypatch.setenv("MODELS", str(programs.folder))
-    model = {"name": "fork", "parameters": ["r", "tau"], "values": [1.0, 0.1]}
-    points = {"name": "fork", "model": model, "sweep": "none", "refinements": 0, "kept": 10}
-    histories = {"names": ["y"], "values": [0.5]}
-    observation = good_groups["attractors"]["observation"]
-    groups = {"observation": observation, "points": points, "histories": histories}
-    found = programs.made_of("attractors", groups)
-    assert found["class"].attrs["flag_meanings"].split()[int(found["class"][0])] == "fixed_point"
-    # of y' = y(t - 0.1) - 3 y, and none is zero
-    assert (found.lyapunov_exponent[0].dropna("exponent") < -0.5).all()

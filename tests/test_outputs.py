@@ -3,7 +3,6 @@
 import errno
 import math
 import os
-from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -34,19 +33,15 @@ def test_file_is_there_when_complete(tmp_path, monkeypatch):
     assert path.read_text() == "whole"
 
 
-@pytest.mark.parametrize("first_to_end", ["older", "newer"])
-def test_last_of_two_writers_wins(tmp_path, first_to_end):
-    """The older one gives way, in words, whichever of the two ends first."""
+def test_last_of_two_writers_wins(tmp_path):
+    """The older one gives way, in words."""
     path = tmp_path / "table.tsv"
     older, newer = written(path), written(path)
     older.__enter__().write_text("older")
     newer.__enter__().write_text("newer")
-    if first_to_end == "newer":
-        newer.__exit__(None, None, None)
     with pytest.raises(FileError, match=r"table.tsv: cannot write: another run has started to"):
         older.__exit__(None, None, None)
-    if first_to_end == "older":
-        newer.__exit__(None, None, None)
+    newer.__exit__(None, None, None)
     assert path.read_text() == "newer"
     assert [file.name for file in tmp_path.iterdir()] == ["table.tsv"]
 
@@ -77,7 +72,7 @@ def test_failure_leaves_the_older_file_and_nothing_else(tmp_path, problem, raise
     assert path.read_text() == "older"
 
 
-@pytest.mark.parametrize("size", [0, 100, -1000, -1, None])
+@pytest.mark.parametrize("size", [0, -1000, None])
 def test_damaged_netcdf_is_removed(tmp_path, size):
     """Cut at a size, or one bit of a value wrong; so the same command makes it again."""
     path = tmp_path / "data.nc"
@@ -92,17 +87,6 @@ def test_damaged_netcdf_is_removed(tmp_path, size):
     with pytest.raises(FileError, match=r"data.nc: cannot be read: .* damaged and is removed; run"):
         read(path)
     assert not path.exists()
-
-
-def test_netcdf_that_is_closed_to_reading_stays(tmp_path, monkeypatch):
-    """A file without permission to read may be complete."""
-    path = tmp_path / "data.nc"
-    path.touch()
-    problem = PermissionError(errno.EACCES, "Permission denied")
-    monkeypatch.setattr(xr, "load_dataset", Mock(side_effect=problem))
-    with pytest.raises(FileError, match=r"data.nc: cannot be read: Permission denied; run the"):
-        read(path)
-    assert path.exists()
 
 
 def test_problem_with_a_file_ends_a_script_in_one_line(tmp_path):

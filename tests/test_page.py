@@ -1,6 +1,5 @@
 """The page: what it says of made-up results, and the page of the smoke run as a file."""
 
-import itertools
 import json
 import re
 from collections import Counter
@@ -17,7 +16,6 @@ from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, NOT_TESTABL
 from scripts.claims.ledger import paper_claims
 from scripts.files.marked_words import to_html
 from scripts.page import captions, findings, page_content, write_page
-from scripts.page.write_single_page import in_one_file
 from scripts.plans.studies import paper_figures
 
 
@@ -57,14 +55,6 @@ def test_caption_with_formulas(tmp_path):
     assert "<math" in markup
     assert "1 ±\N{NO-BREAK SPACE}2\N{NO-BREAK SPACE}%" in markup
     assert captions.first_sentence(markup) == "Curves τ=2 & 1 ± 2 %."
-
-
-def test_caption_with_a_table(tmp_path):
-    """It is below the first paragraph, in a frame that scrolls by keyboard, too."""
-    (tmp_path / "caption.rst").write_text("Events.\n\n=  =\nN  c\n=  =\n5  9\n=  =\n\nEnd.")
-    markup = captions.as_html(tmp_path / "caption.rst")
-    (table,) = re.findall(r'(?s)</p>\s*<div class="scroll" tabindex="0">(.*?)</div>\s*<p', markup)
-    assert captions.as_words(table).split() == ["N", "c", "5", "9"]
 
 
 def test_caption_that_cannot_be_read_is_an_error(tmp_path):
@@ -163,20 +153,6 @@ def test_every_figure_stands_in_the_page(smoke, page):
     assert all(f"Rule {name}." in shown.text for name in paper_figures())
     # a phone would cut the labels at the right of the Hopf curves
     assert page.count('class="scroll drawn fits"') >= 4
-
-
-def test_single_page_names_no_other_file(smoke, page):
-    """Its links lead to places in it; the rest is data."""
-    shown = Elements(in_one_file(page, smoke.folder / "results"))
-    assert {link[:1] for link in shown.values("href")} == {"#", "d"}
-    assert {link[:19] for link in shown.values("src")} == {"data:image/svg+xml,"}
-
-
-def test_no_heading_is_empty(page):
-    """Something stands between two headings of a kind; levels leave none out."""
-    assert not re.search(r"</h2>\s*(<section[^>]*>\s*)?<h2", page)
-    order = re.findall(r"<h([1-6])", page)
-    assert all(int(below) <= int(above) + 1 for above, below in itertools.pairwise(order))
 
 
 def test_every_link_of_the_page_resolves(smoke, page):

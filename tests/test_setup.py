@@ -1,11 +1,15 @@
-"""What sets up and starts the project, without setting anything up."""
+"""What sets up, starts and tests the project, without setting anything up."""
 
+import fcntl
+import json
 import re
+import shutil
 import subprocess
+from pathlib import Path
 
 import pytest
 
-from conftest import ROOT, project_files
+from conftest import ROOT, project_files, write_script
 from scripts.files.read_config import read
 
 SCRIPTS = [
@@ -98,3 +102,70 @@ def test_commands_quote_paths_and_texts():
     """A folder may hold spaces, a file what a shell would run. Every command is looked at."""
     assert {command: unquoted(command) for command in COMMANDS if unquoted(command)} == {}
     assert len(COMMANDS) == len(re.findall(r"\bshell\b\s*[:(]", RULES)) > 2
+
+
+def said_by(*command: str | Path, **options) -> tuple[int, str]:
+    """Exit status of a command, and what it says."""
+    together = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
+    run = subprocess.run(command, **together, **options)
+    return run.returncode, run.stdout
+
+
+def test_help_and_wrong_words(tmp_path):
+    """From any folder, also through a link; ./test names its parts."""
+    (tmp_path / "link").symlink_to(ROOT / "reproduce")
+    status, words = said_by(tmp_path / "link", "--help", cwd=tmp_path)
+    assert (status, "./reproduce [FILE.yaml] [TARGET...]" in words) == (0, True)
+    status, words = said_by(ROOT / "test", "nonsense")
+    parts = re.findall(r"^ +\./test (\w+)", (ROOT / "test").read_text(), re.MULTILINE)
+    assert len(parts) == 8
+    assert (status, [part for part in ["'nonsense'", *parts] if part not in words]) == (2, [])
+
+
+def test_second_run_of_the_same_file_says_so(tmp_path):
+    """A run holds a lock of the operating system, which ends with it."""
+    shutil.copy(ROOT / "reproduce", tmp_path)
+    write_script(tmp_path / "tools/setup/setup.sh", "exit 0")
+    (tmp_path / ".snakemake").mkdir()
+    with open(tmp_path / ".snakemake" / "run of the paper", "a") as run:
+        fcntl.flock(run, fcntl.LOCK_EX)
+        status, words = said_by(tmp_path / "reproduce")
+    assert status == 1
+    assert words.startswith("reproduce: another run of the paper is at work here; ")
+
+
+@pytest.fixture
+def bare(tmp_path) -> Path:
+    """The set-up in a folder without anything else."""
+    shutil.copytree(ROOT / "tools/setup", tmp_path / "bare/tools/setup")
+    shutil.copy(ROOT / "requirements.lock", tmp_path / "bare")
+    return tmp_path / "bare"
+
+
+@pytest.mark.parametrize("character", list('${};"\\|<>: []\n\t'))
+def test_folder_in_which_nothing_can_be_built_is_refused(bare, character):
+    """At once: CMake, Make, Snakemake or PATH give the character a meaning of their own."""
+    folder = bare.rename(bare.with_name(f"a{character}b"))
+    status, words = said_by(folder / "tools/setup/setup.sh")
+    assert (status, words.count("\n")) == (1, 1)
+    named = str(folder).replace("\n", "\\n").replace("\t", "\\t")
+    assert f"'{named}': a path without " in words
+    assert {path.name for path in folder.iterdir()} == {"tools", "requirements.lock"}
+
+
+def test_environment_that_is_a_link_is_refused(bare):
+    """It may be that of another project."""
+    (bare / "other").mkdir()
+    (bare / ".venv").symlink_to("other")
+    status, words = said_by(bare / "tools/setup/setup.sh")
+    assert status == 1
+    assert "set-up: .venv is a link; expected a folder" in words
+    assert list((bare / "other").iterdir()) == []
+
+
+def test_each_compiler_has_a_preset():
+    """By the name of its package, which tools/compilers/run builds with."""
+    presets = json.loads((ROOT / "fortran" / "CMakePresets.json").read_text())["configurePresets"]
+    lists = [path.read_text() for path in ROOT.glob("tools/compilers/*/apt-packages.txt")]
+    wanted = {*re.findall(r"^(?:gfortran|flang)-\S+", "\n".join(lists), re.MULTILINE)}
+    assert set() < wanted <= {preset["name"] for preset in presets}

@@ -36,12 +36,6 @@ def noise(n: int) -> np.ndarray:
     return 1.0 + np.random.default_rng(1).normal(size=n)
 
 
-def sines(n: int, *parts: tuple[float, float]) -> np.ndarray:
-    """A mean and sines, each of an amplitude and a frequency in cycles per unit of time."""
-    t = INTERVAL * np.arange(n)
-    return 1.0 + sum(a * np.sin(2 * np.pi * f * t + 1.0) for a, f in parts)
-
-
 @pytest.mark.parametrize(
     ("window", "n", "segments", "overlap", "length", "step"),
     [
@@ -94,27 +88,3 @@ def test_events_shorter_than_the_interval_leave_no_false_peaks(spectrum_of, prog
     np.testing.assert_allclose(spectrum.peak_frequency, lines / period, atol=0.02 * bin_width)
     np.testing.assert_allclose(spectrum.peak_power, 2 / (1.5 * bin_width), rtol=0.02)
     assert spectrum.attrs["spectrum_kind"] == "periodic"
-
-
-@pytest.mark.parametrize(
-    ("ratio", "kind", "told_apart"),
-    [(2**0.5, "quasiperiodic", "yes"), (25 / 31, "undecided", "no")],
-)
-def test_two_bases_are_told_apart_or_not(spectrum_of, ratio, kind, told_apart):
-    """The file has the simplest ratio within the accuracy, and whether it may be chance."""
-    attributes = spectrum_of(sines(4000, (1, 0.3), (0.5, 0.3 * ratio)), segments=1).attrs
-    p, q = map(int, attributes["ratio_of_bases"].split("/"))
-    assert p / q == pytest.approx(ratio, abs=2e-4)
-    assert (attributes["spectrum_kind"], attributes["bases_told_apart"]) == (kind, told_apart)
-    assert attributes["line_share"] == pytest.approx(1.0, abs=1e-3)
-    assert attributes["continuum_share"] == pytest.approx(0, abs=1e-3)
-
-
-def test_signal_without_variation_has_no_peaks(spectrum_of):
-    """A constant v is no error and no NaN."""
-    spectrum = spectrum_of(np.ones(400))
-    assert (spectrum.power == 0).all()
-    assert spectrum.sizes["peak"] == 0
-    assert spectrum.sizes["base"] == 0
-    assert spectrum.attrs["line_share"] == 0
-    assert spectrum.attrs["spectrum_kind"] == "none"

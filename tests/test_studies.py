@@ -11,80 +11,36 @@ from scripts.claims import declare, ledger
 from scripts.files.read_config import ConfigError, read
 from scripts.plans import studies
 from scripts.plans.declare import Figure, Study
-from scripts.workflow.plan import read_plan
 
 NAMES = sorted(studies.studies())
 READ = {other for study in studies.studies().values() for other in study.reads}
 REMOVABLE = sorted(set(NAMES) - READ)
 
 
-def study_of(test: str) -> str:
-    """The study that has a test of claims."""
-    return declare.tests()[test].study
-
-
-def texts_of(name: str) -> list[str]:
-    """Templates of the captions of a study."""
-    return [path.read_text() for path in (studies.FOLDER / name).glob("*.rst")]
-
-
-def read_by(name: str, config: dict) -> set[str]:
-    """Results that a study reads, by their paths, in its runs, tables, figures and claims."""
-    study = studies.studies()[name]
-    named = {test for test in declare.tests() if study_of(test) == name}
-    claims = {
-        key: about
-        for key, about in read_plan({}).claims.items()
-        if {*about.get("test", {})} & named
-    }
-    values = {key: value.split("|")[0] for key, value in studies.wildcards(config).items()}
-    inputs = [
-        ledger.inputs_for(claims, config),
-        *(run.needs for run in study.runs),
-        *(figure.inputs_of(config) for figure in study.figures),
-    ]
-    for table in study.tables:
-        names = {key: values[key] for key in re.findall(r"{(\w+)}", table.output)}
-        inputs.append(table.inputs(config, **names))
-    listed = [paths for given in inputs for paths in given.values()]
-    return {path for paths in listed for path in ([paths] if isinstance(paths, str) else paths)}
-
-
-def makers_of(path: str, config: dict) -> set[str]:
-    """Studies that make a result."""
-    values = studies.wildcards(config)
-
-    def makes(output: str) -> bool:
-        pattern = re.sub(r"\\{(\w+)\\}", lambda found: f"({values[found[1]]})", re.escape(output))
-        return re.fullmatch(f"(<results>/)?{pattern}", path) is not None
-
-    return {
-        name
-        for name, study in studies.studies().items()
-        for one in (*study.runs, *study.tables)
-        if makes(one.output)
-    }
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_study_declares_what_it_reads(name, filled_config):
+def test_study_declares_what_it_reads(planned):
     """Of others it reads results and verdicts of those that its plan names."""
-    found = {
-        other for path in read_by(name, filled_config) for other in makers_of(path, filled_config)
-    }
-    shown = {
-        claim
-        for text in texts_of(name)
-        for claim in re.findall(r"{{ verdict\(\"(\w+)\"\) }}", text)
-    }
-    left_out = {claim for text in texts_of(name) for claim in re.findall(r"if \"(\w+)\" in", text)}
+    owner, maker_of = {}, {}
+    for name, study in studies.studies().items():
+        for one in (*study.runs, *study.tables):
+            owner[one.rule], maker_of[one.output] = name, name
+        owner |= {figure.name: name for figure in study.figures}
+    made_by = {path: owner.get(job.rule) for job in planned for path in job.made}
+    read = {name: set() for name in studies.studies()}
+    for job in planned:
+        if job.rule in owner:
+            read[owner[job.rule]] |= {made_by.get(path) for path in job.given}
+    of_data = {data: maker_of[maker.output] for data, maker in studies.data().items()}
+    for test in declare.tests().values():
+        read[test.study] |= {of_data[data] for data in test.reads}
+    for name, finding in studies.load_parts("finding").items():
+        read[name] |= {of_data[data] for data in finding.READS}
     claims = ledger.paper_claims()
-    for claim in shown - left_out:
-        found |= {study_of(test) for test in claims[claim]["test"]}
-    finding = studies.load_parts("finding").get(name)
-    for data in finding.READS if finding else ():
-        found |= makers_of(f"<results>/{studies.data()[data].output}", filled_config)
-    assert found - {name} <= {*studies.studies()[name].reads}
+    for name in studies.studies():
+        text = "".join(path.read_text() for path in (studies.FOLDER / name).glob("*.rst"))
+        shown = {*re.findall(r"{{ verdict\(\"(\w+)\"\) }}", text)}
+        for claim in shown - {*re.findall(r"if \"(\w+)\" in", text)}:
+            read[name] |= {declare.tests()[test].study for test in claims[claim]["test"]}
+        assert read[name] - {name, None} <= {*studies.studies()[name].reads}, name
 
 
 @pytest.mark.parametrize(
@@ -105,14 +61,13 @@ def test_what_a_study_misses_is_named(monkeypatch, values, words):
 
 
 def test_project_without_studies_that_no_other_reads(project):
-    """Half of them deleted, then all: the paper with its claims, and a user's file, are planned."""
-    for deleted in (REMOVABLE[::2], REMOVABLE[1::2]):
-        for name in deleted:
-            shutil.rmtree(project.folder / "scripts" / "studies" / name)
-        smoke = [path for path in SMOKE if (project.folder / path).exists() or path.startswith("-")]
-        for words in (["all", *smoke], ["--config", "user_file=config/new.yaml"]):
-            run = project.snakemake("--dry-run", *words)
-            assert run.returncode == 0, run.stdout
+    """The paper with its claims, and a user's file, are planned."""
+    for name in REMOVABLE:
+        shutil.rmtree(project.folder / "scripts" / "studies" / name)
+    smoke = [path for path in SMOKE if (project.folder / path).exists() or path.startswith("-")]
+    for words in (["all", *smoke], ["--config", "user_file=config/new.yaml"]):
+        run = project.snakemake("--dry-run", *words)
+        assert run.returncode == 0, run.stdout
     listed = {*re.findall(r"^\w+", project.snakemake("--list-target-rules").stdout, re.MULTILINE)}
     assert {"all", "hopf_points", "atlas", "claims"} <= listed
     assert not {"synchrony", "event_sizes_table"} & listed

@@ -11,7 +11,7 @@ import pytest
 import xarray as xr
 from dry_runs import jobs_in
 
-from conftest import ROOT, Project, rules_in, write_script
+from conftest import ROOT, Project, rules_in
 from scripts.files.read_config import ConfigError, merge, parse, read
 from scripts.files.tsv import read_table
 from scripts.plans.studies import kinds_of_results
@@ -19,13 +19,25 @@ from scripts.workflow import plan as plans
 from scripts.workflow.plan import Plan, added, name_of, read_plan
 
 SMALL = """
+models:
+  glass:
+    parameters: { beta: { above: 0 }, n: { above: 0 }, rate: { above: 0 }, tau: { at_least: 0 } }
+    states: { y: concentration }
+    equations: { y: "beta*y(t - tau)/(1 + y(t - tau)**n) - rate*y" }
+    steady_state: { near: { y: 1 } }
 scenes:
+  glass:
+    { model: glass, beta: 0.2, n: 10.0, rate: 0.1, tau: 7.0, history: { y: 1.2 },
+      t_end: 300.0, t_transient: 100.0, exponents: {} }
   my_scene: { t_end: 300.0, t_transient: 100.0, sample_interval: 0.1, exponents: {} }
   my_fault:
     { si: { a: 0.01, b: 0.02, sigma: 50 MPa, D_c: 1 cm, v0: 1e-9 m/s, k: 20 MPa/m, M: 3e6 kg/m^2 },
       tau: 2.2 years, t_end: 100 years, t_transient: 30 years }
 hopf_curves:
   my_plane: { cells: 20 }
+  glass:
+    { model: glass, n: 10.0, rate: 0.1, abscissa: beta, abscissa_window: [0.12, 0.4],
+      ordinate: tau, ordinate_window: [0.0, 20.0], cells: 10 }
 routes:
   observation: &quick
     t_transient: 100.0
@@ -36,6 +48,9 @@ routes:
     kept: 20
   lines:
     my_route: { count: 2 }
+    glass:
+      { model: glass, beta: 0.2, n: 10.0, rate: 0.1, along: tau, window: [6.0, 8.0], count: 2,
+        history: { y: 1.2 } }
     my_start:
       { along: v, window: [0.5, 1.5], count: 2, tau: 3.0, epsilon: 0.1, xi: 0.5, gamma: 0.8 }
 cycles:
@@ -43,6 +58,9 @@ cycles:
   intervals: 20
   most_orbits: 5
   lines:
+    glass:
+      { model: glass, beta: 0.2, n: 10.0, rate: 0.1, along: tau, window: [6.0, 8.0],
+        history: { y: 1.2 } }
     my_cycles: { along: tau, window: [1.0, 2.5], epsilon: 0.7, xi: 0.5, gamma: 0.8 }
 atlas:
   abscissa_count: 3
@@ -51,6 +69,9 @@ atlas:
   refinements: 0
   observation: *quick
   planes:
+    glass:
+      { model: glass, beta: 0.2, rate: 0.1, abscissa: n, abscissa_window: [7.0, 12.0],
+        ordinate_window: [4.0, 8.0], history: { y: 1.2 } }
     my_atlas: { xi: 0.5, gamma: 0.8, ordinate_window: [0.0, 10.0] }
 exponents: { t_turning: 50.0, batches: 3 }
 spectra: { segments: 3 }
@@ -61,11 +82,8 @@ attractors:
 FIGURES = [
     *("scenes/my_scene", "exponents/my_scene", "planes/my_plane", "routes/my_route"),
     *("routes/my_start", "cycles/my_cycles", "atlas/my_atlas", "scenes/my_fault"),
+    *(f"{kind}/glass" for kind in ("scenes", "exponents", "planes", "routes", "cycles", "atlas")),
 ]
-MY_SCENE = """
-scenes:
-  mine: { tau: 3, epsilon: 0.6, xi: 7e-1, gamma: 0.9, history: { v: 1.2 }, t_end: 60 }
-"""
 
 
 def write_new_file(path: Path) -> subprocess.CompletedProcess[str]:
@@ -106,9 +124,9 @@ def test_everything_that_the_file_adds_is_made(made):
     endings = ("pdf", "png", "svg", "rst")
     assert figures == {Path(f"{name}.{end}") for name in FIGURES for end in endings}
     tables = {
-        "attractors": ("scene", "my_scene", "my_fault"),
-        "linear-stability": ("scene", "my_scene", "my_fault"),
-        "exponents": ("scene", "my_scene"),
+        "attractors": ("scene", "my_scene", "my_fault", "glass"),
+        "linear-stability": ("scene", "my_scene", "my_fault", "glass"),
+        "exponents": ("scene", "my_scene", "glass"),
         "routes/my_route": ("route", "my_route"),
         "routes/my_start": ("route", "my_start"),
         "si": ("scene", "my_fault"),
@@ -136,6 +154,30 @@ def test_everything_that_the_file_adds_is_made(made):
         assert part in page
     # of four verdicts one was reached
     assert len(re.findall(r"<span>\d claims?</span>", page)) == 1
+
+
+def test_model_of_a_user_has_its_own_names(made):
+    """In tables and captions: no parameter or state of the block is there."""
+    results = made.folder / "results" / "mine"
+    for name, known in (
+        ("tables/routes/glass", {"beta", "tau", "y"}),
+        ("tables/atlas/glass", {"beta", "abscissa", "y"}),
+        ("tables/cycle-points", {"beta", "y_most"}),
+    ):
+        (path,) = results.glob(f"{name}.tsv")
+        rows = [row for row in read_table(path) if "glass" in str(row["law"])]
+        filled = {key for row in rows for key, one in row.items() if one == one and one != ""}
+        assert known <= filled
+        assert not filled & {"epsilon", "xi", "gamma", "theta", "u", "v", "v_most"}
+    for kind, words in (
+        ("routes", "maxima of y on the attractor"),
+        ("cycles", "y"),
+        ("atlas", r":math:`\beta = 0.2`"),
+        ("planes", r":math:`\beta`"),
+    ):
+        caption = (results / "figures" / kind / "glass.rst").read_text()
+        assert words in " ".join(caption.split())
+        assert r"\xi" not in caption
 
 
 def test_one_key_of_a_scene_can_be_changed(tmp_path):
@@ -167,23 +209,6 @@ def test_bad_file_stops_the_workflow_in_words(smoke, tmp_path):
     assert "scene 'torus': tau = -1.0; expected " in run.stdout
     assert "Traceback" not in run.stdout
     assert state_of(smoke.folder / "results") == before
-
-
-def test_program_that_fails_leaves_no_output(scratch):
-    """Even if it wrote half of it; its reason is on the screen without its progress, which is in
-    the log."""
-    told, reason = "trajectory: 5 %, 1 of 20, 2 s left", "error: it cannot go on"
-    words = f"echo half >\"$3\"; echo '{told}' >&2; echo '{reason}' >&2; exit 3"
-    write_script(scratch.folder / "build" / "release" / "bin" / "spring_block", words)
-    (scratch.folder / "mine.yaml").write_text(MY_SCENE)
-    run = scratch.reproduce("mine.yaml", "results/mine/trajectories/mine.nc")
-    assert run.returncode != 0
-    assert f"\n{reason}\n" in run.stdout
-    assert told not in run.stdout
-    results = scratch.folder / "results" / "mine"
-    assert list((results / "trajectories").glob("mine*")) == []
-    log = (results / "logs" / "trajectories" / "mine.log").read_text()
-    assert log.splitlines() == [told, reason]
 
 
 def test_build_that_fails_leaves_no_program(project):
@@ -291,13 +316,6 @@ def test_claims_of_a_user_may_name_scenes_of_the_paper(tmp_path):
     assert list(plan.config["scenes"]) == ["chaos"]
     assert plan.figures == {}
     assert "<results>/tables/claims.tsv" in plan.targets()
-
-
-def test_one_claim_is_one(tmp_path):
-    ledger = tmp_path / "tables" / "claims.json"
-    ledger.parent.mkdir()
-    ledger.write_text('[{"verdict": "reproduced", "whose": "the user"}]')
-    assert Plan({}, str(tmp_path), True, {}, {"mine": {}}).summary().startswith("1 claim: 1 repr")
 
 
 TWO_LAWS = """

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Inputs that gave wrong numbers elsewhere (docs/coming-from.md): right here, or refused in words.
+"""Inputs that gave wrong numbers elsewhere (docs/coming-from.md): right here.
 
-Refused, and tested elsewhere: no history, times before the start, a longer delay than a run knows
-(test_runs.py), as is a run that cannot go on.
+What is refused in words: test_refusals.py.
 """
 
 import math
@@ -67,14 +66,6 @@ def test_errors_follow_the_tolerance_whatever_the_output(method, tolerance):
     assert len(ends) == 1
 
 
-@pytest.mark.parametrize("spacing", SPACINGS)
-def test_no_delay(spacing):
-    """ddeint: held between output times, y' = -y gave 0 at a spacing of 1."""
-    times = np.arange(0, 10 + spacing / 2, spacing).clip(max=10)
-    run = dk.Model({"y": "-y"}).integrate(1, 10, t_eval=times)
-    np.testing.assert_allclose(run.y[0], np.exp(-times), rtol=1e-8)
-
-
 @pytest.mark.parametrize("method", LEAST_ORDERS)
 def test_every_method_has_its_order_in_the_delayed_term(sine, method):
     """XPPAUT: first order, whatever the method. The tolerance lets each step be the longest."""
@@ -132,17 +123,6 @@ def test_values_between_steps(method, rate, tolerance):
     assert np.abs(run.sol(t) - [np.exp(-rate * t), np.sin(t)]).max() < CLOSE * tolerance
 
 
-def test_events_are_those_of_the_run(sine):
-    """scikit-sundae: a second solve returns the events of the first."""
-    watched = [dk.Event("y", 0.5, 1)]
-    rises = math.pi / 6 + 2 * math.pi * np.arange(5)
-    first = sine.integrate(math.sin, 20, events=watched, dense_output=True)
-    second = sine.integrate(math.sin, 5, events=watched)
-    onward = sine.integrate(first, 30, events=watched)
-    for run, known in ((first, rises[:4]), (second, rises[:1]), (onward, rises[4:])):
-        np.testing.assert_allclose(run.t_events[0], known, atol=1e-6)
-
-
 HISTORIES = [1.0, [1.0], np.array(1.0), np.array([1.0]), (1.0,), np.float32(1), lambda t: [1.0]]
 
 
@@ -152,25 +132,6 @@ def test_one_number_in_any_form(one):
         assert DELAYED.integrate(given, 2, t_eval=[2]).y[0, 0] == pytest.approx(-1 / 2, abs=1e-12)
     if not callable(one):
         assert DELAYED.integrate(0, 1, initial=one, t_eval=[1]).y[0, 0] == 1
-
-
-REFUSED = {
-    "a short past": (lambda m, t: m.run((t, 0 * t), 2), "from t = -0.5 to 0.0; expected from -1"),
-    "a past that ends": (lambda m, t: m.run((t - 1, t), 2), "to -1.0; expected from -1.0 to 0"),
-    "a run too short": (
-        lambda m, _: m.run(m.run(1, 0.5), 2, t_start=0.5),
-        "known from t = 0.0 to 0.5; expected from -0.5 to 0.5",
-    ),
-    "times after the end": (lambda m, _: m.run(1, 0.3, t_eval=[0.1, 0.4]), "t_eval: 0.4; expected"),
-    "several numbers for one state": (lambda m, _: m.run([1.0, 2.0], 1), "expected a number"),
-    "no name": (lambda m, _: DECAY.run([1.0, 2.0], 1), "expected a value for each of y, z"),
-}
-
-
-@pytest.mark.parametrize(("call", "words"), REFUSED.values(), ids=REFUSED)
-def test_refused(call, words):
-    with pytest.raises(dk.ModelError, match=words):
-        call(DELAYED, np.linspace(-0.5, 0, 9))
 
 
 def test_a_past_that_begins_at_the_delay_but_for_rounding():

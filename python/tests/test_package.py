@@ -68,40 +68,6 @@ def test_ikeda_s_equation_from_c(tmp_path):
     assert "none.so: cannot be opened" in failed.stderr
 
 
-@pytest.mark.parametrize(
-    ("call", "words"),
-    [
-        (lambda m: m.scan(tau=[]), "parameter tau: no values; expected one at least"),
-        (lambda m: m.scan(taw=[1]), "option 'taw'; expected one of .*; did you mean 'tau'"),
-        (
-            lambda m: m.integrate(1, 3, doses=[(0.3, 1.0)]),
-            r"doses: \(0.3, 1.0\); expected pairs \(t",
-        ),
-        (lambda m: m.integrate(1, 3, doses=5), r"doses: 5; expected pairs \(time, \{state: change"),
-        (
-            lambda m: m.hopf(("tau", "n"), (0, 5, 0, 3), near={"y": 1}),
-            r"window: .*expected \(least, m",
-        ),
-        (
-            lambda m: m.cycle(1, "tau", 5, near={"y": 1}),
-            r"window: 5; expected \(least, most\) of tau",
-        ),
-        (lambda m: m.hopf(("tau",), ((0, 5),), near={"y": 1}), "along: .*; expected two names"),
-        (lambda m: m.roots(near=0), r"near: 0; expected \{state: guess\}"),
-        (lambda m: m.roots(), "near: None; expected a guess, or a model with steady_state"),
-        (lambda m: m.run(1, 3, dense_output=True), "dense_output: True; expected with integrate"),
-    ],
-)
-def test_arguments_are_refused_in_words(mackey_glass, call, words):
-    with pytest.raises(dk.ModelError, match=words):
-        call(mackey_glass)
-
-
-def test_a_measure_that_fails_is_a_reason(mackey_glass):
-    found = mackey_glass.scan(lambda model: 1 / 0, tau=[1.0], progress=False)
-    assert found.reason.item() == "division by zero"
-
-
 def test_doses_may_be_a_dict_and_one_exponent_asked_for(mackey_glass, sine):
     pair, table = (
         mackey_glass.integrate(1.2, 3, doses=doses, t_eval=[3]).y

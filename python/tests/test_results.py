@@ -26,28 +26,6 @@ def test_a_section_of_a_sine(sine):
     np.testing.assert_allclose(found.y, 0.5, atol=1e-9)
 
 
-@pytest.mark.parametrize(
-    ("method", "option", "value"),
-    [
-        *(("exponents", option, 10**9) for option in ("count", "batches")),
-        *(("attractor", option, 10**9) for option in ("kept", "exponents")),
-        ("attractor", "sample_interval", 0),
-        ("hopf", "cells", 10**9),
-        *(("cycle", option, 10**9) for option in ("degree", "intervals", "most_orbits")),
-        *(("run", "samples_per_step", value) for value in (0, 10**9)),
-    ],
-)
-def test_numbers_that_no_memory_holds_are_refused(sine, method, option, value):
-    """Fortran would end the interpreter."""
-    given = {"near": {"y": 0}} if method in ("attractor", "hopf", "cycle") else {}
-    arguments = {"cycle": (1, "lag", (0.1, 2)), "run": (1, 9)}.get(method, (1,))
-    if method == "hopf":
-        sine = dk.Model({"y": "-gain*y(t - lag)"}, {"gain": 1, "lag": 1})
-        arguments = (("lag", "gain"), ((0.1, 2), (0.1, 2)))
-    with pytest.raises(dk.DelaykitError, match=rf"{option}(:| =) {value}.*; expected "):
-        getattr(sine, method)(*arguments, **given, **{option: value})
-
-
 def test_pictures(mackey_glass, sine):
     results = {
         "Lyapunov exponent, average up to a time": mackey_glass.exponents(1.2, t_end=4000),
@@ -118,12 +96,3 @@ def test_attractor_of_pulses():
     assert auto["class"].item() == radau["class"].item() == "cycle"
     values = [found.lyapunov_exponent[:2] for found in (auto, radau)]
     np.testing.assert_allclose(*values, rtol=1e-3, atol=1e-9)
-
-
-def test_exponents_of_equations_with_time():
-    """No disturbance along the flow stays: the exponents are Re W(-1) (DLMF 4.13), twice."""
-    driven = dk.Model({"y": "-y(t - 1) + sin(t)"})
-    found = driven.exponents(1, count=2)
-    np.testing.assert_allclose(found.value, -0.3181315052047642, rtol=2e-3)
-    with pytest.raises(dk.RunError, match="the model has t in its equations; expected one without"):
-        driven.attractor(1)

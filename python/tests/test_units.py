@@ -88,8 +88,8 @@ CALLS = {
 """What is computed, free of units, and how far other units than powers of two may change it."""
 ROUNDED = {"Hopf curves": 1e-12}
 """How far powers of two may: logarithms of omega are in lengths along curves."""
-POWERS = [(2.0**-30, 1), (2.0**30, 1), (1, 2.0**-30), (1, 2.0**30), (2.0**-30, 2.0**30)]
-OTHERS = [(3600, 1e-4), (60, 1e6), (1e-3, 1), (1e9, 1e-9)]
+POWERS = [(2.0**-30, 1), (1, 2.0**30), (2.0**30, 2.0**-30)]
+OTHERS = [(3600, 1e-4), (1e-3, 1), (1e9, 1e-9)]
 expected = cache(lambda name: CALLS[name][0](1, 1))
 
 

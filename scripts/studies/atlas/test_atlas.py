@@ -19,7 +19,6 @@ from matplotlib.figure import Figure
 from conftest import Programs
 from scripts.drawing import class_map
 from scripts.files.tsv import read_table, write_table
-from scripts.namelists.laws import PAPER
 from scripts.namelists.write_namelist import write_namelist
 from scripts.studies.atlas import figure as atlas
 from scripts.studies.atlas import play_data
@@ -63,17 +62,6 @@ def tiny(smoke_config) -> dict:
     return {**smoke_config, "atlas": {**smoke_config["atlas"]}}
 
 
-def test_number_of_parts_does_not_matter(programs, tiny):
-    """The tables of a plane in one part and in three are the same."""
-    tables = []
-    for parts in (1, 3):
-        runs = [xr.load_dataset(path) for path in made_parts(programs, tiny, parts)]
-        tables.append(programs.folder / f"{parts}.tsv")
-        write_table(tables[-1], [row for run in runs for row in attractor_tables.rows_of(run)])
-    assert len(read_table(tables[0])) == 16
-    assert tables[0].read_bytes() == tables[1].read_bytes()
-
-
 def test_points_not_computed_reach_table_figure_and_page(programs, tiny):
     """All of them, with class and without exponents; the page has words for the others."""
     (path,) = made_parts(programs, tiny, 1, refinements=1, abscissa_count=13, ordinate_count=13)
@@ -106,24 +94,6 @@ def test_parts_hold_every_row_once(count, parts, distance):
     assert all((last - first) % distance == 0 for first, last in ends[:-1])
     sizes = [last - first + 1 for first, last in ends]
     assert max(sizes) - min(sizes) <= (1 if distance == 1 else 2 * distance - 1)
-
-
-def test_parts_of_the_atlas_divide_its_delays(own_config):
-    """All of epsilon in each part, both windows as a whole, at xi and gamma of the plane."""
-    settings = own_config["atlas"]
-    delays = []
-    for part in range(1, settings["parts"] + 1):
-        points = groups(own_config, "fault", str(part))["points"]
-        columns, lines = points["axes"]
-        assert (columns["along"], lines["along"]) == ("epsilon", "tau")
-        assert columns["part"] == [1, settings["abscissa_count"]]
-        assert columns["window"] == settings["abscissa_window"]
-        assert lines["window"] == settings["planes"]["fault"]["ordinate_window"]
-        assert points["refinements"] == settings["refinements"]
-        model = {"name": PAPER, "parameters": ["xi", "gamma"], "values": [0.5, 1e8]}
-        assert points["model"] == model
-        delays += range(lines["part"][0], lines["part"][1] + 1)
-    assert delays == list(range(1, settings["ordinate_count"] + 1))
 
 
 @pytest.mark.parametrize(

@@ -2,8 +2,6 @@
 
 import numpy as np
 import pytest
-import xarray as xr
-from figure_contents import title_of
 from made_up_results import (
     LINES,
     NO,
@@ -16,16 +14,12 @@ from made_up_results import (
     cycles_to_a_torus,
     finding,
     followed_cycles,
-    of_other_model,
     route_rows,
     stability_row,
     torus_point,
 )
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
-from scripts.drawing.special_points import STYLES
 from scripts.namelists.laws import PAPER
 from scripts.studies.cycles import figure as cycles
 from scripts.studies.cycles.branches import branch_of, cycles_there, smooth_curve
@@ -94,33 +88,6 @@ def test_columns_of_a_torus_point():
     assert [row[key] for key in keys] == ["not determined", "", "", ""]
 
 
-def test_a_simulated_torus_has_the_amplitude_of_the_table(programs, good_inputs, good_groups):
-    """Beside a torus point a simulation reaches a torus of the amplitude that it predicts."""
-    line = {"along": "tau", "window": [14.0, 15.2], "starts": [], "most_orbits": 30}
-    place = {"epsilon": 0.4, "xi": 0.5, "gamma": 0.8}
-    values = {key: value for key, value in good_inputs["cycles"].items() if key != "tau"}
-    (row,) = rows_of("mine", programs.made_by("cycles", values | line | place), [])
-    assert (row["kind"], row["criticality"]) == ("torus", "supercritical")
-    assert float(row["coefficient"]) < 0
-    assert float(row["coefficient_error"]) < 1e-8
-    distance = 0.02
-    groups = good_groups["attractors"]
-    groups["observation"] |= {"t_transient": 4e4, "t_observed": 2000.0, "tolerance": 1e-8}
-    groups["observation"] |= {"most_steps": 10_000_000}
-    place["tau"] = float(row["tau"]) + distance
-    groups["points"] |= {"xi": place["xi"]}
-    for name in ("epsilon", "tau"):
-        groups["points"] |= {f"{name}_window": [place[name]] * 2, f"{name}_count": 1}
-        groups["points"] |= {f"{name}_part": [1, 1]}
-    groups["points"] |= {"theta": [0.0], "u": [0.0], "v": [1.1]}
-    # a run of some seconds reports its progress
-    done = programs.run_groups("attractors", groups)
-    assert done.returncode == 0, done.stderr
-    found = xr.load_dataset(programs.output)
-    simulated = np.log(found.largest_maximum / found.smallest_maximum).item() / 2
-    assert simulated == pytest.approx(float(row["amplitude"]) * np.sqrt(distance), rel=0.02)
-
-
 def test_a_cusp_lies_beside_the_line():
     """A cusp has parameters and errors, but neither branch nor stability."""
     row = rows_of("mine", cycles_to_a_torus(cusps=1), [])[1]
@@ -129,24 +96,6 @@ def test_a_cusp_lies_beside_the_line():
         **{"of": "mine", "kind": "cusp", "period": "9", "v_most": "2.5", **place, "law": PAPER},
         **{"confirmed": "not simulated", "multiplier_error": "0.0001", "mesh_error": "1e-10"},
     }
-
-
-def test_table_of_a_model_that_is_not_the_block():
-    """Columns are named after its parameters and its signal; a cusp has no value of n in its law,
-    where its curve has others."""
-    cycles = cycles_to_a_torus("epsilon", cusps=1)
-    cycles["cusp_n"] = ("cusp", [7.0])
-    for key in ("n", "epsilon"):
-        cycles[f"curve_{key}"] = ("curve_point", [1.0])
-    torus, cusp = rows_of("mine", of_other_model(cycles), [])
-    assert (torus["law"], torus["beta"], torus["y_most"]) == (
-        *("model mackey_glass (n = 10)", "0.25", "1.25"),
-    )
-    assert (cusp["law"], cusp["beta"], cusp["n"]) == ("model mackey_glass", "0.5", "7")
-    assert not {"epsilon", "xi", "gamma"} & {*torus, *cusp}
-    swept = {"run": "up", "law": torus["law"], "beta": 0.2, "tau": 10.0, "class": "cycle"}
-    assert sweeps_over(of_other_model(cycles), [swept]) == [swept]
-    assert sweeps_over(cycles_to_a_torus("epsilon"), [swept]) == []
 
 
 def test_cycles_at_a_value_of_the_parameter():
@@ -208,10 +157,6 @@ def cycles_drawn() -> Figure:
     return cycles.draw([followed_cycles("tau"), followed_cycles("epsilon")], [], [[], []], {})
 
 
-def labelled(axes: Axes, label: str) -> list[Line2D]:
-    return [line for line in axes.lines if line.get_label() == label]
-
-
 def test_branches_change_their_line_at_special_points(cycles_drawn):
     """Each part ends at the point where its number of unstable multipliers changes."""
     # the line is smooth: every eighth of its points is an orbit
@@ -245,32 +190,6 @@ def test_lines_between_few_orbits_are_smooth():
     x, y = smooth_curve(np.cos(turns), np.sin(turns), 8)
     np.testing.assert_allclose(np.hypot(x, y), 1.0, rtol=0.0, atol=0.009)
     np.testing.assert_allclose([x[::8], y[::8]], [np.cos(turns), np.sin(turns)], atol=1e-14)
-
-
-def test_special_points_have_markers_by_kind(cycles_drawn):
-    expected = {
-        "fold": ("fold", [[0.45, 2.2]]),
-        "torus bifurcation": ("torus", [[0.3, 3.0]]),
-        "period doubling": ("period_doubling", [[0.7, 2.1], [0.7, 2.6]]),
-    }
-    for axes in cycles_drawn.axes:
-        for label, (kind, places) in expected.items():
-            (points,) = labelled(axes, label)
-            assert points.get_marker() == STYLES[kind][0]
-            assert points.get_xydata().tolist() == places
-        (hopf,) = labelled(axes, "Hopf point")
-        assert hopf.get_xydata().tolist() == [[0.1, 1.0]]
-
-
-def test_cycles_of_a_model_that_is_not_the_block():
-    """Neither steady sliding nor Hopf points at v = 1 are drawn."""
-    (axes,) = cycles.draw([of_other_model(followed_cycles("epsilon"))], [], [[]], {}).axes
-    labels = {str(line.get_label()) for line in axes.lines}
-    assert not labels & {"steady sliding", "Hopf point"}
-    assert {"fold", "torus bifurcation", "period doubling"} <= labels
-    assert (axes.get_xlabel(), axes.get_ylabel()) == (r"$\beta$", "maxima of $y$")
-    words = r"$\tau = 10$, model mackey glass (n = 10): 2 branches, 4 special points"
-    assert title_of(axes).endswith(words)
 
 
 def test_sweeps_on_lines_are_found_by_their_parameters(own_config):

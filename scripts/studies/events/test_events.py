@@ -1,39 +1,10 @@
 """Slip events: the program against a trajectory, the figure, and verdicts on made-up events."""
 
 import numpy as np
-import pytest
 from made_up_results import NO, YES, assert_finding, cases, cycles_to_a_torus, slip_events
 from scipy.integrate import solve_ivp
 
-from scripts.studies.events import figure as events
 from scripts.studies.events.claims import FEWEST
-
-ENDS = {"t_end": 300.0, "t_transient": 100.0}
-FINE = 0.005
-
-
-def test_events_are_those_of_the_trajectory(programs, good_inputs, smoke_config):
-    """Of chaos: v - 1 changes its sign at both ends, and slip is the integral of v between."""
-    scene = {**good_inputs["slip_events"], **ENDS, "sample_interval": FINE, "tolerance": 1e-9}
-    of_chaos = smoke_config["scenes"]["chaos"]
-    scene |= {key: of_chaos[key] for key in ("tau", "epsilon", "xi", "gamma", "history")}
-    found = programs.made_by("slip_events", scene)
-    run = programs.made_by("trajectory", scene)
-    time, v = run.t.values, run.v.values
-    rises = time[1:][(v[:-1] < 1) & (v[1:] >= 1) & (time[:-1] >= ENDS["t_transient"])]
-    assert found.sizes["event"] == rises.size - 1 > 15
-    np.testing.assert_allclose(found.onset, rises[:-1], rtol=0, atol=FINE)
-    np.testing.assert_allclose(found.recurrence_time, np.diff(rises), rtol=0, atol=2 * FINE)
-    for i in range(found.sizes["event"]):
-        event = found.isel(event=i)
-        first, last = float(event.onset), float(event.onset + event.duration)
-        within = (time >= first) & (time <= last)
-        assert (v[within] >= 1).all()
-        slip = np.trapezoid(np.interp(np.linspace(first, last, 20001), time, v)) / 20000
-        assert slip * (last - first) == pytest.approx(float(event.slip), abs=1e-3)
-        assert v[within].max() == pytest.approx(float(event.peak_velocity), rel=1e-3)
-        loading = (time >= last) & (time <= first + float(event.recurrence_time))
-        assert v[loading].min() == pytest.approx(float(event.least_velocity), rel=1e-3)
 
 
 def stuck_cycle(epsilon: float, xi: float, gamma: float) -> tuple[float, float]:
@@ -78,15 +49,6 @@ def test_stuck_block_is_that_of_another_solver(programs, good_inputs):
     assert found.sizes["event"] > 3
     np.testing.assert_allclose(found.recurrence_time, recurrence_time, rtol=1e-8)
     np.testing.assert_allclose(found.least_velocity, least_velocity, rtol=1e-5)
-
-
-def test_share_of_larger_events_is_drawn():
-    """All events have at least the smallest slip, one in four at least the largest of four."""
-    made = slip_events(slip=np.array([4.0, 1.0, 2.0, 8.0])).assign_attrs(scene="chaos")
-    figure = events.draw([made], ["a"])
-    (line,) = figure.axes[2].lines
-    drawn = dict(zip(line.get_xdata()[1:], line.get_ydata()[1:], strict=True))
-    assert drawn == {1.0: 1.0, 2.0: 0.75, 4.0: 0.5, 8.0: 0.25}
 
 
 RANDOM = np.random.default_rng(1).uniform(4.0, 12.0, 1000)

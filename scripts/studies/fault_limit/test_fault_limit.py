@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 import xarray as xr
 from made_up_results import NO, YES, assert_finding, cases, finding
-from scipy.integrate import solve_ivp
 
 from scripts.studies.fault_limit import table as fault_limit_table
 from scripts.studies.fault_limit.finding import describe
@@ -50,13 +49,6 @@ def test_least_epsilon_in_many_digits(gamma, xi):
     assert row["omega"] == pytest.approx(float(x.sqrt()), rel=1e-10)
 
 
-@pytest.mark.parametrize("gamma", [10.0, 100.0, 1e4, 1e12])
-def test_leading_order(gamma):
-    """xi^3 (1 + xi)/(2 gamma^4), but for a share of size 1/gamma^2."""
-    row = fault_limit_table.row_of(0.5, gamma)
-    assert row["depth"] == pytest.approx(row["leading_order"], rel=1 / gamma**2 + 1e-14)
-
-
 LAWS = {
     "slip_delayed_logarithm": lambda theta, w, b: -math.exp(w) * (theta + b * w),
     "ageing_delayed_velocity": lambda theta, w, b: b * (math.exp(-theta / b) - math.exp(w)),
@@ -85,31 +77,6 @@ def test_kind_of_hopf_point_without_delay(programs, law, gammas):
     found = curves.special_gamma[curves.special_kind == "generalised_hopf"]
     has_change = law.startswith("ageing") and gammas[0] < change < gammas[1]
     np.testing.assert_allclose(found, [change] * has_change, rtol=1e-9)
-
-
-@pytest.mark.parametrize("gamma", [0.8, 1.5, 2.5, 5.0])
-@pytest.mark.parametrize("law", LAWS)
-def test_motion_at_the_hopf_point_without_delay(law, gamma):
-    """Of amplitude r, d(1/r^2)/dt = -2 omega l1: a small motion decays, or grows, by SciPy."""
-    x = fault_limit_table.row_of(XI, gamma)["without_delay"]
-    omega = math.sqrt(x)
-
-    def slope(_t, y):
-        theta, u, w = y
-        pull = -(gamma**2) / math.exp(w) * (u + (theta + w) / XI)
-        return [LAWS[law](theta, w, 1 + x), math.expm1(w), pull]
-
-    def rises(_t, y):
-        return y[2]
-
-    rises.direction = 1
-    q = np.array([-(1 + x) / (1 + 1j * omega), 1 / (1j * omega), 1]) * omega / (1 + x)
-    options = {"method": "LSODA", "rtol": 1e-10, "atol": 1e-13, "events": rises}
-    run = solve_ivp(slope, (0, 20 * math.pi / omega), 0.1 * q.real, **options)
-    # past the transient along the third direction; u is greatest where v rises through 1
-    t, u = run.t_events[0][2:], run.y_events[0][2:, 1]
-    rate = np.polyfit(t, (2 * abs(q[1]) / u) ** 2, 1)[0]
-    assert rate == pytest.approx(-2 * omega * coefficient(law, gamma), rel=0.05)
 
 
 @pytest.mark.parametrize("branch", [1, 2, 3])

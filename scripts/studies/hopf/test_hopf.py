@@ -1,24 +1,21 @@
-"""The hopf program: every point in equation (5) and in closed form; the table, captions, verdicts.
+"""Special points of Hopf curves in equation (5); the table, captions, verdicts.
 
-The suite hopf_curves shows that curves are complete and smooth, and which way roots cross; the
-suite hopf_points shows where curves of folds and of tori start.
+The suite hopf_curves shows that curves are those of the closed form, complete and smooth, and which
+way roots cross; the suite hopf_points shows where curves of folds and of tori start.
 """
 
 import numpy as np
 import pytest
 import xarray as xr
-from characteristic_equation import closed_form, residual
+from characteristic_equation import residual
 from made_up_results import NO, PARTLY, YES, assert_finding, cases, changed, changing, hopf_curve
 from matplotlib import pyplot as plt
 
-from scripts.drawing.wording import short
 from scripts.drawing.write_captions import render
 from scripts.files.tsv import read_table, rows_by
-from scripts.namelists.laws import PAPER
 from scripts.plans import studies
 from scripts.studies.hopf import figure as drawing
 from scripts.studies.hopf.table import rows_of
-from scripts.tables.roots_of_5 import unstable_roots
 
 PLANES = ["tau_of_epsilon", "xi_of_epsilon"]
 
@@ -32,45 +29,6 @@ def plane(request, filled_config) -> dict:
 @pytest.fixture
 def curves(programs, plane) -> xr.Dataset:
     return programs.made_by("hopf", plane)
-
-
-def parameters(curves: xr.Dataset) -> list[np.ndarray]:
-    """epsilon, tau, xi and gamma of all points."""
-    gamma = np.full(curves.sizes["point"], curves.attrs["gamma"])
-    return [curves.epsilon.values, curves.tau.values, curves.xi.values, gamma]
-
-
-def test_every_point_solves_the_characteristic_equation(curves, plane):
-    """Equation (5) at i omega, recomputed and as the file says; the closed form; the plane."""
-    recomputed = residual(1j * curves.omega.values, *parameters(curves))
-    assert recomputed.max() <= 1e-10
-    np.testing.assert_allclose(curves.residual, recomputed, rtol=0, atol=1e-14)
-    epsilon, angle = closed_form(curves.omega, curves.xi, plane["gamma"])
-    np.testing.assert_allclose(curves.epsilon, epsilon, rtol=1e-9, atol=1e-12)
-    turns = (curves.omega * curves.tau - angle) / (2 * np.pi)
-    np.testing.assert_allclose(turns, curves.branch, rtol=0, atol=1e-9)
-    fixed = {"tau": "xi", "xi": "tau"}[plane["ordinate"]]
-    np.testing.assert_allclose(curves[fixed], plane[fixed], rtol=1e-13)
-    known = {"gamma": plane["gamma"], "ordinate": plane["ordinate"], fixed: plane[fixed]}
-    assert curves.attrs.items() >= known.items()
-
-
-def test_window_without_a_curve_makes_an_empty_file(programs, filled_config):
-    """Below epsilon = 0.1 nothing oscillates by itself at small delays."""
-    plane = filled_config["hopf_curves"]["tau_of_epsilon"] | {"cells": 20}
-    plane |= {"abscissa_window": [0.0, 0.05], "ordinate_window": [0.0, 1.0]}
-    curves = programs.made_by("hopf", plane)
-    assert curves.sizes["point"] == curves.sizes["special"] == 0
-    assert rows_of("empty", curves) == []
-
-
-def test_map_counts_the_crossings(curves, plane):
-    """In every cell: roots at tau = 0 plus crossings of all curves below."""
-    for i, epsilon in enumerate(curves.map_abscissa.values):
-        for j, ordinate in enumerate(curves.map_ordinate.values):
-            place = {**plane, plane["ordinate"]: ordinate}
-            expected = unstable_roots(epsilon, place["tau"], place["xi"], plane["gamma"])
-            assert curves.map_unstable_roots.values[j, i] == expected
 
 
 def test_special_points_solve_the_characteristic_equation(curves):
@@ -94,33 +52,6 @@ def test_special_points_solve_the_characteristic_equation(curves):
         elif row["kind"] == "generalised_hopf":
             assert float(row["l2"]) != 0
             assert (row["unfolding"], row["torus_1"]) == ("", "")
-
-
-@pytest.mark.parametrize("along", ["gamma", "c"])
-def test_any_parameter_is_an_ordinate(programs, along):
-    """Points and counts; the law with a cut-off is here the paper's at (1 + c) xi."""
-    window = {"gamma": [0.4, 2.0], "c": [0.0, 3.0]}[along]
-    law = {"gamma": PAPER, "c": "slip_cut_off"}[along]
-    fixed = {"tau": 7.0, "xi": 0.5, "gamma": 0.8, "law": law}
-    fixed.pop(along, None)
-    plane = {"ordinate": along, "abscissa_window": [0.0, 1.2], "ordinate_window": window}
-    curves = programs.made_by("hopf", {**plane, **fixed, "cells": 16})
-    assert (curves.attrs["ordinate"], along in curves.attrs) == (along, False)
-    varied = curves[along].values
-    assert varied.size > 50
-    xi, gamma = (0.5, varied) if along == "gamma" else (0.5 * (1 + varied), 0.8)
-    assert residual(1j * curves.omega.values, curves.epsilon.values, 7.0, xi, gamma).max() < 1e-10
-    for i, epsilon in enumerate(curves.map_abscissa.values):
-        for j, y in enumerate(curves.map_ordinate.values):
-            place = (0.5, y) if along == "gamma" else (0.5 * (1 + y), 0.8)
-            counted = unstable_roots(epsilon, 7.0, *place)
-            assert curves.map_unstable_roots.values[j, i] == counted
-            # a pair becomes unstable at each curve
-            pieces = [curves.isel(point=curves.piece.values == k) for k in set(curves.piece.values)]
-            here = [one for one in pieces if one[along].min() <= y <= one[along].max()]
-            assert counted == 2 * sum(
-                np.interp(y, one[along], one.epsilon) < epsilon for one in here
-            )
 
 
 def test_table_of_the_workflow(smoke):
@@ -221,20 +152,3 @@ def test_plane_without_a_curve_has_a_figure_and_a_caption(smoke):
     caption = render(text, [], paper=False, **drawing.numbers(empty, {}))
     assert caption.startswith("No Hopf curve lies in this plane, at ")
     assert "Lyapunov" not in caption
-
-
-def test_numbers_of_a_plane():
-    """Counts along the curves, the boundary, and special points with their places."""
-    curves = hopf_curve()
-    curves["l1"][3] = 0.2
-    curves["unstable_roots"][curves.epsilon.values.argmax()] = 2
-    curves["crossing"][:4] = -1
-    curves["map_unstable_roots"] = (("map_y", "map_x"), [[0, 0], [0, 2]])
-    kinds = ["double_hopf", "hopf_without_delay", "double_hopf"]
-    curves["special_kind"] = ("special", np.array(kinds))
-    curves["special_epsilon"] = ("special", [1.143, 0.28, 0.336])
-    curves["special_tau"] = ("special", [3.343, 0.0, 13.4])
-    found = drawing.numbers(curves, {})
-    assert (found["stabilising"], found["double"], found["without_delay"]) == (4, 2, [0.28])
-    ordered = np.sort(curves.epsilon.values)
-    assert found["boundary"] == (short(ordered[0]), short(ordered[-2]))

@@ -7,10 +7,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from scripts.config.check_config import checked
-from scripts.files.read_config import ConfigError
 from scripts.namelists.program_groups import scene_groups
-from scripts.studies.synchrony.figure import growing_ranges, largest_alike, zeros_in_words
+from scripts.studies.synchrony.figure import growing_ranges, largest_alike
 from scripts.studies.synchrony.plan import groups
 
 
@@ -45,49 +43,6 @@ def test_disturbances_grow_as_between_two_blocks(programs, config):
     assert found.exponent.values[0] > 0 > found.exponent.values[1]
     assert 1.175 < found.zero_s.item() < 2.0
     assert found.zero_rises.item() == 0
-
-
-@pytest.mark.parametrize(
-    ("scene", "window", "zero"),
-    [("torus", [1.0, 1.4], 1.2549), ("oscillation", [1.012, 3.0], 1.0243)],
-)
-def test_multipliers_and_exponents_agree(programs, config, scene, window, zero):
-    """Two ways to one exponent and to its zero, within three standard errors."""
-    found = measured(programs, config, scene, window, 4)
-    assert "no_multipliers" not in found.attrs
-    np.testing.assert_allclose(found.floquet_s[::10], found.s, rtol=1e-14)
-    assert (abs(found.floquet_exponent.values[::10] - found.exponent) <= 3 * found.error).all()
-    assert found.floquet_error.max() < 1e-9
-    if window[0] == 1:
-        assert found.floquet_exponent[0] == 0
-    assert found.floquet_zero_s.item() == pytest.approx(zero, abs=1e-4)
-    distance = abs(found.floquet_zero_s.item() - found.zero_s.item())
-    assert distance <= 3 * found.zero_error.item() < 1e-2
-    assert growing_ranges(found) == [(1.0, found.floquet_zero_s.item())]
-    assert f"zero at s = {zero}" in zeros_in_words(found)
-
-
-def test_motion_without_cycle_has_no_multipliers(programs, config):
-    """Chaos: the ranges are those of the exponents."""
-    found = measured(programs, config, "chaos", [1.0, 41.0], 3)
-    assert "cycle" in found.attrs["no_multipliers"]
-    assert found.sizes["floquet_s"] == found.sizes["floquet_zero"] == 0
-    assert growing_ranges(found) == [(1.0, found.zero_s.item())]
-
-
-@pytest.mark.parametrize(("blocks", "alike"), [(6, True), (7, False)])
-def test_largest_chain_that_moves_as_one(programs, config, blocks, alike):
-    """Along the paper's torus disturbances grow up to s = 1.255: seven blocks separate."""
-    assert (largest_alike([(1.0, 1.25493)], 1.0) >= blocks) == alike
-    config["scenes"]["mine"] = {
-        **{**config["scenes"]["torus"], "blocks": blocks, "kappa": 1.0, "t_end": 8000.0},
-        **{"disturbance": {"ln_v": 1e-6, "seed": 1, "block": 0}},
-        **{"sample_interval": 0.5, "tolerance": 1e-12},
-    }
-    found = programs.made_of("trajectory", scene_groups(config, "mine"))
-    spread = np.log(found.v).std("block")
-    early, late = (float(spread.sel(t=slice(t, t + 500)).max()) for t in (3000, 7500))
-    assert (late < early) == alike
 
 
 @pytest.mark.parametrize(
@@ -128,18 +83,3 @@ def test_ranges_of_growth_end_at_zeros():
         assert growing_ranges(growth([2.0], [0], [0.0, -1.0], multipliers)) == [(1.0, 2.0)]
         two = growth([2.0, 3.0, 4.0], [1, 0, 1], [0.0, 1.0], multipliers)
         assert growing_ranges(two) == [(2.0, 3.0), (4.0, math.inf)]
-
-
-@pytest.mark.parametrize(
-    ("given", "words"),
-    [
-        ({"scenes": ["nowhere"]}, "'nowhere'; expected one of"),
-        ({"s_window": [0.5, 2.0]}, "s_window"),
-        ({"t_end": 10.0}, "t_end = 10.0; expected a finite number > t_transient"),
-    ],
-)
-def test_bad_settings_are_refused(config, given, words):
-    config["synchrony"] |= given
-    with pytest.raises(ConfigError) as refusal:
-        checked(config)
-    assert words in str(refusal.value)
