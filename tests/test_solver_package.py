@@ -23,11 +23,6 @@ def run(*command, **settings) -> str:
     return done.stdout
 
 
-def copy_of_package(folder: Path) -> Path:
-    """Its sources; the benchmarks may hold packages and builds."""
-    return shutil.copytree(PACKAGE, folder, ignore=shutil.ignore_patterns("benchmarks"))
-
-
 def largest_error(printed: str) -> float:
     return float(re.search(r"largest error +(\S+)", printed)[1])
 
@@ -46,7 +41,7 @@ def test_version_stands_once(installed):
 def installed(tmp_path_factory) -> Path:
     """Folder of an installed copy; its sources and its build are gone."""
     folder = tmp_path_factory.mktemp("solver")
-    source = copy_of_package(folder / "source")
+    source = shutil.copytree(PACKAGE, folder / "source")
     prefix = folder / "prefix"
     run("cmake", "-D", "DDE_TESTS=OFF", "-S", source, "-B", folder / "build")
     run("cmake", "--build", folder / "build")
@@ -93,7 +88,7 @@ def test_pkg_config_finds_it(installed, tmp_path):
 
 def test_fpm_builds_it(tmp_path):
     """From a copy of its folder alone."""
-    copy_of_package(tmp_path / "dde")
+    shutil.copytree(PACKAGE, tmp_path / "dde")
     shutil.copytree(OUTSIDE, tmp_path / "mine")
     printed = run("fpm", "run", cwd=tmp_path / "mine")
     assert largest_error(printed) < 100 * TOLERANCE
@@ -102,7 +97,7 @@ def test_fpm_builds_it(tmp_path):
 
 @pytest.mark.skipif(platform.machine() != "x86_64", reason="other processors have other bits")
 def test_five_problems_cost_what_the_manual_says(installed, tmp_path):
-    source = PACKAGE / "benchmarks" / "delay_problems.f90"
+    source = PACKAGE / "example" / "delay_problems.f90"
     run("sh", "-c", f'gfortran "{source}" -o mine {compiler_flags(installed)}', cwd=tmp_path)
     assert run(tmp_path / "mine") in (PACKAGE / "README.md").read_text()
 
