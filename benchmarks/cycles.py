@@ -69,7 +69,7 @@ def main() -> None:
         along = settings["along"]
         commands = {
             OURS: command_of("delaykit", "cycles", along),
-            "DDE-BIFTOOL": command_of("biftool", options.biftool, 1 + PARAMETERS.index(along)),
+            "DDE-BIFTOOL": command_of("biftool", options.biftool.resolve(), 1 + PARAMETERS.index(along)),
         }
         (our_cost, ours), (their_cost, theirs) = (
             follow(program, command, line, settings, options.time_limit)

@@ -28,10 +28,16 @@ COUNTED = (1e-6, 1e-3)
 def options_of(name: str, time_limit: float = 60.0) -> argparse.ArgumentParser:
     """The options of a benchmark, whose tables go to a folder."""
     parser = argparse.ArgumentParser(prog=f"benchmarks/run {name}", allow_abbrev=False)
-    parser.add_argument("--output", type=Path, default=BUILD)
+    parser.add_argument("--output", type=folder, default=str(BUILD))
     parser.add_argument("--time-limit", type=float, default=time_limit)
     parser.add_argument("--repeats", type=int, default=5)
     return parser
+
+
+def folder(text: str) -> Path:
+    """A folder, which is made before anything is measured for it."""
+    Path(text).mkdir(parents=True, exist_ok=True)
+    return Path(text)
 
 
 def report(*words) -> None:

@@ -1,17 +1,16 @@
 """delaykit and other packages for Python on the equation of Mackey and Glass (benchmarks/run
 package).
 
-Each task is tried with tighter and tighter tolerances until its error is small enough. The time is
-that of the loosest tolerance that passes.
+The time is that of the loosest tolerance whose error is small enough.
 """
 
-import math
+import argparse
 import os
 from dataclasses import dataclass
 
 import numpy as np
-from measuring import options_of, report, time_in_turns, write_table
-from workers import SolverError, Task, Worker, command_of
+from measuring import measure_errors, options_of, report, time_in_turns, write_table
+from workers import Task, Worker, command_of
 
 PEERS = ("delaykit", "jitcdde", "ddeint", "scipy")
 TOLERANCES = (1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12)
@@ -30,71 +29,61 @@ T_SCAN, T_EARLY = 2000.0, 50.0
 
 @dataclass(frozen=True)
 class Row:
-    """A task of workers, in words, and its largest error."""
+    """A task of workers in words, its largest error, and what it is compared with: pairs of a time,
+    or a delay, and the value; by default those of delaykit at a tight tolerance."""
 
     meaning: str
     words: tuple
     task: Task
     error: float = 1e-6
+    exact: tuple = ()
     fresh: bool = False
     peers: tuple[str, ...] = PEERS
 
 
-RUN = Task((TAU_CYCLE, *TIMES_OF_RUN))
+RUN = ("run",), Task((TAU_CYCLE, *TIMES_OF_RUN))
+FIRST = ("run",), Task((TAU_CHAOS, 200.0))
+SPECTRUM = ("spectrum", 4, T_TRANSIENT), Task((TAU_CHAOS,), T_TRANSIENT + T_EXPONENTS)
+SCAN = ("scan", T_EARLY), Task(TAUS, T_SCAN)
 ROWS = {
-    "first": Row(
-        *("first line to first number, y(200)", ("run",), Task((TAU_CHAOS, 200.0))), fresh=True
-    ),
-    "run": Row("1e4 delays, a cycle", ("run",), RUN),
-    "tight": Row("the same, error 1e-9", ("run",), RUN, error=1e-9),
+    "first": Row("first line to first number, y(200)", *FIRST, 1e-6, ((200.0, PUBLISHED),), True),
+    "run": Row("1e4 delays, a cycle", *RUN),
+    "tight": Row("the same, error 1e-9", *RUN, 1e-9),
     "exponents": Row(
-        *("4 exponents over 2e4 units", ("spectrum", 4, T_TRANSIENT)),
-        Task((TAU_CHAOS,), T_TRANSIENT + T_EXPONENTS),
-        error=CLOSE,
+        *("4 exponents over 2e4 units", *SPECTRUM, CLOSE, ((TAU_CHAOS, LARGEST),)),
         peers=("delaykit", "jitcdde"),
     ),
-    "scan": Row(
-        *(f"scan of 400 values, {os.cpu_count()} cores", ("scan", T_EARLY), Task(TAUS, T_SCAN)),
-        peers=("delaykit", "jitcdde", "scipy"),
-    ),
+    "scan": Row(f"scan of 400 values, {os.cpu_count()} cores", *SCAN),
 }
 
 
-def expected(name: str, limit: float) -> np.ndarray:
-    """What the numbers begin with: published, or those of delaykit at a tight tolerance."""
-    if name in ("first", "exponents"):
-        return np.array([PUBLISHED if name == "first" else LARGEST])
+def rows_of(name: str, options: argparse.Namespace) -> list[dict]:
+    """A row for each peer, of the loosest tolerance that passes; the last if none does."""
     row = ROWS[name]
-    with Worker(command_of("delaykit", *row.words), row.task) as worker:
-        return numbers_of(worker, 1e-13, limit)
-
-
-def numbers_of(worker: Worker, tolerance: float, limit: float) -> np.ndarray:
-    """The states of samples; of exponents all."""
-    table, _ = worker.numbers(tolerance, limit)
-    return table[0] if len(table) == 1 and table.size > 2 else table[:, -1]
-
-
-def row_of(peer: str, name: str, exact: np.ndarray, options) -> dict:
-    """Time and error of the loosest tolerance whose error is small enough; empty if none is."""
-    row = {"task": ROWS[name].meaning, "peer": peer, "version": "", "tolerance": math.nan}
-    row |= {"error": math.nan, "clock": math.nan, "cpu": math.nan, "status": "too inaccurate"}
-    one = ROWS[name]
-    with Worker(command_of(peer, *one.words), one.task, fresh=one.fresh) as worker:
-        for tolerance in TOLERANCES:
-            try:
-                found = numbers_of(worker, tolerance, options.time_limit)
-            except SolverError as failure:
-                return row | {"version": worker.version, "status": str(failure)}
-            error = float(abs(found[: len(exact)] - exact).max())
-            report(f"{peer}, {name}, {tolerance:g}: error {error:.1g}")
-            if error <= one.error:
-                timed = {"solver": peer, "tolerance": tolerance, "status": "ok"}
-                time_in_turns([timed], {peer: worker}, options.repeats, options.time_limit)
-                row |= {"tolerance": tolerance, "error": error, "status": timed["status"]}
-                row |= {"clock": timed.get("clock"), "cpu": timed.get("seconds")}
-                break
-        return row | {"version": worker.version}
+    workers = {
+        peer: Worker(command_of(peer, *row.words), row.task, fresh=row.fresh)
+        for peer in options.peers
+        if peer in row.peers
+    }
+    exact = np.array(row.exact)
+    if not row.exact:
+        with Worker(command_of("delaykit", *row.words), row.task) as worker:
+            exact, _ = worker.numbers(1e-13, options.time_limit)
+    found = []
+    try:
+        for peer, worker in workers.items():
+            report(f"{name}, {peer}")
+            errors = measure_errors(worker, exact, TOLERANCES, options.time_limit)
+            passing = [one for one in errors if one["error_max"] <= row.error]
+            status = {} if passing else {"status": f"not {row.error:g}: {errors[-1]['status']}"}
+            own = {"task": row.meaning, "solver": peer, "version": worker.version}
+            found.append(own | (passing or errors[-1:])[0] | status)
+        time_in_turns(found, workers, options.repeats, options.time_limit)
+    finally:
+        for worker in workers.values():
+            worker.stop()
+    columns = ("task", "solver", "version", "status", "tolerance", "error_max", "clock", "seconds")
+    return [{key: one.get(key, np.nan) for key in columns} for one in found]
 
 
 def main() -> None:
@@ -103,10 +92,6 @@ def main() -> None:
     parser.add_argument("--tasks", nargs="+", choices=list(ROWS), default=list(ROWS))
     parser.add_argument("--peers", nargs="+", choices=PEERS, default=PEERS)
     options = parser.parse_args()
-    rows = []
-    for name in options.tasks:
-        exact = expected(name, options.time_limit)
-        peers = [peer for peer in options.peers if peer in ROWS[name].peers]
-        rows += [row_of(peer, name, exact, options) for peer in peers]
-    meaning = "clock, cpu: seconds of the loosest tolerance with this error, median of repeats"
+    rows = [row for name in options.tasks for row in rows_of(name, options)]
+    meaning = "clock, seconds: by the clock and of CPU, median of repeats"
     write_table(options.output / "package.tsv", rows, [meaning])

@@ -191,6 +191,8 @@ class Worker:
             text=True,
             errors="replace",
             start_new_session=True,
+            # where JiTCDDE compiles no other project may lie
+            cwd=tempfile.gettempdir(),
             env={**os.environ, "OMP_NUM_THREADS": "1"},
         )
         self.version, *seconds = self._answer(self.task.line(), START_LIMIT).split()

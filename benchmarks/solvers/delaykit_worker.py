@@ -90,12 +90,16 @@ def samples(tau: float, times: np.ndarray, tolerance: float) -> np.ndarray:
 
 
 def spectrum(words: list[str], parameters: list[float], t_end: float, _):
-    """The largest exponents of Mackey and Glass."""
-    model = equation().with_parameters(tau=parameters[0])
+    """The largest exponent of Mackey and Glass, of several that are computed."""
+    [tau] = parameters
+    model = equation().with_parameters(tau=tau)
     times = {"t_transient": float(words[1]), "t_end": t_end}
-    return lambda tolerance, _: [
-        model.exponents(PAST, int(words[0]), **times, rtol=tolerance).value.values
-    ]
+
+    def run(tolerance: float, _):
+        found = model.exponents(PAST, int(words[0]), **times, rtol=tolerance)
+        return [[tau, found["value"].values.max()]]
+
+    return run
 
 
 def scan(words: list[str], delays: list[float], t_end: float, _):
@@ -106,7 +110,7 @@ def scan(words: list[str], delays: list[float], t_end: float, _):
         what, end = ("final", float(words[0])) if wanted else ("maxima", t_end)
         options = {"rtol": tolerance, "atol": tolerance, "history": PAST, "progress": False}
         found = model.scan(what, tau=delays, t_end=end, **options)
-        return found.final.values if wanted else found
+        return np.column_stack([delays, found.final.values]) if wanted else found
 
     return run
 

@@ -28,40 +28,40 @@ contains
       integer :: i, worst
       real(wp), allocatable :: at_steps(:), within(:)
       type(error_type), allocatable :: error
+      class(solved), allocatable :: problem
+      type(integration_options) :: options
 
-      samples = reshape([(ieee_value(tolerance, ieee_quiet_nan), i=1, 2*size(parameters))], &
-                        [2, size(parameters)])
+      options = integration_options(method=method, relative=tolerance, absolute=tolerance)
+      ! as documented for a series, which shows no jump
+      if (method == "taylor" .and. name == "switch") options%break_at = [1.0_wp]
+      deallocate (samples)
+      allocate (samples(2, size(parameters)), source=ieee_value(tolerance, ieee_quiet_nan))
       do i = 1, size(parameters)
-         call measure(parameters(i), tolerance, 1.0_wp, at_steps, error)
-         if (.not. allocated(error)) call measure(parameters(i), tolerance, between, within, error)
+         call set_problem(parameters(i), problem)
+         call measure_errors(problem, t_end, options, 1.0_wp, at_steps, error)
+         if (allocated(error)) cycle
+         call measure_errors(problem, t_end, options, between, within, error)
          if (allocated(error)) cycle
          worst = maxloc(within/max(at_steps, tolerance), dim=1)
          samples(:, i) = [at_steps(worst), within(worst)]
       end do
    end subroutine measure_all
 
-   !> Largest errors of one run over samples at a share of each step.
-   subroutine measure(rate, tolerance, share, largest, error)
-      real(wp), intent(in) :: rate, tolerance, share
-      real(wp), allocatable, intent(out) :: largest(:)
-      type(error_type), allocatable, intent(out) :: error
-      class(solved), allocatable :: problem
-      type(integration_options) :: options
+   !> The layer with a rate.
+   subroutine set_problem(rate, problem)
+      real(wp), intent(in) :: rate
+      class(solved), allocatable, intent(out) :: problem
 
-      options = integration_options(method=method, relative=tolerance, absolute=tolerance)
       select case (name)
       case ("decay")
-         allocate (problem, source=relaxation(rate))
+         problem = relaxation(rate)
       case ("switch")
-         allocate (problem, source=relaxation(rate, 1.0_wp))
-         ! as documented for a series, which shows no jump
-         if (method == "taylor") options%break_at = [1.0_wp]
+         problem = relaxation(rate, 1.0_wp)
       case ("pulse")
-         allocate (problem, source=layer(rate))
+         problem = layer(rate)
       case default
-         allocate (problem, source=layer(rate, 0.5_wp))
+         problem = layer(rate, 0.5_wp)
       end select
       problem%analytic = method == "taylor"
-      call measure_errors(problem, t_end, options, share, largest, error)
-   end subroutine measure
+   end subroutine set_problem
 end program dense_worker

@@ -101,9 +101,10 @@ def samples(tau: float, times: np.ndarray, tolerance: float) -> np.ndarray:
 
 
 def spectrum(words: list[str], parameters: list[float], t_end: float, _):
-    """Averages of the local exponents after a transient."""
+    """The largest average of local exponents after a transient, of several that are computed."""
+    [tau] = parameters
     count, t_transient = int(words[0]), float(words[1])
-    equation = [slope(jitcdde.y(0), jitcdde.y(0, jitcdde.t - parameters[0]))]
+    equation = [slope(jitcdde.y(0), jitcdde.y(0, jitcdde.t - tau))]
     solver = jitcdde.jitcdde_lyap(equation, n_lyap=count, verbose=False)
     solver.compile_C()
 
@@ -112,7 +113,8 @@ def spectrum(words: list[str], parameters: list[float], t_end: float, _):
         solver.step_on_discontinuities()
         times = np.arange(t_transient, t_end, 20.0)
         found = np.array([np.append(*solver.integrate(t)[1:]) for t in times])[1:]
-        return [np.average(found[:, :count], axis=0, weights=found[:, count])]
+        averages = np.average(found[:, :count], axis=0, weights=found[:, count])
+        return [[tau, averages.max()]]
 
     return run
 

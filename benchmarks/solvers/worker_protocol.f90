@@ -58,7 +58,7 @@ contains
       integer, intent(in) :: n
       !> One run
       procedure(run_task) :: run_once
-      character(len=1024) :: message, request
+      character(len=1024) :: request
       character(len=:), allocatable :: failure
       integer :: i, runs, status
       real(wp) :: finish, start, tolerance
@@ -66,10 +66,9 @@ contains
       print "(a)", "answer: "//version
       flush (6)
       do
-         read (*, "(a)", iostat=status, iomsg=message) request
+         read (*, "(a)", iostat=status) request
          if (status == iostat_end) exit
-         if (status == 0) read (request, *, iostat=status, iomsg=message) tolerance, runs
-         if (status /= 0) error stop "worker: request: "//trim(message)
+         read (request, *) tolerance, runs
          ! the first run after another tolerance prepares the storage of RETARD, which takes longer
          if (runs > 0) call run_once(tolerance, failure)
          if (runs == 0) call begin_samples(n)
@@ -109,17 +108,13 @@ contains
    !> Write the rows, and forget them.
    subroutine write_samples(file_path)
       character(len=*), intent(in) :: file_path
-      character(len=1024) :: message
-      integer :: i, status, unit
+      integer :: i, unit
 
-      open (newunit=unit, file=file_path, action="write", status="replace", iostat=status, &
-            iomsg=message)
-      if (status /= 0) error stop "worker: "//trim(message)
+      open (newunit=unit, file=file_path, action="write", status="replace")
       do i = lbound(samples, 2), ubound(samples, 2)
          write (unit, "(*(es25.17e3, :, 1x))") samples(:, i)
       end do
-      close (unit, iostat=status, iomsg=message)
-      if (status /= 0) error stop "worker: "//trim(message)
+      close (unit)
       deallocate (samples)
    end subroutine write_samples
 end module worker_protocol
