@@ -67,9 +67,10 @@ def main() -> None:
         report(line)
         settings = merged("config.yaml")["cycles"]["lines"][line]
         along = settings["along"]
+        where = (options.biftool.resolve(), 1 + PARAMETERS.index(along))
         commands = {
             OURS: command_of("delaykit", "cycles", along),
-            "DDE-BIFTOOL": command_of("biftool", options.biftool.resolve(), 1 + PARAMETERS.index(along)),
+            "DDE-BIFTOOL": command_of("biftool", *where),
         }
         (our_cost, ours), (their_cost, theirs) = (
             follow(program, command, line, settings, options.time_limit)
