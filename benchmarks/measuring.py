@@ -207,6 +207,6 @@ def first_line(*command: str) -> str:
 
 def write_table(path: Path, rows: list[dict], meanings: Iterable[str]) -> None:
     """Write rows below lines that begin with #: the machine, and meanings of columns."""
-    tsv.write_table(path, rows)
     header = "".join(f"# {line}\n" for line in (*describe_machine(), *meanings))
+    tsv.write_table(path, rows)
     path.write_text(header + path.read_text())
