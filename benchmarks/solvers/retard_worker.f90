@@ -1,25 +1,17 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> One problem in RETARD (workers.py): not stiff, the pair of Dormand and Prince. It uses
 !> f alone, whatever the argument says.
-module retard_scene
+module retard_task
    use dde_kinds, only: wp
-   use peer_problems, only: breaking_points, component, delayed, n, slopes
-   use test_problems, only: constant_past
-   use worker_protocol, only: sample_time, samples, t_end
+   use peer_problems, only: breaks, component, delayed, delays, history, lags, n, problem, slopes
+   use worker_protocol, only: next_sample, sample_is_due, samples, t_end
    implicit none (type, external)
    private
-   public :: integrate_once, prepare, problem
+   public :: run_once
 
    integer, parameter :: most_steps = 10**8, most_stored = 200000
-   !> The problem
-   class(constant_past), allocatable :: problem
-   !> The same as this solver holds it
-   integer :: delays
-   real(wp) :: lags(delayed), past(n)
-   real(wp), allocatable :: grid(:)
-   integer :: next_sample, stored = most_stored
+   integer :: components(n + 1), stored = most_stored
    real(wp) :: last_tolerance = 0.0_wp
-   integer :: components(n + 1)
    real(wp) :: dense((5*n + 2)*most_stored)
    common /corei/ components
    common /corer/ dense
@@ -28,16 +20,8 @@ module retard_scene
 
 contains
 
-   !> Keep what does not change from run to run.
-   subroutine prepare()
-      delays = size(problem%lag)
-      lags(:delays) = problem%lag
-      past = problem%past
-      grid = breaking_points(problem%lag, t_end)
-   end subroutine prepare
-
    !> Integrate the problem once.
-   subroutine integrate_once(tolerance, failure)
+   subroutine run_once(tolerance, failure)
       real(wp), intent(in) :: tolerance
       character(len=:), allocatable, intent(out) :: failure
       integer, parameter :: parameters = 20
@@ -50,9 +34,9 @@ contains
       call problem%initial(y)
       relative = tolerance
       absolute = tolerance
-      allocate (work(8*n + parameters + 1 + size(grid)), source=0.0_wp)
+      allocate (work(8*n + parameters + 1 + size(breaks)), source=0.0_wp)
       iwork = 0
-      work(parameters + 1:parameters + size(grid)) = grid
+      work(parameters + 1:parameters + size(breaks)) = breaks
       kept = n
       if (.not. allocated(samples)) then
          kept = count([(any(component == k), k=1, n)])
@@ -63,8 +47,7 @@ contains
       iwork(3) = -1
       iwork(4) = -1
       iwork(5) = kept
-      iwork(6) = size(grid)
-      next_sample = 0
+      iwork(6) = size(breaks)
       call retard(n, right_side, t, y, t_last, relative, absolute, 0, take_samples, &
                   merge(1, 0, allocated(samples)), work, size(work), iwork, size(iwork), &
                   (5*kept + 2)*stored, n + 1, rpar, ipar, outcome)
@@ -72,7 +55,7 @@ contains
       ! its preparation costs time that grows with its storage: the next run gets what this one used
       stored = min(most_stored, iwork(19) + 10)
       last_tolerance = tolerance
-   end subroutine integrate_once
+   end subroutine run_once
 
    !> f(t, y, z).
    subroutine right_side(m, t, y, f, rpar, ipar)
@@ -91,15 +74,6 @@ contains
       call slopes(y, z, f)
    end subroutine right_side
 
-   !> The constant past.
-   function history(component, t, rpar, ipar) result(value)
-      integer, intent(in) :: component, ipar(*)
-      real(wp), intent(in) :: t, rpar(*)
-      real(wp) :: value
-
-      value = past(component)
-   end function history
-
    !> Samples in a step, from its dense output.
    subroutine take_samples(step, t_old, t, y, m, rpar, ipar, status)
       integer, intent(in) :: step, m, ipar(*)
@@ -108,28 +82,24 @@ contains
       integer :: i
 
       if (step == 1) then
-         samples(:, 0) = y
+         samples(1:, 0) = y
          next_sample = 1
-         return
       end if
-      do while (next_sample <= ubound(samples, 2))
-         if (sample_time(next_sample) > t + 1e-13_wp*t_end) exit
+      do while (sample_is_due(t))
          do i = 1, m
-            samples(i, next_sample) = ylag(i, sample_time(next_sample), history, rpar, ipar)
+            samples(i, next_sample) = ylag(i, samples(0, next_sample), history, rpar, ipar)
          end do
          next_sample = next_sample + 1
       end do
    end subroutine take_samples
-end module retard_scene
+end module retard_task
 
 program retard_worker
-   use peer_problems, only: problem_of
-   use retard_scene, only: integrate_once, prepare, problem
-   use worker_protocol, only: answer_requests, read_scene
+   use peer_problems, only: n, prepare
+   use retard_task, only: run_once
+   use worker_protocol, only: answer_requests
    implicit none (type, external)
 
-   call read_scene()
-   call problem_of("f", problem)
-   call prepare()
-   call answer_requests("1995", problem%n, integrate_once)
+   call prepare("f")
+   call answer_requests("1995", n, run_once)
 end program retard_worker

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# One scene in deSolve's dede, run as often as standard input asks (workers.py).
+# One block in deSolve's dede, run as often as standard input asks (workers.py).
 # Arguments: the library of block.c, and which interpolation of the past.
 suppressPackageStartupMessages(library(deSolve))
 

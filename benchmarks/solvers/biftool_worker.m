@@ -1,8 +1,8 @@
-% Cycles of the block by DDE-BIFTOOL along one parameter, from each Hopf point, and their special points:
-%   octave-cli biftool_worker.m FOLDER PARAMETER [tau,epsilon,xi,gamma] [FROM,TO] ORBITS INTERVALS DEGREE
-% PARAMETER is a number from 1. Each line of output has a word and values:
-%   branch ORBITS SECONDS SECONDS_OF_MULTIPLIERS LARGEST_MULTIPLIER_ERROR
-%   fold, torus or period_doubling PARAMETER PERIOD
+% Cycles of the block by DDE-BIFTOOL along one parameter, from each Hopf point, and their special points (cycles.py):
+%   octave-cli biftool_worker.m FOLDER PARAMETER
+% PARAMETER is a number from 1. The task has its window, intervals, degree, most orbits, then tau, epsilon, xi and gamma.
+% Rows are: 0, the orbits of a branch, the largest error of their multipliers; then for each special point 1 for a fold,
+% 2 for a torus or 3 for a period doubling, its place, and its period. Seconds are those of the branches.
 1;
 
 % The right-hand side of (4) for theta, u and ln v, and its derivatives along a direction.
@@ -39,41 +39,42 @@ function [residual, jacobian] = dde_sys_cond_collect(~, point, reference, condit
   end
 end
 
-function follow(problem, steady, at, settings)
+% The CPU time of a branch, and its rows.
+function [seconds, rows] = follow(problem, steady, at, settings)
   branch = SetupPsol(problem, steady, at, 'intervals', settings.intervals, 'degree', settings.degree, ...
                      'radius', 0.05, 'matrix', 'sparse', settings.bounds{:}, ...
                      'max_step', [0, 0.3; settings.parameter, diff(settings.window)/50]);
   branch.method.continuation.plot = 0;
   start = cputime;
   branch = br_contn(problem, branch, settings.orbits);
-  between = cputime;
   [unstable, ~, error, branch.point] = ...
       GetStability(branch, 'funcs', problem, 'exclude_trivial', true);
-  printf('branch %d %.3f %.3f %.1e\n', numel(branch.point), between - start, cputime - between, max(error));
+  seconds = cputime - start;
+  rows = [0, numel(branch.point), max(error)];
   place = arrayfun(@(orbit) orbit.parameter(settings.parameter), branch.point);
   for i = 2:numel(place) - 1
     step = diff(place(i-1:i+1));
     more = abs(unstable(i+1) - unstable(i));
     if prod(step) < 0
-      locate(problem, branch, i, 'fold', @SetupPOfold, settings);
+      rows = [rows; locate(problem, branch, i, 1, @SetupPOfold, settings)];
     elseif more == 2
-      locate(problem, branch, i, 'torus', @SetupTorusBifurcation, settings);
+      rows = [rows; locate(problem, branch, i, 2, @SetupTorusBifurcation, settings)];
     elseif more == 1 && prod(diff(place(i:min(i+2, end)))) > 0
-      locate(problem, branch, i, 'period_doubling', @SetupPeriodDoubling, settings);
+      rows = [rows; locate(problem, branch, i, 3, @SetupPeriodDoubling, settings)];
     end
   end
 end
 
 % From the orbit before the point, and if that fails from the one behind it; on a finer mesh.
-function locate(problem, branch, i, kind, set_up, settings)
+function row = locate(problem, branch, i, kind, set_up, settings)
+  row = [];
   orbits = branch.point(i:i+1);
   for k = 1:2
     branch.point = p_remesh(orbits(k), settings.degree, round(1.5*settings.intervals));
     [~, found, converged] = set_up(problem, branch, 1, 'contpar', settings.parameter, 'dir', [], ...
                                    'print_residual_info', 0);
     if converged
-      printf('%s %.12f %.12f\n', kind, found.point(1).parameter(settings.parameter), ...
-             found.point(1).period);
+      row = [kind, found.point(1).parameter(settings.parameter), found.point(1).period];
       return
     end
   end
@@ -85,25 +86,35 @@ given = argv();
 for folder = {'ddebiftool', 'ddebiftool_extra_psol', 'ddebiftool_extra_nmfm', 'ddebiftool_utilities'}
   addpath(fullfile(given{1}, folder{1}));
 end
+task = str2num(fgetl(stdin));
 settings.parameter = str2double(given{2});
-settings.window = str2num(given{4});
-settings.orbits = str2double(given{5});
-settings.intervals = str2double(given{6});
-settings.degree = str2double(given{7});
+settings.window = task(1:2);
+settings.intervals = task(3);
+settings.degree = task(4);
+settings.orbits = task(5);
 settings.bounds = {'min_bound', [settings.parameter, settings.window(1)], ...
                    'max_bound', [settings.parameter, settings.window(2)]};
-parameters = str2num(given{3});
-parameters(settings.parameter) = settings.window(1);
+parameters = task(6:9);
 problem = set_funcs('sys_rhs', @(x, p) rate(x, p, 0*x, 0*p, 0), 'sys_tau', @() 1, ...
                     'sys_dirderi', {@(x, p, dx, dp) rate(x, p, dx, dp, 1), ...
                                     @(x, p, dx, dp) rate(x, p, dx, dp, 2)}, 'x_vectorized', true);
-steady = SetupStst(problem, 'x', [0; 0; 0], 'parameter', parameters, 'contpar', settings.parameter, ...
-                   settings.bounds{:}, 'max_step', [settings.parameter, diff(settings.window)/80], ...
-                   'minimal_real_part', -0.3);
-steady.method.continuation.plot = 0;
-steady = br_contn(problem, steady, 300);
-[~, ~, ~, steady.point] = GetStability(steady, 'funcs', problem);
-[steady, ~, hopf] = LocateSpecialPoints(problem, steady);
-for at = hopf
-  follow(problem, steady, at, settings);
+printf('answer: %s\n', version);
+fflush(stdout);
+while ischar(line = fgetl(stdin))
+  path = strsplit(line, ' '){3};
+  steady = SetupStst(problem, 'x', [0; 0; 0], 'parameter', parameters, 'contpar', settings.parameter, ...
+                     settings.bounds{:}, 'max_step', [settings.parameter, diff(settings.window)/80], ...
+                     'minimal_real_part', -0.3);
+  steady.method.continuation.plot = 0;
+  steady = br_contn(problem, steady, 300);
+  [~, ~, ~, steady.point] = GetStability(steady, 'funcs', problem);
+  [steady, ~, hopf] = LocateSpecialPoints(problem, steady);
+  [total, rows] = deal(0, []);
+  for at = hopf
+    [seconds, more] = follow(problem, steady, at, settings);
+    [total, rows] = deal(total + seconds, [rows; more]);
+  end
+  dlmwrite(path, rows, 'delimiter', ' ', 'precision', 17);
+  printf('answer: %.3f ok\n', total);
+  fflush(stdout);
 end

@@ -1,44 +1,31 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> One problem in RADAR5, version 2.1 (workers.py): stiff, Radau IIA of order 5. Argument: what
-!> the problem gives besides f (peers.py).
-module radar5_scene
+!> the problem gives besides f; in place of a series it gives its derivatives.
+module radar5_task
    use dde_kinds, only: wp
-   use peer_problems, only: breaking_points, component, delayed, n, slopes
-   use test_problems, only: constant_past
-   use worker_protocol, only: epsilon, gamma, xi, sample_time, samples, t_end
+   use peer_problems, only: breaks, component, delayed, delays, epsilon, gamma, history, lags, n, &
+                            problem, slopes, xi
+   use worker_protocol, only: next_sample, sample_is_due, samples, t_end
    implicit none (type, external)
    private
-   public :: given, integrate_once, prepare, problem
+   public :: given, run_once
 
    integer, parameter :: most_steps = 10**7, most_stored = 200000
-   !> The problem, and whether its derivatives are given
-   class(constant_past), allocatable :: problem
    character(len=16) :: given
-   !> The same as this solver holds it
-   integer :: delays
-   real(wp) :: lags(delayed), past(n)
-   real(wp), allocatable :: grid(:)
-   integer :: next_sample, stored = most_stored
+   integer :: stored = most_stored
    real(wp) :: last_tolerance = 0.0_wp
    external :: lagr5, radar5
    real(wp), external :: contr5, ylagr5
 
 contains
 
-   !> Keep what does not change from run to run.
-   subroutine prepare()
-      delays = size(problem%lag)
-      lags(:delays) = problem%lag
-      past = problem%past
-      grid = [breaking_points(problem%lag, t_end), t_end]
-   end subroutine prepare
-
    !> Integrate the problem once.
-   subroutine integrate_once(tolerance, failure)
+   subroutine run_once(tolerance, failure)
       real(wp), intent(in) :: tolerance
       character(len=:), allocatable, intent(out) :: failure
       integer :: band(2), iwork(30), outcome, ipar(1)
       real(wp) :: absolute(1), relative(1), rpar(1), step, t, t_last, work(30), y(n)
+      real(wp), allocatable :: points(:)
       logical :: analytic
 
       t = 0.0_wp
@@ -49,27 +36,27 @@ contains
       if (gamma > 0.0_wp) step = min(step, 1.0_wp/gamma**2)
       relative = tolerance
       absolute = tolerance
-      analytic = given == "jacobian"
+      analytic = given /= "f"
       ! RADAR5 changes them
       band = n
+      points = [breaks, t_end]
       iwork = 0
       work = 0.0_wp
       if (abs(tolerance - last_tolerance) > 0.0_wp) stored = most_stored
       iwork(2) = most_steps
       iwork(12) = stored
-      iwork(13) = size(grid) - 1
+      iwork(13) = size(breaks)
       iwork(15) = delays
-      next_sample = 0
       call radar5(n, right_side, history, delayed_time, t, y, t_last, step, relative, absolute, 0, &
                   jacobian, merge(1, 0, analytic), band(1), band(2), delayed_jacobian, &
                   merge(delays, 0, analytic), merge(delays, 0, analytic), 0, &
                   take_samples, merge(1, 0, allocated(samples)), work, iwork, rpar, ipar, &
-                  outcome, grid, problem%component, right_side, n, n)
+                  outcome, points, problem%component, right_side, n, n)
       if (outcome /= 1) failure = "RADAR5 returned IDID = -"//achar(iachar("0") - outcome)
       ! its preparation costs time that grows with its storage: the next run gets what this one used
       stored = min(most_stored, iwork(17) + 10)
       last_tolerance = tolerance
-   end subroutine integrate_once
+   end subroutine run_once
 
    !> f(t, y, z).
    subroutine right_side(m, t, y, f, lag, phi, rpar, ipar, dense, ipast, nrds)
@@ -140,15 +127,6 @@ contains
       time = t - lags(delay)
    end function delayed_time
 
-   !> The constant past.
-   function history(component, t, rpar, ipar) result(value)
-      integer, intent(in) :: component, ipar(*)
-      real(wp), intent(in) :: t, rpar(*)
-      real(wp) :: value
-
-      value = past(component)
-   end function history
-
    !> Samples in a step, from its dense output.
    subroutine take_samples(step, t_old, t, h, y, coefficients, size_of_coefficients, m, rpar, &
                            ipar, status)
@@ -158,29 +136,25 @@ contains
       integer :: i
 
       if (step == 1) then
-         samples(:, 0) = y
+         samples(1:, 0) = y
          next_sample = 1
-         return
       end if
-      do while (next_sample <= ubound(samples, 2))
-         if (sample_time(next_sample) > t + 1e-13_wp*t_end) exit
+      do while (sample_is_due(t))
          do i = 1, m
-            samples(i, next_sample) = contr5(i, m, sample_time(next_sample), coefficients, t, h)
+            samples(i, next_sample) = contr5(i, m, samples(0, next_sample), coefficients, t, h)
          end do
          next_sample = next_sample + 1
       end do
    end subroutine take_samples
-end module radar5_scene
+end module radar5_task
 
 program radar5_worker
-   use peer_problems, only: problem_of
-   use radar5_scene, only: given, integrate_once, prepare, problem
-   use worker_protocol, only: answer_requests, read_scene
+   use peer_problems, only: n, prepare
+   use radar5_task, only: given, run_once
+   use worker_protocol, only: answer_requests
    implicit none (type, external)
 
    call get_command_argument(1, given)
-   call read_scene()
-   call problem_of(trim(given), problem)
-   call prepare()
-   call answer_requests("2.1", problem%n, integrate_once)
+   call prepare(trim(given))
+   call answer_requests("2.1", n, run_once)
 end program radar5_worker

@@ -5,34 +5,48 @@ module peer_problems
    use block_problem, only: block_with_jacobian, spring_block
    use dde_kinds, only: wp
    use published_problems, only: enzyme, infection, mackey_glass
+   use sizes_problem, only: cells_with_jacobian
    use test_problems, only: constant_past, wille_baker
-   use worker_protocol, only: epsilon, gamma, past, tau, xi
+   use worker_protocol, only: parameters, read_task, t_end
    implicit none (type, external)
    private
-   public :: breaking_points, problem_of, slopes
+   public :: history, prepare, slopes
 
    !> Numbers of equations, of delayed values, and components that these are, of each problem: the
-   !> block, enzyme, infection, mackey_glass, wille_baker. Without delay z of the block is w.
-   integer, parameter :: sizes(0:4) = [3, 4, 3, 1, 3], values(0:4) = [1, 1, 2, 1, 2], &
-                         components(2, 0:4) = reshape([3, 0, 4, 0, 2, 2, 1, 0, 1, 2], [2, 5])
+   !> block, enzyme, infection, mackey_glass, wille_baker; cells are for this solver alone. Without
+   !> delay z of the block is w.
+   integer, parameter :: sizes(0:5) = [3, 4, 3, 1, 3, 0], values(0:5) = [1, 1, 2, 1, 2, 0], &
+                         components(2, 0:5) = reshape([3, 0, 4, 0, 2, 2, 1, 0, 1, 2, 0, 0], [2, 6])
    integer, parameter, public :: n = sizes(PROBLEM), delayed = values(PROBLEM), &
                                  component(delayed) = components(:delayed, PROBLEM)
    !> Generations of breaking points that matter up to order 5; at k delays the derivative of theta
    !> of order 2k jumps
    integer, parameter :: generations = merge(2, 5, PROBLEM == 0)
+   !> The problem for this solver
+   class(constant_past), allocatable, public, protected :: problem
+   !> For others: parameters of the block, the delays, and where derivatives jump
+   real(wp), public, protected :: epsilon = 0.0_wp, xi = 0.0_wp, gamma = 0.0_wp, lags(delayed)
+   integer, public, protected :: delays
+   real(wp), allocatable, public, protected :: breaks(:)
+   real(wp) :: past(n)
 
 contains
 
-   !> The problem for this solver.
-   subroutine problem_of(given, problem)
-      !> f, jacobian (of the block) or series: what it gives
+   !> Read the task.
+   subroutine prepare(given)
+      !> f, jacobian (of the block and of cells) or series: what the problem gives
       character(len=*), intent(in) :: given
-      class(constant_past), allocatable, intent(out) :: problem
       type(block_with_jacobian) :: block
+      type(cells_with_jacobian) :: row
 
+      call read_task()
       select case (PROBLEM)
       case (0)
-         block%spring_block = spring_block(tau, epsilon, xi, gamma, past)
+         ! tau, epsilon, xi, gamma, then theta, u and w for t <= 0
+         epsilon = parameters(2)
+         xi = parameters(3)
+         gamma = parameters(4)
+         block%spring_block = spring_block(parameters(1), epsilon, xi, gamma, parameters(5:7))
          if (given == "f") problem = block%spring_block
          if (given /= "f") problem = block
       case (1)
@@ -41,11 +55,21 @@ contains
          problem = infection()
       case (3)
          problem = mackey_glass()
-      case default
+      case (4)
          problem = wille_baker()
+      case default
+         ! numbers of equations and delays, the longest delay less the shortest
+         call row%set_up(nint(parameters(1)), nint(parameters(2)), parameters(3))
+         if (given /= "jacobian") problem = row%cells
+         if (given == "jacobian") problem = row
       end select
       problem%analytic = given == "series"
-   end subroutine problem_of
+      delays = size(problem%lag)
+      if (delays > delayed) return
+      lags(:delays) = problem%lag
+      past = problem%past
+      breaks = breaking_points(problem%lag, t_end)
+   end subroutine prepare
 
    !> f(y, z) for other solvers: a call of the problem's own would cost a quarter of their time.
    pure subroutine slopes(y, z, f)
@@ -77,6 +101,15 @@ contains
          f(3) = y(2)
       end select
    end subroutine slopes
+
+   !> The constant past, for others.
+   function history(component, t, rpar, ipar) result(value)
+      integer, intent(in) :: component, ipar(*)
+      real(wp), intent(in) :: t, rpar(*)
+      real(wp) :: value
+
+      value = past(component)
+   end function history
 
    !> Where derivatives jump that peers are told of: sums of a few delays, ascending, before a time.
    pure function breaking_points(lag, before) result(points)
