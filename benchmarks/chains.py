@@ -16,9 +16,9 @@ from project import PROGRAM, TABLES, configuration
 from workers import SOLVERS, Scene, SolverError, TimeLimitError, Worker, peak_memory_of
 
 from scripts.config.check_config import checked
-from scripts.namelists.chains import histories_of
-from scripts.namelists.program_groups import scene_groups
-from scripts.namelists.write_namelist import write_namelist
+from scripts.requests.chains import histories_of
+from scripts.requests.program_groups import scene_groups
+from scripts.requests.write_namelist import write_namelist
 
 PLACES = {
     0.8: {"tau": 10.0, "epsilon": 0.5, "xi": 0.8, "kappa": 1.0},

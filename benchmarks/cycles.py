@@ -7,8 +7,8 @@ import xarray as xr
 from measuring import describe_machine, first_line, measure_command, options_of, write_table
 from project import HERE, PROGRAM, TABLES, configuration
 
-from scripts.namelists.parameters import PARAMETERS
-from scripts.namelists.write_namelist import write_namelist
+from scripts.models.models import PARAMETERS
+from scripts.requests.write_namelist import write_namelist
 from scripts.studies.cycles.plan import groups
 
 LINES = ("torus_in_epsilon", "chaos_in_epsilon", "chaos_in_tau", "torus_in_tau")

@@ -9,7 +9,7 @@ from measuring import describe_machine, measure_command, options_of, write_table
 from project import PROGRAM, TABLES, configuration
 
 from scripts.config.check_config import checked
-from scripts.namelists.write_namelist import write_namelist
+from scripts.requests.write_namelist import write_namelist
 from scripts.studies.exponents.plan import groups
 
 ERROR_BARS = 3.0

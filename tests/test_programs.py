@@ -17,7 +17,7 @@ from generator.compile import compile_module
 from generator.definition import overlaid, read_model
 from generator.module import interface_digest, write_module
 from scripts.files.read_config import read
-from scripts.namelists.laws import BLOCK, PAPER
+from scripts.models.models import BLOCK, PAPER
 
 NUMBER = "expected a finite number >"
 WHOLE = "expected a whole number >="

@@ -9,8 +9,8 @@ from pathlib import Path, PurePath
 from types import ModuleType
 
 from scripts.files.read_config import ConfigError, merge, read
-from scripts.namelists.methods import METHODS
 from scripts.plans.declare import Figure, Run, Study, Table
+from scripts.requests.methods import METHODS
 
 PROJECT = Path(__file__).parents[2]
 FOLDER = PROJECT / "scripts" / "studies"

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from conftest import trajectory_settings
-from scripts.namelists.parameters import zero_of
+from scripts.requests.parameters import zero_of
 from scripts.studies.exponents import table as exponents_table
 
 

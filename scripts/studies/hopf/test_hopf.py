@@ -14,7 +14,7 @@ from matplotlib import pyplot as plt
 from scripts.drawing.wording import short
 from scripts.drawing.write_captions import render
 from scripts.files.tsv import read_table, rows_by
-from scripts.namelists.laws import PAPER
+from scripts.models.models import PAPER
 from scripts.plans import studies
 from scripts.studies.hopf import figure as drawing
 from scripts.studies.hopf.table import rows_of

@@ -9,7 +9,7 @@ import xarray as xr
 
 from scripts.config.check_config import checked
 from scripts.files.read_config import ConfigError
-from scripts.namelists.program_groups import scene_groups
+from scripts.requests.program_groups import scene_groups
 from scripts.studies.synchrony.figure import growing_ranges, largest_alike, zeros_in_words
 from scripts.studies.synchrony.plan import groups
 

@@ -1,41 +1,29 @@
 """Values of an entry as groups of namelists: its model with parameters, and histories."""
 
-from scripts.namelists import laws
-from scripts.namelists.laws import CHAIN, block_parameters, chain_parameters, is_law, parameters_of
+from dataclasses import replace
 
-PARAMETERS = list(block_parameters())
-"""Names of the block's parameters."""
-HISTORY = list(laws.HISTORY)
-"""Names of the block's values for t <= 0."""
+from scripts.models.models import OF_CHAIN, chain_parameters, model_of
+
 OF_PLANES = ("abscissa", "ordinate", "abscissa_window", "ordinate_window")
 """Keys of a plane beside those of its place."""
 
 
-def place_of(config: dict, settings: dict) -> dict:
-    """Model and parameters of an entry, of the latter those that it gives: all but axes."""
-    names = [*parameters_of(config, settings["law"]), "law"]
-    return {key: settings[key] for key in names if key in settings}
-
-
 def with_model(config: dict, values: dict) -> dict:
     """Values of which the model with its parameters and its blocks becomes a group of its own."""
-    known = parameters_of(config, values["law"])
-    of_chain = chain_parameters() if is_law(config, values["law"]) else {}
+    model = model_of(config, values)
+    of_chain = chain_parameters() if model.is_block else {}
+    left_out = {*model.parameters, *of_chain, "law", "blocks", "ends"}
+    # no number of a user's model is known to be of order 1
+    group = {} if model.is_block else {"own_units": True}
     # one block without springs to neighbours is no chain
-    is_chain = values.get("blocks", 1) > 1 or any(values.get(key, 0) > 0 for key in of_chain)
-    names = [*known, *(of_chain if is_chain else [])]
-    there = {key: values[key] for key in names if key in values}
-    left_out = {*known, *of_chain, "law", "blocks", "ends"}
-    rest = {key: value for key, value in values.items() if key not in left_out}
-    model = {"name": values["law"]}
-    if not is_law(config, values["law"]):
-        # no number of it is known to be of order 1
-        model["own_units"] = True
-    if is_chain:
-        model |= {"name": CHAIN + values["law"], "blocks": values["blocks"], "ends": values["ends"]}
+    if values.get("blocks", 1) > 1 or any(values.get(key, 0) > 0 for key in of_chain):
+        model = replace(model, kind=OF_CHAIN)
+        group |= {"blocks": values["blocks"], "ends": values["ends"]}
+    there = {key: values[key] for key in model.parameters if key in values}
     # a namelist has no empty lists
     listed = {"parameters": list(there), "values": list(there.values())} if there else {}
-    return {"model": model | listed, **rest}
+    rest = {key: value for key, value in values.items() if key not in left_out}
+    return {"model": {"name": model.compiled, **group, **listed}, **rest}
 
 
 def histories_group(histories: list[dict[str, float]]) -> dict[str, list]:

@@ -5,8 +5,8 @@ the program's namelist by name: for each, its values by key. A group is a variab
 in the program, and a group within a group a component of that variable.
 """
 
-from scripts.namelists.chains import histories_of
-from scripts.namelists.parameters import histories_group, with_model
+from scripts.requests.chains import histories_of
+from scripts.requests.parameters import histories_group, with_model
 
 REFERENCE_STEPS = 10_000_000
 """Most steps of a reference: far above what any needs."""
