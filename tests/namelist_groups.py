@@ -46,8 +46,8 @@ def with_model(values: dict) -> dict:
 
 
 def case_of(case: dict) -> dict:
-    history = {"history": [*HISTORY], "values": [case[key] for key in HISTORY]}
-    return with_model({key: value for key, value in case.items() if key not in HISTORY}) | history
+    rest = with_model({key: value for key, value in case.items() if key not in HISTORY})
+    return rest | {"histories": histories_group([{key: case[key] for key in HISTORY}])}
 
 
 def scene_groups(scene: dict) -> dict[str, dict]:

@@ -115,7 +115,7 @@ def histories_group(own: Arguments, history) -> dict:
         given = own.by_name("history", history)
         if any(callable(one) or isinstance(one, tuple) for one in given.values()):
             raise ModelError("history: expected numbers here, or a run whose last state is taken")
-        values = own.values("history", given).reshape(own.model.blocks, -1)[np.argsort(own.order)]
+        values = own.values("history", given).reshape(own.model.blocks, -1)
     return {"names": list(own.states), "values": values.T.ravel().tolist()}
 
 
@@ -134,7 +134,7 @@ def mean_of(model, run) -> dict[str, float]:
 def in_units(own: Arguments, histories: Mapping, given: Mapping) -> dict:
     """Options with times and rates in units of the model where they are None."""
     past = np.reshape(histories["values"], (len(own.states), -1)).T
-    unit = own.unit_of_time(own.by_place(past))
+    unit = own.unit_of_time(past.ravel())
     known = {key: time * unit for key, time in TIMES.items()}
     known |= {key: rate / unit for key, rate in RATES.items()}
     return {key: known[key] if value is None else value for key, value in given.items()}

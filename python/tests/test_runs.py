@@ -270,7 +270,7 @@ def test_refused(mackey_glass, make, words):
 
 
 def test_a_negative_delay(mackey_glass):
-    with pytest.raises(dk.RunError, match="delay 1 of the model is -1"):
+    with pytest.raises(dk.RunError, match="delay 1 of the model = -1"):
         mackey_glass.run(1, 1, parameters={"tau": -1})
 
 

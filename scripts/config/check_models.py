@@ -3,8 +3,8 @@
 import copy
 from collections.abc import Iterator
 
+from generator.ranges import expected_of, is_inside, range_of
 from scripts.config.checks import check_values, place_of
-from scripts.config.ranges import expected_of, is_inside, range_of
 from scripts.files.read_config import ConfigError, read
 from scripts.models.check_definitions import check_definition
 from scripts.models.models import (
@@ -18,8 +18,6 @@ from scripts.models.models import (
     models_of_entries,
 )
 
-KEYWORDS = {"above": "exclusiveMinimum", "at_least": "minimum"}
-"""Of the schema, for bounds in definitions."""
 OUTSIDE = ("laws", "models", "claims")
 """Sections whose parts have no model."""
 
@@ -76,14 +74,13 @@ def with_parameters(schema: dict, config: dict) -> dict:
 def _rules(name: str, entries: list[dict], lists: bool) -> dict:
     """What the schema says of a parameter: the range of all models that have it, if it is one."""
     shared = entries[0] if all(range_of(one) == range_of(entries[0]) for one in entries) else {}
-    bounds = {KEYWORDS[key]: shared[key] for key in KEYWORDS if key in shared}
     described = {**shared, "meaning": entries[0].get("meaning", name)}
-    rules = {"type": "number", "description": expected_of(name, described), **bounds}
+    rules = {"type": "number", "description": expected_of(name, described)}
     if not lists:
         return rules
     words = rules["description"].replace("a finite", "at least one finite")
     several = {"type": ["number", "array"], "minItems": 1, "uniqueItems": True, "items": rules}
-    return {**bounds, **several, "description": f"{words}, each once"}
+    return {**several, "description": f"{words}, each once"}
 
 
 def _entries(model):

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterable, Iterator
 
-from scripts.config.ranges import expected_of, is_inside, range_of
+from generator.ranges import expected_of, is_inside, range_of
 from scripts.models.models import ALONE, HISTORY, model_of
 
 LEAST_LN_V, LARGEST_LN_V = -700.0, 700.0

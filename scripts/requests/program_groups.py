@@ -29,6 +29,5 @@ def case_groups(config: dict, cases: list[dict]) -> dict[str, list[dict]]:
     groups = []
     for case in cases:
         own = {key: value for key, value in case.items() if key != "history"}
-        history = {"history": [*case["history"]], "values": [*case["history"].values()]}
-        groups.append(with_model(config, own) | history)
+        groups.append(with_model(config, own) | {"histories": histories_group([case["history"]])})
     return {"cases": groups}

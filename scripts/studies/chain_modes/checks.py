@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator
 
+from generator.ranges import range_of
 from scripts.config.checks import check_coupled, check_ends, window
-from scripts.config.ranges import range_of
 from scripts.models.models import block_parameters
 
 
