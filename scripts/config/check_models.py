@@ -3,7 +3,7 @@
 import copy
 from collections.abc import Iterator
 
-from generator.ranges import expected_of, is_inside, range_of
+from generator.ranges import expected_of, is_inside
 from scripts.config.checks import check_values, place_of
 from scripts.files.read_config import ConfigError, read
 from scripts.models.check_definitions import check_definition
@@ -49,10 +49,10 @@ def with_parameters(schema: dict, config: dict) -> dict:
     }
     laws = [model.own_parameters for model in models({}).values()]
     known = [block_parameters(), *laws, chain_parameters()]
-    every: dict[str, list[dict]] = {}
+    every: dict[str, dict] = {}
     for parameters in [*known, *own.values()]:
         for name, entry in parameters.items():
-            every.setdefault(name, []).append(entry or {})
+            every.setdefault(name, entry or {})
     whole = copy.deepcopy(schema)
     taken = {key for place in _with_law(whole) for key in place}
     for (kind, name), parameters in own.items():
@@ -67,15 +67,13 @@ def with_parameters(schema: dict, config: dict) -> dict:
         others = dict(place)
         place.clear()
         lists = others["law"].get("lists", False)
-        place |= {name: _rules(name, entries, lists) for name, entries in every.items()} | others
+        place |= {name: _rules(name, entry, lists) for name, entry in every.items()} | others
     return whole
 
 
-def _rules(name: str, entries: list[dict], lists: bool) -> dict:
-    """What the schema says of a parameter: the range of all models that have it, if it is one."""
-    shared = entries[0] if all(range_of(one) == range_of(entries[0]) for one in entries) else {}
-    described = {**shared, "meaning": entries[0].get("meaning", name)}
-    rules = {"type": "number", "description": expected_of(name, described)}
+def _rules(name: str, entry: dict, lists: bool) -> dict:
+    """What the schema says of a parameter; its range is that of the model, which differ."""
+    rules = {"type": "number", "description": expected_of(name, {"meaning": name} | entry)}
     if not lists:
         return rules
     words = rules["description"].replace("a finite", "at least one finite")

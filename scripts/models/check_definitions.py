@@ -3,11 +3,11 @@
 import contextlib
 import hashlib
 import json
-import os
 from functools import reduce
 from pathlib import Path
 
 from scripts.files.digests import digest_of_files
+from scripts.files.outputs import FileError, written
 from scripts.files.read_config import ConfigError
 
 PROJECT = Path(__file__).parents[2]
@@ -40,11 +40,10 @@ def check_definition(place: str, parts: list[dict]) -> tuple[bool, str]:
     switches = [in_words(one.text, model.written) for one in model.switches]
     facts = has_time, next(iter(switches), "")
     # where nothing can be written, the model is checked again
-    with contextlib.suppress(OSError):
+    with contextlib.suppress(OSError, FileError):
         CHECKED.mkdir(parents=True, exist_ok=True)
-        unfinished = checked.with_suffix(f".{os.getpid()}")
-        unfinished.write_text(json.dumps(facts), encoding="utf-8")
-        unfinished.replace(checked)
+        with written(checked) as unfinished:
+            unfinished.write_text(json.dumps(facts), encoding="utf-8")
     return facts
 
 
