@@ -16,7 +16,7 @@ from project import PROGRAM, TABLES, configuration
 from workers import SOLVERS, Scene, SolverError, TimeLimitError, Worker, peak_memory_of
 
 from scripts.config.check_config import checked
-from scripts.requests.chains import histories_of
+from scripts.requests.parameters import histories_of
 from scripts.requests.program_groups import scene_groups
 from scripts.requests.write_namelist import write_namelist
 

@@ -2,6 +2,8 @@
 
 from dataclasses import replace
 
+import numpy as np
+
 from scripts.models.models import OF_CHAIN, chain_parameters, model_of
 
 OF_PLANES = ("abscissa", "ordinate", "abscissa_window", "ordinate_window")
@@ -30,6 +32,27 @@ def histories_group(histories: list[dict[str, float]]) -> dict[str, list]:
     """The namelist group of histories, of one block after another where they are of a chain."""
     names = list(histories[0])
     return {"names": names, "values": [history[name] for history in histories for name in names]}
+
+
+def histories_of(scene: dict) -> list[dict[str, float]]:
+    """Values for t <= 0 of each block: those of `history`, and the disturbance."""
+    blocks, disturbance = scene["blocks"], scene["disturbance"]
+    values = {
+        key: np.array(value if isinstance(value, list) else [value] * blocks)
+        for key, value in scene["history"].items()
+    }
+    draw = np.random.default_rng(disturbance["seed"]).uniform
+    for key, value in values.items():
+        # drawn of each, so that one size does not change another's numbers
+        share = draw(-1.0, 1.0, blocks)
+        if disturbance["block"] > 0:
+            share = 1.0 * (np.arange(1, blocks + 1) == disturbance["block"])
+        if key in disturbance:
+            values[key] = value + disturbance[key] * share
+        if f"ln_{key}" in disturbance:
+            values[key] = np.exp(np.log(value) + disturbance[f"ln_{key}"] * share)
+    columns = [column.tolist() for column in values.values()]
+    return [dict(zip(values, block, strict=True)) for block in zip(*columns, strict=True)]
 
 
 def plane_group(config: dict, plane: dict) -> dict:

@@ -5,8 +5,7 @@ the program's namelist by name: for each, its values by key. A group is a variab
 in the program, and a group within a group a component of that variable.
 """
 
-from scripts.requests.chains import histories_of
-from scripts.requests.parameters import histories_group, with_model
+from scripts.requests.parameters import histories_group, histories_of, with_model
 
 REFERENCE_STEPS = 10_000_000
 """Most steps of a reference: far above what any needs."""

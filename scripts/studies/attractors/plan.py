@@ -7,7 +7,7 @@ from scripts.models.models import HISTORY
 from scripts.plans.declare import PAPER, Run, Study, Table
 from scripts.plans.scenes import blocks_of, paths_of_scenes, scenes_with
 from scripts.requests.attractor_surveys import drawn_histories, survey_groups
-from scripts.requests.chains import histories_of
+from scripts.requests.parameters import histories_of
 
 
 def groups(config: dict, scene: str) -> dict:
