@@ -38,7 +38,7 @@ if __name__ == "__main__":
         given |= {name: contents_of(paths) for name, paths in snakemake.input.items()}
         module = drawing_of(given["module"])
         save(call(module.draw, given), snakemake.output)
-        numbers = call(getattr(module, "numbers", dict), given)
+        numbers = call(getattr(module, "numbers", lambda: {}), given)
         with written(snakemake.output.numbers) as file:
             # those of NumPy as Python's own
             file.write_text(json.dumps(numbers, default=lambda one: one.tolist()), encoding="utf-8")
