@@ -131,6 +131,7 @@ WRONG = [
     (("laws", "quasistatic_mine"), MINE, "quasistatic_mine: another model has this name"),
     (("laws", "mine", "parameters"), {"tau": {}, "speed": {"default": 1.0}}, "parameters tau:"),
     (("laws", "mine", "parameters"), {"t_end": {}}, "parameters t_end: keys of"),
+    (("laws", "mine", "parameters", "speed"), {"above": "x"}, "above = 'x'; expected values are"),
     (("laws", "mine", "colour"), 1, "unknown key ['colour']"),
 ]
 """A place of the configuration, a value that is refused there, and words of the refusal."""

@@ -18,6 +18,8 @@ from scripts.models.models import (
     models_of_entries,
 )
 
+KINDS = {"meaning": str, "unit": str, **dict.fromkeys(("above", "at_least"), int | float)}
+"""Of what a definition says of a parameter."""
 OUTSIDE = ("laws", "models", "claims")
 """Sections whose parts have no model."""
 
@@ -85,7 +87,9 @@ def _entries(model):
     """Parameters of a definition that may not be one."""
     parameters = model.get("parameters") if isinstance(model, dict) else None
     for name, entry in parameters.items() if isinstance(parameters, dict) else ():
-        yield str(name), entry if isinstance(entry, dict) else {}
+        given = entry.items() if isinstance(entry, dict) else ()
+        # the rules of its section refuse the rest
+        yield str(name), {key: one for key, one in given if isinstance(one, KINDS.get(key, ()))}
 
 
 def _with_law(schema):
