@@ -227,7 +227,8 @@ contains
       status = merge(0, 1, path == "" .and. block == 1 .and. self%has("signal"))
       name = ""
       interval = missing
-      allocate (values(len(self%lines)*size(self%lines)), source=absent)
+      ! a number and what parts it from the next have two letters at least
+      allocate (values(len(self%lines)*size(self%lines)/2), source=absent)
       if (status == 0) read (self%lines, nml=signal, iostat=status, iomsg=reason)
       if (status /= 0) then
          call read_nothing()
