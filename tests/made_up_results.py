@@ -318,6 +318,7 @@ def of_other_model(data: xr.Dataset) -> xr.Dataset:
 
     attributes = {new: data.attrs[name] for name, new in own(data.attrs).items()}
     attributes |= {key: renamed(str(attributes[key])) for key in ("along",) if key in attributes}
-    attributes |= {"model": "mackey_glass", "parameters": "beta n tau", "n": 10.0, "signal": "y"}
+    attributes |= {"model": "mackey_glass", "model_kind": "", "parameters": "beta n tau"}
+    attributes |= {"n": 10.0, "signal": "y"}
     names = own(data.variables)
     return data[list(names)].rename(names).drop_attrs(deep=False).assign_attrs(attributes)

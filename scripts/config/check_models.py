@@ -3,7 +3,7 @@
 import copy
 from collections.abc import Iterator
 
-from generator.ranges import expected_of, is_inside
+from generator.ranges import expected_of, is_inside, range_of
 from scripts.config.checks import check_values, place_of
 from scripts.files.read_config import ConfigError, read
 from scripts.models.check_definitions import check_definition
@@ -18,6 +18,8 @@ from scripts.models.models import (
     models_of_entries,
 )
 
+KEYWORDS = {"above": "exclusiveMinimum", "at_least": "minimum"}
+"""Of the schema, for bounds in definitions."""
 KINDS = {"meaning": str, "unit": str, **dict.fromkeys(("above", "at_least"), int | float)}
 """Of what a definition says of a parameter."""
 OUTSIDE = ("laws", "models", "claims")
@@ -51,10 +53,10 @@ def with_parameters(schema: dict, config: dict) -> dict:
     }
     laws = [model.own_parameters for model in models({}).values()]
     known = [block_parameters(), *laws, chain_parameters()]
-    every: dict[str, dict] = {}
+    every: dict[str, list[dict]] = {}
     for parameters in [*known, *own.values()]:
         for name, entry in parameters.items():
-            every.setdefault(name, entry or {})
+            every.setdefault(name, []).append(entry or {})
     whole = copy.deepcopy(schema)
     taken = {key for place in _with_law(whole) for key in place}
     for (kind, name), parameters in own.items():
@@ -69,18 +71,21 @@ def with_parameters(schema: dict, config: dict) -> dict:
         others = dict(place)
         place.clear()
         lists = others["law"].get("lists", False)
-        place |= {name: _rules(name, entry, lists) for name, entry in every.items()} | others
+        place |= {name: _rules(name, entries, lists) for name, entries in every.items()} | others
     return whole
 
 
-def _rules(name: str, entry: dict, lists: bool) -> dict:
-    """What the schema says of a parameter; its range is that of the model, which differ."""
-    rules = {"type": "number", "description": expected_of(name, {"meaning": name} | entry)}
+def _rules(name: str, entries: list[dict], lists: bool) -> dict:
+    """What the schema says of a parameter: the range of all models that have it, if it is one."""
+    shared = entries[0] if all(range_of(one) == range_of(entries[0]) for one in entries) else {}
+    bounds = {KEYWORDS[key]: shared[key] for key in KEYWORDS if key in shared}
+    described = {**shared, "meaning": entries[0].get("meaning", name)}
+    rules = {"type": "number", "description": expected_of(name, described), **bounds}
     if not lists:
         return rules
     words = rules["description"].replace("a finite", "at least one finite")
     several = {"type": ["number", "array"], "minItems": 1, "uniqueItems": True, "items": rules}
-    return {**several, "description": f"{words}, each once"}
+    return {**bounds, **several, "description": f"{words}, each once"}
 
 
 def _entries(model):
