@@ -70,7 +70,7 @@ contains
       end if
       call power_spectrum(v, interval, settings%window, settings%segments, settings%overlap, &
                           frequency, power, error)
-      if (allocated(error)) error%message = path//": "//error%message
+      if (allocated(error) .and. path /= "") error%message = path//": "//error%message
       if (allocated(error)) return
       if (allocated(recorded%u)) call undo_smoothing(interval, frequency, power)
       peaks = find_peaks(frequency, power, settings%peak_floor, settings%peak_prominence)

@@ -19,7 +19,7 @@ from matplotlib.figure import Figure
 from conftest import Programs
 from scripts.drawing import class_map
 from scripts.files.tsv import read_table, write_table
-from scripts.namelists.write_namelist import write_namelist
+from scripts.requests.write_namelist import write_namelist
 from scripts.studies.atlas import figure as atlas
 from scripts.studies.atlas import play_data
 from scripts.studies.atlas.plan import groups, inputs, part_of

@@ -20,7 +20,7 @@ from made_up_results import (
 )
 from matplotlib.figure import Figure
 
-from scripts.namelists.laws import PAPER
+from scripts.models.models import PAPER
 from scripts.studies.cycles import figure as cycles
 from scripts.studies.cycles.branches import branch_of, cycles_there, smooth_curve
 from scripts.studies.cycles.plan import sweeps_on_lines

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Ranges of parameters and of values of the history, as definitions give them."""
 
 import math

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from scripts.namelists.parameters import histories_group, with_model
+from scripts.requests.parameters import histories_group, with_model
 
 
 def drawn_histories(count: int, ranges: dict, names: Iterable[str]) -> list[dict[str, float]]:

@@ -5,8 +5,7 @@ the program's namelist by name: for each, its values by key. A group is a variab
 in the program, and a group within a group a component of that variable.
 """
 
-from scripts.namelists.chains import histories_of
-from scripts.namelists.parameters import histories_group, with_model
+from scripts.requests.parameters import histories_group, histories_of, with_model
 
 REFERENCE_STEPS = 10_000_000
 """Most steps of a reference: far above what any needs."""
@@ -29,6 +28,5 @@ def case_groups(config: dict, cases: list[dict]) -> dict[str, list[dict]]:
     groups = []
     for case in cases:
         own = {key: value for key, value in case.items() if key != "history"}
-        history = {"history": [*case["history"]], "values": [*case["history"].values()]}
-        groups.append(with_model(config, own) | history)
+        groups.append(with_model(config, own) | {"histories": histories_group([case["history"]])})
     return {"cases": groups}
