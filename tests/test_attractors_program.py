@@ -3,11 +3,17 @@
 The suite attractor_points shows that a failed run changes no other one.
 """
 
+import math
+
 import numpy as np
 import pytest
 from namelist_groups import OBSERVATION
+from scipy.integrate import solve_ivp
 
 ONE_HISTORY = {"theta": [0.0], "u": [0.0], "v": [1.1]}
+
+
+SECTION = ("maximum", "section_theta", "section_u")
 
 
 @pytest.fixture
@@ -53,6 +59,39 @@ def test_own_parameter_of_a_law_is_an_axis(programs, groups):
     expected = np.array([one.lyapunov_exponent.values[0] for one in alone])
     np.testing.assert_array_equal(found.lyapunov_exponent, expected)
     assert np.nanmax(np.abs(expected[0] - expected[1])) > 1e-3
+
+
+def test_recurrence_time_of_a_cycle_is_its_period(programs, groups):
+    """Without delay, beside SciPy's solution; a fixed point has none."""
+    groups["observation"]["t_transient"] = 400.0
+    groups["points"] |= {"tau_part": [1, 1], **ONE_HISTORY}
+    at_rest, of_cycle = programs.made_of("attractors", groups).recurrence_time.values
+    assert math.isnan(at_rest)
+
+    def slopes(_t, y):
+        theta, u, v = y[0], y[1], math.exp(y[2])
+        return [-v * (theta + 1.5 * y[2]), v - 1, -0.64 * (u + (theta + y[2]) / 0.8) / v]
+
+    def rise(_t, y):
+        return y[2]
+
+    rise.direction = 1
+    start = [0.0, 0.0, math.log(1.1)]
+    run = solve_ivp(slopes, (0.0, 600.0), start, method="DOP853", rtol=1e-9, events=rise)
+    np.testing.assert_allclose(of_cycle, np.diff(run.t_events[0])[-1], rtol=1e-6)
+
+
+def test_the_last_points_are_kept(programs, groups):
+    """The number of points that `kept` gives, or none at all."""
+    groups["points"] |= {"epsilon_part": [3, 3], "tau_part": [2, 2]}
+    whole = programs.made_of("attractors", groups)
+    groups["points"]["kept"] = 0
+    assert not {*SECTION} & {*programs.made_of("attractors", groups)}
+    groups["points"]["kept"] = 3
+    found = programs.made_of("attractors", groups)
+    for key in SECTION:
+        for values, kept in zip(whole[key].values, found[key].values, strict=True):
+            np.testing.assert_array_equal(kept, values[np.isfinite(values)][-3:])
 
 
 @pytest.mark.parametrize("refinements", [0, 1])

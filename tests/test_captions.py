@@ -4,12 +4,13 @@ import math
 import re
 
 import pytest
+from jinja2 import nodes
 from made_up_results import attractor_row
 
 from conftest import ROOT
 from scripts.claims.ledger import paper_claims
 from scripts.drawing.wording import as_formulas, count, joined, short, shortened
-from scripts.drawing.write_captions import render
+from scripts.drawing.write_captions import ENVIRONMENT, render
 from scripts.page import captions
 from scripts.plans import studies
 from scripts.tables.attractor_tables import same_attractor
@@ -36,6 +37,22 @@ def test_captions_say_whether_claims_hold():
     for figure in FIGURES.values():
         template = (ROOT / figure.template).read_text()
         assert {*re.findall(r'verdict\("(\w+)"\)', template)} <= {*paper_claims()}
+
+
+@pytest.mark.parametrize("study", studies.studies())
+def test_captions_of_users_say_nothing_of_the_papers_claims(study):
+    """A file of one's own may have no claims: verdicts stand within `if paper` alone."""
+    for kind in studies.studies()[study].kinds:
+        tree = ENVIRONMENT.parse((studies.FOLDER / study / kind.caption).read_text())
+        allowed = [
+            call
+            for branch in tree.find_all(nodes.If)
+            if isinstance(branch.test, nodes.Name) and branch.test.name == "paper"
+            for part in branch.body
+            for call in part.find_all(nodes.Call)
+        ]
+        calls = [call for call in tree.find_all(nodes.Call) if call.node.name == "verdict"]
+        assert [call for call in calls if call not in allowed] == []
 
 
 @pytest.mark.parametrize("text", ['{{ verdict("other") }}', "{{ other }}"])

@@ -1,9 +1,12 @@
 """Full and read-only disks: one message that says what to do, and nothing half-written."""
 
+import shutil
 import subprocess
 from pathlib import Path
 
 import pytest
+
+from conftest import ROOT, write_script
 
 REMEDY = "; check that its folder exists, is writable and has free space, then run again\n"
 NAMESPACE = ["unshare", "--map-root-user", "--mount"]
@@ -52,3 +55,23 @@ def test_program_on_such_a_disk(programs, good_groups, program, disk, reason):
     *progress, last = run.stderr.splitlines(keepends=True)
     assert last == f"error: disk/output: cannot write: {reason}{REMEDY}"
     assert all(line.startswith("trajectory of ") for line in progress)
+
+
+@pytest.mark.parametrize(
+    ("script", "place", "words"),
+    [
+        ("reproduce", "results", "reproduce: nothing can be written in results; see that"),
+        ("tools/setup/setup.sh", ".", "set-up: nothing can be written in "),
+    ],
+)
+def test_script_on_a_read_only_disk(tmp_path, script, place, words):
+    """It says so at once, and starts nothing."""
+    folder = tmp_path / "project"
+    shutil.copytree(ROOT / "tools/setup", folder / "tools/setup")
+    for name in ("reproduce", "requirements.lock"):
+        shutil.copy(ROOT / name, folder)
+    if script == "reproduce":
+        write_script(folder / "tools/setup/setup.sh", "exit 0")
+    run = on_disk(READ_ONLY, place, folder, folder / script)
+    assert run.returncode == 1
+    assert run.stderr.splitlines()[-1].startswith(words)

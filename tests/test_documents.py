@@ -208,6 +208,15 @@ def test_every_document_is_reached_from_the_readme():
     assert set(DOCUMENTS) - {RESULTS} <= reached
 
 
+def test_every_picture_is_shown_and_has_its_command():
+    """Pictures in docs/ stand in a document; docs/small_picture.py says how each is drawn."""
+    drawing = (ROOT / "docs" / "small_picture.py").read_text()
+    for picture in [name for name in project_files() if fnmatch(name, "docs/*.png")]:
+        name = PurePath(picture).name
+        assert any(f"{name})" in text_of(document) for document in DOCUMENTS)
+        assert name in drawing or f'"{name.removesuffix(".png")}"' in drawing or "figure-" in name
+
+
 def cffconvert(*arguments: str) -> str:
     program = ROOT / "tests" / "formats" / ".venv" / "bin" / "cffconvert"
     if not program.exists():

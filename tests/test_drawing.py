@@ -10,7 +10,8 @@ from made_up_results import trajectory
 from matplotlib import pyplot as plt
 
 from scripts.drawing import trajectories
-from scripts.drawing.style import METADATA, break_titles, logged, save
+from scripts.drawing.along_parameter import mark_scenes
+from scripts.drawing.style import METADATA, break_titles, logged, move_offsets, save
 
 pytestmark = pytest.mark.usefixtures("styled")
 
@@ -74,3 +75,30 @@ def test_long_titles_are_broken_on_the_page():
     assert_on_page(figure)
     assert whole.get_window_extent().width == before
     assert formula.replace(" ", "") in figure.get_suptitle()
+
+
+def test_axes_keep_their_titles_and_say_their_factor():
+    """Empty tick labels are no titles to break, and no factor lies over a label."""
+    figure, axes = plt.subplots(figsize=(2.0, 2.0))
+    axes.plot([0, 4e-7], [1, 1 + 4e-9])
+    axes.set(xlabel="$u$")
+    break_titles(figure)
+    assert not any(label.get_wrap() for label in axes.get_yticklabels())
+    figure.draw_without_rendering()
+    assert move_offsets(figure)
+    assert re.fullmatch(r"\$u\$\n\(\$.*10\^\{.7\}.*\$\)", axes.get_xlabel())
+    assert axes.get_ylabel().endswith("+1}$)")
+    assert_on_page(figure)
+    assert not move_offsets(figure)
+
+
+def test_names_of_scenes_on_a_line_are_apart():
+    figure, axes = plt.subplots(figsize=(3.0, 2.0))
+    axes.set_xlim(0, 20)
+    place = {"epsilon": 0.5, "xi": 0.8, "gamma": 0.8}
+    mark_scenes(
+        axes, {"torus": {**place, "tau": 10.0}, "a_torus": {**place, "tau": 12.5}}, place, "tau"
+    )
+    figure.canvas.draw()
+    first, second = (text.get_window_extent() for text in axes.texts)
+    assert not first.overlaps(second)

@@ -3,6 +3,7 @@
 The Fortran that it makes is tested in generator/test/, in quadruple precision.
 """
 
+import re
 import subprocess
 import sys
 
@@ -193,6 +194,14 @@ def test_text_of_a_definition_becomes_no_code(end):
             assert before.startswith("!>") or before.count('"') % 2 == 1
 
 
+def test_long_texts_are_refused():
+    """They would be cut in files of results."""
+    with pytest.raises(ModelError, match=r"source: 'xxx.*; expected at most 500 letters"):
+        read_model({**DECAY, "source": 501 * "x"})
+    with pytest.raises(ModelError, match=r"unit of p: .*; expected at most 60 letters"):
+        read_model({**DECAY, "parameters": {"p": {"unit": 61 * "x"}}})
+
+
 def test_later_files_add_and_replace():
     """An entry without a value goes, a whole section is joined."""
     whole = overlaid(DECAY, {"parameters": {"q": {}, "rate_of": None}, "fast": None, "name": "b"})
@@ -254,6 +263,15 @@ def test_characteristic_function_of_the_papers_law_is_5():
     }
     assert terms.keys() == printed.keys()
     assert all(sympy.simplify(terms[key] - value) == 0 for key, value in printed.items())
+
+
+def test_equation_stands_above_each_procedure():
+    """And the lines have a length that compilers take."""
+    text = write_module(read_model(block()))
+    assert "!>     w' = -gamma**2/v*(stretch + friction/xi)\n   pure subroutine rhs" in text
+    assert "!>     v' = -gamma**2*(u + (theta + w)/xi)\n   pure subroutine series" in text
+    assert max(map(len, text.splitlines())) <= 132
+    assert not re.search(r"[ \t]$", text, re.MULTILINE)
 
 
 def test_command_writes_a_module_or_nothing(tmp_path):

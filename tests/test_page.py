@@ -57,6 +57,14 @@ def test_caption_with_formulas(tmp_path):
     assert captions.first_sentence(markup) == "Curves τ=2 & 1 ± 2 %."
 
 
+def test_caption_with_a_table(tmp_path):
+    """It is below the first paragraph, in a frame that scrolls by keyboard, too."""
+    (tmp_path / "caption.rst").write_text("Events.\n\n=  =\nN  c\n=  =\n5  9\n=  =\n\nEnd.")
+    markup = captions.as_html(tmp_path / "caption.rst")
+    (table,) = re.findall(r'(?s)</p>\s*<div class="scroll" tabindex="0">(.*?)</div>\s*<p', markup)
+    assert captions.as_words(table).split() == ["N", "c", "5", "9"]
+
+
 def test_caption_that_cannot_be_read_is_an_error(tmp_path):
     """docutils would put a red box on the page."""
     (tmp_path / "caption.rst").write_text("A :nonsense:`role`.")

@@ -57,6 +57,14 @@ def test_samples_follow_the_motion(programs, scene, gamma, epsilon, tau):
     assert t.size < 2.5 * 12001
 
 
+@pytest.mark.parametrize("tau", [0.0, 10.0])
+def test_steady_sliding_stays_exactly(programs, scene, tau):
+    """(0, 0, 1) is the stationary state of (3) and (4)."""
+    scene |= {"tau": tau, "history": {"theta": 0.0, "u": 0.0, "v": 1.0}}
+    trajectory = programs.made_by("trajectory", scene)
+    assert all((trajectory[name] == value).all() for name, value in scene["history"].items())
+
+
 def test_attributes_tell_where_the_numbers_come_from(programs, scene):
     """All scene parameters, the method, its work, the program and the compiler."""
     scene |= {"tau": 9.5, "epsilon": 0.45, "xi": 0.85, "gamma": 0.75, "tolerance": 3e-8}

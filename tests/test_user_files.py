@@ -318,6 +318,13 @@ def test_claims_of_a_user_may_name_scenes_of_the_paper(tmp_path):
     assert "<results>/tables/claims.tsv" in plan.targets()
 
 
+def test_one_claim_is_one(tmp_path):
+    ledger = tmp_path / "tables" / "claims.json"
+    ledger.parent.mkdir()
+    ledger.write_text('[{"verdict": "reproduced", "whose": "the user"}]')
+    assert Plan({}, str(tmp_path), True, {}, {"mine": {}}).summary().startswith("1 claim: 1 repr")
+
+
 TWO_LAWS = """
 laws:
   mine: { evolution: "-v*(theta + (1 + epsilon)*log(v(t - tau))) - 1e-3*theta" }

@@ -15,7 +15,7 @@ from delaykit.generator.ranges import expected_of, is_inside
 from delaykit.library import LIBRARY, address, open_object
 
 OPTIONS = {
-    *("about", "source", "auxiliary", "definitions", "fast", "domain", "event", "section"),
+    *("about", "kind", "source", "auxiliary", "definitions", "fast", "domain", "event", "section"),
     *("integral", "coordinates", "steady_state"),
 }
 """Keys of a definition that may be given by name (generator/README.md explains them)."""

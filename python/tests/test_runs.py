@@ -74,6 +74,10 @@ def test_a_history_in_lists_or_a_series(sine, kind):
     np.testing.assert_allclose(found, expected, rtol=1e-9)
 
 
+def test_tolerances_in_an_array(sine):
+    assert sine.integrate(1, 1, atol=np.array([1e-7])).options["atol"] == [1e-7]
+
+
 def test_a_level_at_the_start_or_crossed_by_a_dose_is_no_event():
     run = dk.Model({"y": "-y"}).integrate(1, 2, events=["y = 1", "y = 0.5"], doses=[(1, {"y": 1})])
     assert [len(times) for times in run.t_events] == [1, 1]

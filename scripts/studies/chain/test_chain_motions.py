@@ -8,6 +8,7 @@ from made_up_results import NO, YES, assert_finding
 from scripts.config.check_config import checked
 from scripts.plans.studies import studies
 from scripts.requests.program_groups import scene_groups
+from scripts.studies.chain import exponents_figure
 from scripts.studies.chain.finding import describe
 from scripts.studies.chain.table import (
     exponents_of,
@@ -69,6 +70,41 @@ def test_exponents_of_a_chain_are_measured_once(filled_config):
     assert (exponents["count"], exponents["t_end"], exponents["t_turning"]) == (7, 9000.0, 200.0)
     assert not [key for key in exponents if key.startswith("check")]
     assert "check_tolerances" in EXPONENTS.groups(filled_config, "torus")["exponents"]
+
+
+PLACE = {"ends": "free", "tau": 7.0, "epsilon": 0.7, "xi": 0.5, "gamma": 0.8, "law": "slip"}
+
+
+ROWS = [
+    {"chain": "a", "blocks": 2, "kappa": 1.0, "positive_exponents": 1, "exponents": "0.2 0.0 -0.1"},
+    {"chain": "b", "blocks": 4, "kappa": 1.0, "positive_exponents": 3, "exponents": "0.3 0.2 0.1"},
+    {
+        "chain": "torus_2",
+        "blocks": 2,
+        "kappa": 9.0,
+        "positive_exponents": 0,
+        "exponents": "0.0 -0.1",
+    },
+]
+
+
+def test_figure_has_a_line_for_each_chaotic_chain():
+    """Over (number - 1/2)/blocks; the count of positive ones over the blocks."""
+    rows = [{**PLACE, "motion": "pattern", "unclear_exponents": 2, **row} for row in ROWS]
+    spectra, counts = exponents_figure.draw(rows).axes
+    lines = [line.get_xdata().tolist() for line in spectra.lines[:2]]
+    assert lines == [[0.25, 0.75, 1.25], [0.125, 0.375, 0.625]]
+    ticks = [*counts.xaxis.get_majorticklocs(), *counts.yaxis.get_majorticklocs()]
+    assert ticks == list(map(round, ticks))
+    (line,) = counts.lines
+    assert (list(line.get_xdata()), list(line.get_ydata())) == ([2, 4], [1, 3])
+    (bars,) = counts.collections
+    assert [bar[:, 1].tolist() for bar in bars.get_segments()] == [[1, 3], [3, 5]]
+    (family,) = exponents_figure.numbers(rows)["families"]
+    assert "1 and 2 unclear of 2 blocks" in family["counts"]
+    assert exponents_figure.numbers(rows)["others"] == [
+        r"torus (2 blocks, :math:`\kappa` = 9): pattern"
+    ]
 
 
 @pytest.mark.parametrize("holds", [True, False])

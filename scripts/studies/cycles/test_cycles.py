@@ -18,8 +18,11 @@ from made_up_results import (
     stability_row,
     torus_point,
 )
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
+from scripts.drawing.special_points import STYLES
 from scripts.models.models import PAPER
 from scripts.studies.cycles import figure as cycles
 from scripts.studies.cycles.branches import branch_of, cycles_there, smooth_curve
@@ -157,6 +160,10 @@ def cycles_drawn() -> Figure:
     return cycles.draw([followed_cycles("tau"), followed_cycles("epsilon")], [], [[], []], {})
 
 
+def labelled(axes: Axes, label: str) -> list[Line2D]:
+    return [line for line in axes.lines if line.get_label() == label]
+
+
 def test_branches_change_their_line_at_special_points(cycles_drawn):
     """Each part ends at the point where its number of unstable multipliers changes."""
     # the line is smooth: every eighth of its points is an orbit
@@ -190,6 +197,21 @@ def test_lines_between_few_orbits_are_smooth():
     x, y = smooth_curve(np.cos(turns), np.sin(turns), 8)
     np.testing.assert_allclose(np.hypot(x, y), 1.0, rtol=0.0, atol=0.009)
     np.testing.assert_allclose([x[::8], y[::8]], [np.cos(turns), np.sin(turns)], atol=1e-14)
+
+
+def test_special_points_have_markers_by_kind(cycles_drawn):
+    expected = {
+        "fold": ("fold", [[0.45, 2.2]]),
+        "torus bifurcation": ("torus", [[0.3, 3.0]]),
+        "period doubling": ("period_doubling", [[0.7, 2.1], [0.7, 2.6]]),
+    }
+    for axes in cycles_drawn.axes:
+        for label, (kind, places) in expected.items():
+            (points,) = labelled(axes, label)
+            assert points.get_marker() == STYLES[kind][0]
+            assert points.get_xydata().tolist() == places
+        (hopf,) = labelled(axes, "Hopf point")
+        assert hopf.get_xydata().tolist() == [[0.1, 1.0]]
 
 
 def test_sweeps_on_lines_are_found_by_their_parameters(own_config):

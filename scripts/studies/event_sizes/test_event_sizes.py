@@ -8,6 +8,7 @@ from made_up_results import NO, PARTLY, YES, assert_finding, cases
 from scipy.ndimage import label
 
 from scripts.requests.program_groups import scene_groups
+from scripts.studies.event_sizes import figure as event_sizes
 from scripts.studies.event_sizes.events_table import event_rows
 from scripts.studies.event_sizes.laws import (
     FEWEST,
@@ -19,6 +20,7 @@ from scripts.studies.event_sizes.laws import (
     shuffle_slips,
 )
 from scripts.studies.event_sizes.plan import groups
+from scripts.studies.event_sizes.table import rows_of_chain
 
 FINE = 0.01
 RUN = {"t_end": 120.0, "t_transient": 0.0, "sample_interval": FINE, "tolerance": 1e-9}
@@ -240,3 +242,21 @@ def of_chain(of_others: float = 5000.0, **change) -> dict:
 )
 def test_verdicts(case):
     assert_finding(*case)
+
+
+def test_figure_draws_the_distribution(programs, config):
+    """The line falls from 1 to one event's share; a chain with few events has no fitted line."""
+    config["scenes"]["chaos_100"] |= {"blocks": 3}
+    config["event_sizes"]["thresholds"] = [1.0]
+    slips = programs.made_of("slip_events", groups(config, "chaos_100"))
+    rows = [{"threshold": 1.0, **row} for row in event_rows(slips, 20.0)]
+    given = [rows], [slips], rows_of_chain("mine", slips, rows, 20.0, [1.0, 5.0]), ["mine"]
+    figure = event_sizes.draw(*given)
+    (line,) = figure.axes[0].lines
+    np.testing.assert_allclose(line.get_ydata()[[0, -1]], [1.0, 1 / len(rows)])
+    joined, alone, *above_5 = figure.axes[1].lines
+    assert len(joined.get_ydata()) == len(rows)
+    assert len(alone.get_ydata()) == np.count_nonzero(slips.onset >= 20.0)
+    assert [len(line.get_ydata()) for line in above_5] == [0, 0]
+    (told,) = event_sizes.numbers(*given)["chains"]
+    assert told["cells"][3:6] == [str(len(rows)), "", "too few"]

@@ -4,6 +4,7 @@ import numpy as np
 from made_up_results import NO, YES, assert_finding, cases, cycles_to_a_torus, slip_events
 from scipy.integrate import solve_ivp
 
+from scripts.studies.events import figure as events
 from scripts.studies.events.claims import FEWEST
 
 
@@ -49,6 +50,15 @@ def test_stuck_block_is_that_of_another_solver(programs, good_inputs):
     assert found.sizes["event"] > 3
     np.testing.assert_allclose(found.recurrence_time, recurrence_time, rtol=1e-8)
     np.testing.assert_allclose(found.least_velocity, least_velocity, rtol=1e-5)
+
+
+def test_share_of_larger_events_is_drawn():
+    """All events have at least the smallest slip, one in four at least the largest of four."""
+    made = slip_events(slip=np.array([4.0, 1.0, 2.0, 8.0])).assign_attrs(scene="chaos")
+    figure = events.draw([made], ["a"])
+    (line,) = figure.axes[2].lines
+    drawn = dict(zip(line.get_xdata()[1:], line.get_ydata()[1:], strict=True))
+    assert drawn == {1.0: 1.0, 2.0: 0.75, 4.0: 0.5, 8.0: 0.25}
 
 
 RANDOM = np.random.default_rng(1).uniform(4.0, 12.0, 1000)

@@ -11,6 +11,7 @@ from characteristic_equation import residual
 from made_up_results import NO, PARTLY, YES, assert_finding, cases, changed, changing, hopf_curve
 from matplotlib import pyplot as plt
 
+from scripts.drawing.wording import short
 from scripts.drawing.write_captions import render
 from scripts.files.tsv import read_table, rows_by
 from scripts.plans import studies
@@ -152,3 +153,20 @@ def test_plane_without_a_curve_has_a_figure_and_a_caption(smoke):
     caption = render(text, [], paper=False, **drawing.numbers(empty, {}))
     assert caption.startswith("No Hopf curve lies in this plane, at ")
     assert "Lyapunov" not in caption
+
+
+def test_numbers_of_a_plane():
+    """Counts along the curves, the boundary, and special points with their places."""
+    curves = hopf_curve()
+    curves["l1"][3] = 0.2
+    curves["unstable_roots"][curves.epsilon.values.argmax()] = 2
+    curves["crossing"][:4] = -1
+    curves["map_unstable_roots"] = (("map_y", "map_x"), [[0, 0], [0, 2]])
+    kinds = ["double_hopf", "hopf_without_delay", "double_hopf"]
+    curves["special_kind"] = ("special", np.array(kinds))
+    curves["special_epsilon"] = ("special", [1.143, 0.28, 0.336])
+    curves["special_tau"] = ("special", [3.343, 0.0, 13.4])
+    found = drawing.numbers(curves, {})
+    assert (found["stabilising"], found["double"], found["without_delay"]) == (4, 2, [0.28])
+    ordered = np.sort(curves.epsilon.values)
+    assert found["boundary"] == (short(ordered[0]), short(ordered[-2]))

@@ -71,6 +71,11 @@ def test_amplitude_death(stability):
     assert unstable_roots(*parameters(stability, tau=1.1 * end)) == 2
 
 
+@pytest.mark.parametrize("stability", ["fixed_point", "oscillation"], indirect=True)
+def test_state_stable_without_delay_does_not_die(stability):
+    assert amplitude_death(stability) == []
+
+
 def test_table_of_the_workflow(smoke):
     rows = read_table(smoke.folder / "results" / "tables" / "linear-stability.tsv")
     assert {row["scene"]: row["unstable_roots"] for row in rows} == SCENES

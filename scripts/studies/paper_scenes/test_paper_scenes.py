@@ -69,6 +69,15 @@ def test_peaks_are_named_by_kind():
     assert {(x, y) for x, y, _ in points_in(axes)} == {p[:2] for p in peaks}
 
 
+def test_peaks_beside_a_higher_one_get_a_dot_only():
+    """Labels would lie on each other or on a dot; peaks beyond the axis get nothing."""
+    beside, beyond = (0.13, 2.0, 3, -3, 2), (0.6, 3.0, 1, 6, 0)
+    beside_a_dot = (0.155, 1.0, 3, -2, 2)
+    axes = draw_spectrum(BASE, beside, beside_a_dot, beyond)
+    assert [text.get_text() for text in axes.texts] == ["$f_1$\n0.1000"]
+    assert {x for x, *_ in points_in(axes)} == {0.1, 0.13, 0.155}
+
+
 def test_numbers_of_trajectories():
     """Maxima on the attractor, not on a part of the run, the class and the period."""
     time = np.arange(0.0, 20.0, 0.1)

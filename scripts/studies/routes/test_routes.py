@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from figure_contents import assert_on_page
 from made_up_results import (
     NO,
     PARTLY,
@@ -200,6 +201,25 @@ def test_letters_of_routes_are_no_numbers_of_a_list(tmp_path):
     path = tmp_path / "routes.rst"
     path.write_text(render(text, None, paper=True, **given))
     assert "<p>(a)</p>" in as_html(path)
+
+
+@pytest.mark.usefixtures("styled")
+def test_runs_of_many_routes_differ_and_are_on_a_page():
+    """Six runs have six colours. Both sweeps have a line through their largest maxima."""
+    names = ["near", "slip", "fast", "slow", "up", "down"]
+    kept = {"exponent_1": 0.02, "error_1": 0.001, "problem": ""}
+    rows = [row | kept for run in names for row in route_rows("cycle/1", "torus", run=run)]
+    run = survey_run(["cycle", "torus"], tau=[0.1, 0.2])
+    run["maximum"] = (("point", "number"), [[1.0, 2.0], [3.0, 2.0]])
+    run.attrs["signal"] = "v"
+    drawn = figure.draw([rows] * 7, [run] * 42, {})
+    handles = drawn.legends[0].legend_handles[: len(names)]
+    assert [handle.get_label() for handle in handles] == names
+    assert len({handle.get_color() for handle in handles}) == len(names)
+    lines = [line for line in drawn.axes[0].lines if line.get_linestyle() != "None"]
+    assert [line.get_linestyle() for line in lines] == ["-", "--"]
+    assert [list(line.get_ydata()) for line in lines] == [[2.0, 3.0]] * 2
+    assert_on_page(drawn)
 
 
 @pytest.mark.parametrize(("run", "sweep"), [("near", "none"), ("slip", "none"), ("up", "up")])

@@ -8,6 +8,7 @@ import xarray as xr
 from made_up_results import attractor_row, spectrum, trajectory
 from matplotlib import pyplot as plt
 
+from scripts.drawing.trajectories import draw_signal
 from scripts.studies.scenes import figure as scene
 from scripts.tables.attractor_tables import SAME_MAXIMUM
 
@@ -77,6 +78,19 @@ def test_spectrum_says_nothing_against_the_class(motion, kind, bin_width, words)
     assert words in scene.spectrum_in_words(seen, row_of(motion))
 
 
+@pytest.mark.parametrize(("largest", "scale"), [(5.0, "linear"), (PEAK, "log")])
+def test_axis_of_velocity_shows_steady_sliding(largest, scale):
+    """Logarithmic where v = 1 could not be told from a stuck block; the end shows events."""
+    figure, axes = plt.subplots()
+    run = run_with(largest)
+    assert not draw_signal(axes, run, 0.0, 300.0)
+    assert axes.get_yscale() == scale
+    dense = run_with(largest, count=200)
+    assert draw_signal(axes, dense, 0.0, 2000.0)
+    plt.close(figure)
+    assert scene.end_shown(row_of("cycle"), 300.0) >= 100.0
+
+
 def test_section_of_a_cycle_is_its_last_period():
     """Points of the approach are none of the cycle; a torus has all."""
     theta = np.array([[3.0, 2.0, 1.1, 1.0, 0.5, 1.0, 0.5, np.nan]])
@@ -86,3 +100,11 @@ def test_section_of_a_cycle_is_its_last_period():
     scene.draw_section(torus, xr.Dataset(points), row_of("torus"))
     assert [len(axes.lines[0].get_xdata()) for axes in (cycle, torus)] == [2, 7]
     plt.close(figure)
+
+
+def test_lines_of_stick_slip_are_told_apart():
+    """Of a thousand lines of equal height the axis shows the first 40."""
+    frequency = 0.01 * np.arange(10_001)
+    seen = spectrum(x1=1.0).assign_coords(frequency=frequency, base_frequency=[0.1])
+    seen["power"] = ("frequency", np.where(np.arange(10_001) % 10 == 0, 1.0, 1e-9))
+    assert scene.frequency_shown(seen) == pytest.approx(4.05)

@@ -12,6 +12,7 @@ from scripts.files.read_config import ConfigError
 from scripts.files.tsv import read_table
 from scripts.models.models import PAPER
 from scripts.requests.program_groups import case_groups
+from scripts.studies.stability import figure as drawing
 from scripts.studies.stability.finding import describe
 from scripts.studies.stability.plan import cases_of_family
 
@@ -88,6 +89,15 @@ def long_run(reference: str = "exact stationary state, at t_end only", **given) 
 )
 def test_verdicts(case):
     assert_finding(*case)
+
+
+def test_numbers_of_stability():
+    """Completed runs, and those with the error that is expected."""
+    run = {"method": "auto", "tolerance": 1e-9, "error_expected": 1e-9}
+    ended = [run | {"status": "ok", "error": error} for error in (1e-8, 2e-7)]
+    found = drawing.numbers([*ended, run | {"status": "stopped", "error": 1.0}])
+    counts = {"runs": 3, "completed": 2, "measured": 2, "within": 1}
+    assert found["methods"] == [{"name": "auto", **counts}]
 
 
 @pytest.mark.parametrize("holds", [True, False])
