@@ -31,10 +31,10 @@ from namelist_groups import (
 from generator.compile import compile_module
 from generator.definition import read_files
 from generator.module import write_module
-from scripts.namelists.laws import PAPER, built_in
-from scripts.namelists.models import law_of, models_in, objects_of, parts_of
-from scripts.namelists.write_namelist import write_namelist
+from scripts.models.compiled import models_in, objects_of, parts_of
+from scripts.models.models import PAPER, models
 from scripts.plans import studies
+from scripts.requests.write_namelist import write_namelist
 from scripts.workflow import manifest
 from scripts.workflow.plan import read_plan
 
@@ -306,15 +306,15 @@ def shared(tmp_path_factory) -> Path:
 @functools.cache
 def compile_model(name: str, *, quad: bool) -> None:
     """Compile a model of the project where it is not up to date; other names are the program's."""
-    if law_of(name) not in built_in():
+    if name not in models({}):
         return
-    (path,) = objects_of({name}, {"laws": {}}, "", quad)
-    parts = [ROOT / part for part in parts_of(name, {"laws": {}}, "")]
+    (path,) = objects_of({name}, {}, "", quad)
+    parts = [ROOT / part for part in parts_of(name, {}, "")]
     sources = [*parts, *ROOT.glob("generator/*.py"), *ROOT.glob("generator/fortran/shared/*.f90")]
     with locked(ROOT / "build" / "lock"):
         made = (ROOT / path).stat().st_mtime if (ROOT / path).exists() else 0.0
         if made < max(source.stat().st_mtime for source in sources):
-            compile_module(write_module(read_files(parts, name)), ROOT / path)
+            compile_module(write_module(read_files(parts)), ROOT / path)
 
 
 @pytest.fixture(scope="session")

@@ -25,7 +25,6 @@ def main() -> None:
         description=__doc__,
         formatter_class=argparse.RawTextHelpFormatter,
     )
-    parser.add_argument("--name", help="name of the model, in place of that of the definition")
     parser.add_argument("--compiler", default=COMPILER, help="Fortran compiler of an object")
     parser.add_argument("--flags", default=FLAGS, help="its flags")
     parser.add_argument(
@@ -35,7 +34,7 @@ def main() -> None:
     made = [path for path in arguments.files if path.suffix in (".f90", ".so")]
     sources = [path for path in arguments.files if path not in made]
     try:
-        text = write_module(read_files(sources, arguments.name))
+        text = write_module(read_files(sources))
         for path in made:
             if path.suffix == ".so":
                 compile_module(text, path, arguments.compiler, arguments.flags)

@@ -28,7 +28,7 @@ RESERVED = {"t", "derivative", "second_difference", *FUNCTIONS} - {"atan2", "erf
 """Names with a meaning of their own in expressions. Constants and other functions give way to the
 names of a definition."""
 KEYS = {
-    *("name", "about", "source", "parameters", "states", "auxiliary", "definitions"),
+    *("name", "about", "kind", "source", "parameters", "states", "auxiliary", "definitions"),
     *("equations", "steady_state", "fast", "domain"),
     *("event", "section", "integral", "coordinates"),
 }
@@ -46,7 +46,7 @@ LONGEST_TEXT, LONGEST_UNIT, LONGEST_EQUATION = 500, 60, 50_000
 """Letters of texts that stand in files of results."""
 
 
-def read_files(paths: Iterable[Path], name: str | None = None) -> Model:
+def read_files(paths: Iterable[Path]) -> Model:
     """The model that files define together: later ones add to earlier ones and replace."""
     whole: dict = {}
     for path in paths:
@@ -57,7 +57,7 @@ def read_files(paths: Iterable[Path], name: str | None = None) -> Model:
         if not isinstance(part, dict):
             raise ModelError(f"{path}: expected keys with values below them")
         whole = overlaid(whole, part)
-    return read_model(whole if name is None else {**whole, "name": name})
+    return read_model(whole)
 
 
 def overlaid(whole: dict, part: dict) -> dict:
@@ -113,6 +113,7 @@ class _Reader:
             name=name,
             written=self.written,
             about=self.line("about", values.get("about", f"The model {name}.")),
+            kind=self.line("kind", values.get("kind", "")),
             source=self.line("source", values.get("source", "")),
             parameters=[
                 self.parameter(key, entry or {})

@@ -71,6 +71,7 @@ class Model:
 
     name: str
     about: str
+    kind: str
     source: str
     parameters: list[Parameter]
     states: dict[str, str]

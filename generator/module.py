@@ -124,6 +124,7 @@ def description_lines(model: Model, exponents: list[str], whole: bool) -> list[s
         observed_line(model),
         *([("driven",)] if any(one.has(TIME) for one in taken) else ()),
         ("name", model.name),
+        ("kind", model.kind),
         ("source", model.source),
         *(("state", name, meaning) for name, meaning in model.states.items()),
         *(

@@ -26,11 +26,12 @@ typedef struct {
     const double *coefficients;  /* (steps, components, 1 + degree) */
     const int32_t *passages;     /* (kinks): delays passed since the cause; -1: a jump of the state */
     const int32_t *generation;   /* (kinks): delays passed, 0 at the cause */
-    const int32_t *kept;         /* (components): numbers of states from 1, all delayed ones */
+    const int32_t *kept;         /* (components): numbers of states from 1, all delayed ones; of a ring all */
     int32_t kinks, steps, degree, components;
 } dk_history;
 
-/* What is wanted of a run. n is the number of states, times that of blocks. */
+/* What is wanted of a run. n is the number of states, times that of blocks; states are in the order
+ * of the blocks. */
 typedef struct {
     const double *parameters;       /* in the order of the definition */
     const double *past;             /* (n): constant states before the start, or before `origin` */

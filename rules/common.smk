@@ -5,8 +5,10 @@ from pathlib import Path
 
 from scripts.files.digests import digest_of_files
 from scripts.files.tsv import read_table
-from scripts.namelists import laws, models
-from scripts.namelists.write_namelist import end_at_horizons, text_of
+from scripts.models import compiled
+from scripts.models.models import PAPER as PAPERS_LAW
+from scripts.models.models import models, of_user
+from scripts.requests.write_namelist import end_at_horizons, text_of
 from scripts.plans import studies
 from scripts.plans.declare import BUILD, MAIN, PAPER, stem_of
 from scripts.workflow.script_imports import modules_of
@@ -14,7 +16,7 @@ from scripts.workflow.script_imports import modules_of
 
 wildcard_constraints:
     **studies.wildcards(config),
-    defined="|".join(models.of_user(config)),
+    defined="|".join(of_user(config)),
     built=r"build/(release|users/[\w-]+)",
     quad="|_quad",
     model=r"\w+",
@@ -71,10 +73,10 @@ def digest_of_model(model):
     """A digest of what a model is made of; what a user defines is in the configuration."""
     parts = [
         path
-        for path in models.parts_of(model, config, BUILT)
+        for path in compiled.parts_of(model, config, BUILT)
         if not path.startswith(BUILT)
     ]
-    own = models.of_user(config).get(models.law_of(model))
+    own = of_user(config).get(models(config)[model].name)
     return digest_of_files([*OF_MODELS, *parts]), own
 
 
@@ -113,12 +115,12 @@ def namelists_before(run, wildcards):
 
 def models_of(run, wildcards):
     """Models that a run opens."""
-    return models.models_in(run.groups(config, **wildcards))
+    return compiled.models_in(run.groups(config, **wildcards))
 
 
 def objects_of(run, wildcards):
     """Compiled models that a run opens."""
-    return models.objects_of(models_of(run, wildcards), config, BUILT, run.quad)
+    return compiled.objects_of(models_of(run, wildcards), config, BUILT, run.quad)
 
 
 def digests_of_models(run, wildcards):

@@ -16,6 +16,7 @@ for figure in plan.figures.values():
                 labels={"figure": figure.title.rstrip(".")},
             ),
             svg=f"<results>/figures/{figure.name}.svg",
+            numbers=f"<results>/figures/{figure.name}.json",
         log:
             f"<results>/logs/figures/{figure.name}.log",
         priority: PAPER if figure.category == MAIN else 0
@@ -35,11 +36,7 @@ for figure in plan.figures.values():
 rule captions:
     """Captions of all figures, filled with their numbers and the verdicts."""
     input:
-        data=[
-            path
-            for figure in plan.figures.values()
-            for path in figure.files_of(config)
-        ],
+        numbers=[f"<results>/figures/{name}.json" for name in plan.figures],
         claims="<results>/tables/claims.json" if plan.claims else [],
     output:
         [figure.filled_caption for figure in plan.figures.values()],
@@ -47,29 +44,11 @@ rule captions:
         "<results>/logs/figures/captions.log",
     localrule: True
     params:
-        figures=fill_in(
-            [
-                {
-                    "template": figure.template,
-                    "drawing": figure.drawing,
-                    "paper": not plan.is_users,
-                    "inputs": figure.inputs_of(config),
-                    "params": figure.params_of(config),
-                }
-                for figure in plan.figures.values()
-            ]
-        ),
+        templates=[figure.template for figure in plan.figures.values()],
+        paper=not plan.is_users,
         code=code_of(
             "drawing/write_captions.py",
-            *(
-                path
-                for figure in plan.figures.values()
-                for path in [
-                    *modules_of(drawing_of(figure)),
-                    figure.template,
-                    *tables_read(figure),
-                ]
-            ),
+            *(figure.template for figure in plan.figures.values()),
         ),
     script:
         "../scripts/drawing/write_captions.py"

@@ -22,7 +22,9 @@ rule first_page:
     localrule: True
     params:
         figures=[{"name": figure.name, "title": figure.title} for figure in PAPERS],
-        code=code_of("page/write_first_page.py", "scripts/page/templates/figures.html.jinja"),
+        code=code_of(
+            "page/write_first_page.py", "scripts/page/templates/figures.html.jinja"
+        ),
     script:
         "../scripts/page/write_first_page.py"
 

@@ -13,10 +13,7 @@ rule definition:
     params:
         # JSON is YAML, too
         definition=lambda wildcards: json.dumps(
-            laws.definition(
-                wildcards.defined, models.of_user(config)[wildcards.defined]
-            ),
-            indent=2,
+            of_user(config)[wildcards.defined], indent=2
         ),
     shell:
         "printf '%s\\n' {params.definition:q} >{output:q} 2>{log:q}"
@@ -47,7 +44,7 @@ rule model:
         # of the project's files the digest decides: in a fresh clone they are younger than all results
         lambda wildcards: [
             path if path.startswith(BUILT) else ancient(path)
-            for path in models.parts_of(wildcards.model, config, wildcards.built)
+            for path in compiled.parts_of(wildcards.model, config, wildcards.built)
         ],
     output:
         "{built}/models{quad}/{model}.so",
@@ -58,7 +55,7 @@ rule model:
     params:
         digest=lambda wildcards: digest_of_model(wildcards.model),
     shell:
-        "said=$(python -P -m generator --name {wildcards.model:q} {input:q} {output:q}"
+        "said=$(python -P -m generator {input:q} {output:q}"
         ' 2>&1 | tee {log:q}) || {{ echo "$said" >&2; exit 1; }}'
 
 
@@ -89,6 +86,6 @@ for run in RUNS:
             sources=digest_of_program("scripts/workflow/run_program.sh"),
             models=functools.partial(digests_of_models, run),
             command=run.command,
-            folders=":".join(models.folders_of(config, BUILT, run.quad)),
+            folders=":".join(compiled.folders_of(config, BUILT, run.quad)),
         script:
             "../scripts/workflow/run_program.sh"

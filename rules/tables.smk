@@ -45,7 +45,7 @@ rule claims:
     params:
         claims=plan.claims,
         # the paper's claims are about its law
-        law=None if plan.is_users else laws.PAPER,
+        law=None if plan.is_users else PAPERS_LAW,
         code=code_of(
             "claims/ledger.py",
             *declare.templates(),

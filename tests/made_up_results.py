@@ -8,14 +8,13 @@ import xarray as xr
 
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED
 from scripts.claims.decide import Finding, find
-from scripts.namelists.laws import PAPER
-from scripts.namelists.parameters import HISTORY, PARAMETERS
+from scripts.models.models import HISTORY, PAPER, PARAMETERS
 from scripts.plans import studies
 
 YES, PARTLY, NO = REPRODUCED, CORRECTED, NOT_REPRODUCED
 """Verdicts, short for tables of expected ones."""
 CLASSES = ["fixed point", "cycle", "torus", "chaos", "undecided"]
-BLOCK = {"model": PAPER, "parameters": " ".join(PARAMETERS), "signal": "v"}
+BLOCK = {"model": PAPER, "model_kind": "block", "parameters": " ".join(PARAMETERS), "signal": "v"}
 """What a file says of the block."""
 PLACE = {"tau": 10.0, "epsilon": 0.5, "xi": 0.8, "gamma": 0.8}
 """Parameters of a line, but for the one along it."""

@@ -3,12 +3,11 @@
 Tests name parameters, law and history beside the keys of a group.
 """
 
-from scripts.namelists.laws import CHAIN, PAPER, definitions
-from scripts.namelists.parameters import HISTORY, PARAMETERS, histories_group
+from scripts.models.models import HISTORY, PAPER, models
+from scripts.requests.parameters import histories_group
 
 OF_MODELS = {
-    *(*PARAMETERS, "kappa"),
-    *(name for law in definitions({}).values() for name in law.get("parameters") or {}),
+    *(name for model in models({}).values() for name in model.parameters),
 }
 """Parameters of the laws of the project."""
 OF_SOLVER = ("method", "tolerance", "most_steps")
@@ -40,15 +39,15 @@ def with_model(values: dict) -> dict:
     there = {key: values[key] for key in values if key in OF_MODELS}
     model = {"parameters": list(there), "values": list(there.values())}
     chain = {key: values[key] for key in ("blocks", "ends") if key in values}
-    name = (CHAIN if "kappa" in there else "") + values["law"] if "law" in values else ""
+    name = ("chain_" if "kappa" in there else "") + values["law"] if "law" in values else ""
     left = {*there, *chain, "law"}
     rest = {key: value for key, value in values.items() if key not in left}
     return {"model": {"name": name, **(model if there else {}), **chain}, **rest}
 
 
 def case_of(case: dict) -> dict:
-    history = {"history": HISTORY, "values": [case[key] for key in HISTORY]}
-    return with_model({key: value for key, value in case.items() if key not in HISTORY}) | history
+    rest = with_model({key: value for key, value in case.items() if key not in HISTORY})
+    return rest | {"histories": histories_group([{key: case[key] for key in HISTORY}])}
 
 
 def scene_groups(scene: dict) -> dict[str, dict]:

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from made_up_results import survey_run as a_run
 
-from scripts.namelists.attractor_surveys import drawn_histories
-from scripts.namelists.parameters import HISTORY, PARAMETERS
+from scripts.models.models import HISTORY, PARAMETERS
+from scripts.requests.attractor_surveys import drawn_histories
 from scripts.tables import attractor_tables
 from scripts.tables.motion_rows import (
     count_in_words,

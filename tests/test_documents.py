@@ -16,7 +16,7 @@ from conftest import ROOT, project_files
 from scripts.claims.ledger import check_user_claims
 from scripts.config.check_config import checked
 from scripts.files.read_config import parse, read
-from scripts.namelists.laws import block_parameters, built_in, chain_parameters
+from scripts.models.models import block_parameters, built_in, chain_parameters
 from scripts.plans import studies
 from scripts.workflow import document_numbers
 from scripts.workflow.check_run import targets_of

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
-from scripts.drawing.make_figure import call, drawing_of
+from scripts.drawing.make_figure import call, contents_of, drawing_of
 from scripts.drawing.style import STYLE, break_titles
 from scripts.plans import studies
 from scripts.plans.declare import MAIN
@@ -24,16 +24,16 @@ PLANES = {"figure_2": "tau_of_epsilon", "figure_3": "xi_of_epsilon"}
 def drawn(smoke, smoke_config):
     """Each figure of the smoke run by its name, drawn once."""
 
-    def placed(paths):
+    def read(paths):
         if isinstance(paths, list):
-            return [placed(path) for path in paths]
-        return str(smoke.folder / paths.replace("<results>", "results"))
+            return [read(path) for path in paths]
+        return contents_of(smoke.folder / paths.replace("<results>", "results"))
 
     @functools.cache
     def draw(name: str) -> Figure:
         one = FIGURES[name]
-        inputs = {key: placed(paths) for key, paths in one.inputs_of(smoke_config).items()}
-        figure = call(drawing_of(one.drawing).draw, inputs, one.params_of(smoke_config))
+        inputs = {key: read(paths) for key, paths in one.inputs_of(smoke_config).items()}
+        figure = call(drawing_of(one.drawing).draw, one.params_of(smoke_config) | inputs)
         break_titles(figure)
         figure.canvas.draw()
         plt.close(figure)

@@ -19,7 +19,7 @@ from generator.module import write_module
 from generator.rest import characteristic_terms
 from generator.slow import balance_of
 from scripts.files.read_config import read
-from scripts.namelists.laws import BLOCK, PAPER, built_in
+from scripts.models.models import BLOCK, PAPER, built_in
 
 DECAY = {
     "name": "decay",

@@ -156,7 +156,8 @@ def test_packages_are_permissive():
 
 
 PYTHON_LAYERS = [
-    *("files", "namelists", "plans", "config", "tables", "claims", "drawing", "page", "workflow")
+    *("files", "models", "requests", "plans", "config", "tables", "claims", "drawing", "page"),
+    "workflow",
 ]
 """Rooms of scripts/ that studies share, from the lowest to the highest."""
 SCRIPTS = {path: path.read_text() for path in (ROOT / "scripts").glob("**/*.py")}

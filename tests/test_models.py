@@ -14,10 +14,11 @@ from scripts.config.checks import place_of
 from scripts.drawing.roots import roots_in_words
 from scripts.files.inputs import read
 from scripts.files.read_config import ConfigError
-from scripts.namelists import laws
-from scripts.namelists.models import models_in
-from scripts.namelists.program_groups import scene_groups
+from scripts.models.compiled import models_in
+from scripts.models.models import built_in, model_of
+from scripts.models.records import law_of, record_of
 from scripts.plans.scenes import roots_of_scenes
+from scripts.requests.program_groups import scene_groups
 from scripts.studies.atlas import plan as atlas
 from scripts.studies.cycles import plan as cycles
 from scripts.studies.exponents import plan as exponents
@@ -117,8 +118,8 @@ WRONG = [
     (("atlas", "planes", "mg", "n"), 1.0, "n = 1.0; expected no value"),
     (("models", "mackey_glass", "equations"), {"y": "-z"}, "equation of y: 'z'; expected"),
     (("models", "mackey_glass", "states"), {}, "states = {}; exp"),
-    (("models", "slip_cut_off"), MACKEY_GLASS, "slip_cut_off: the project has a law of this name"),
-    (("models", "mine"), MACKEY_GLASS, "mine: a law has this name"),
+    (("models", "slip_cut_off"), MACKEY_GLASS, "slip_cut_off: another model has this name"),
+    (("models", "mine"), MACKEY_GLASS, "mine: another model has this name"),
     (("models", "mackey_glass", "parameters"), {"t_end": {}}, "parameters t_end: keys of all that"),
     (("routes", "lines", "mine"), {**LINE, "count": 2}, "key ['history'] is missing: y of"),
     (("cycles", "lines", "mine"), LINE, "key ['history'] is missing: y of"),
@@ -129,10 +130,11 @@ WRONG = [
     (("scenes", "torus", "law"), "quasistatic_mine", "key ['zeta'] is missing: a parameter of the"),
     (("laws", "mine", "evolution"), "1 - theta", "equation of theta at the steady"),
     (("laws", "mine", "evolution"), "-max(v, 1)", "none where the model is not smooth, at max(v"),
-    (("laws", "slip_cut_off"), MINE, "slip_cut_off: the project has a law of this name"),
-    (("laws", "quasistatic_a"), MINE, "quasistatic_a: quasistatic_NAME is the law NAME"),
+    (("laws", "slip_cut_off"), MINE, "slip_cut_off: another model has this name"),
+    (("laws", "quasistatic_mine"), MINE, "quasistatic_mine: another model has this name"),
     (("laws", "mine", "parameters"), {"tau": {}, "speed": {"default": 1.0}}, "parameters tau:"),
     (("laws", "mine", "parameters"), {"t_end": {}}, "parameters t_end: keys of"),
+    (("laws", "mine", "parameters", "speed"), {"above": "x"}, "above = 'x'; expected values are"),
     (("laws", "mine", "colour"), 1, "unknown key ['colour']"),
 ]
 """A place of the configuration, a value that is refused there, and words of the refusal."""
@@ -210,7 +212,7 @@ def test_scene_of_a_driven_model_has_no_roots(config):
     assert roots_of_scenes(whole) == []
     assert exponents.params(whole) == {"driven": ["mine"]}
     # from the record of the first check, too
-    assert laws.is_driven(whole, "driven")
+    assert model_of(whole, {"law": "driven"}).is_driven
     assert roots_in_words(None) == "not declared"
 
 
@@ -221,7 +223,7 @@ def test_law_without_inertia_has_one_parameter_more(with_law):
     assert model["parameters"] == ["xi", "gamma", "speed", "zeta"]
     assert model["values"][2:] == [1.0, 0.1]
     assert models_in(groups) == {"quasistatic_mine"}
-    words = laws.law_in_words(with_law, with_law["hopf_curves"]["tau_of_epsilon"])
+    words = law_of(record_of(with_law, with_law["hopf_curves"]["tau_of_epsilon"]))
     assert words == "quasistatic_mine (speed = 1, zeta = 0.1)"
 
 
@@ -294,7 +296,7 @@ def test_results_say_which_law_they_have(programs, filled_config):
     values = torus(filled_config, t_end=5.0, t_transient=1.0, variables=["v"])
     programs.made_by("trajectory", {**values, "law": "slip_cut_off", "c": 0.25})
     attributes = read(programs.output).attrs
-    assert laws.law_of(attributes) == "slip_cut_off (c = 0.25)"
+    assert law_of(attributes) == "slip_cut_off (c = 0.25)"
     assert (attributes["model"], attributes["c"]) == ("slip_cut_off", 0.25)
     assert "log1p(c/(1 + c)*expm1(w(t - tau)))" in attributes["model_equations"]
 
@@ -358,7 +360,7 @@ def first_passage(law: str, epsilon: float, xi: float, c: float, zeta: float, v:
     return brentq(lambda t: w @ expm(rates * t) @ slow, *at[rises[0] : rises[0] + 2])
 
 
-@pytest.mark.parametrize("law", [*laws.built_in(), *map("quasistatic_{}".format, laws.built_in())])
+@pytest.mark.parametrize("law", [*built_in(), *map("quasistatic_{}".format, built_in())])
 def test_passages_near_steady_sliding_keep_their_digits(programs, good_groups, law):
     """The motion is within 1e-15 of steady sliding, where v - 1 in doubles has lost its digits."""
     own = {"c": 0.25} if law.endswith("slip_cut_off") else {}

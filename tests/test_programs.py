@@ -14,7 +14,7 @@ import xarray as xr
 
 from conftest import COMMANDS, Programs
 from generator.module import interface_digest
-from scripts.namelists.laws import PAPER
+from scripts.models.models import PAPER
 
 NUMBER = "expected a finite number >"
 WHOLE = "expected a whole number >="

@@ -14,10 +14,10 @@ from scripts.files.read_config import read
 
 SCRIPTS = [
     *("reproduce", "test", "tools/setup/setup.sh", ".ci/run", "tools/compilers/run"),
-    *("benchmarks/run", "fortran/dde/benchmarks/run"),
+    "benchmarks/run",
 ]
 LOCKS = [
-    *(".", "tools/setup", "docs", "fortran/dde/benchmarks", "profiles/slurm", "python"),
+    *(".", "tools/setup", "docs", "benchmarks", "profiles/slurm", "python"),
     *("tests/browser", "tests/formats"),
 ]
 """Folders with a lock of Python packages."""

@@ -27,11 +27,6 @@ def run(*command, **settings) -> str:
     return done.stdout
 
 
-def copy_of_package(folder: Path) -> Path:
-    """Its sources; the benchmarks may hold packages and builds."""
-    return shutil.copytree(PACKAGE, folder, ignore=shutil.ignore_patterns("benchmarks"))
-
-
 def largest_error(printed: str) -> float:
     return float(re.search(r"largest error +(\S+)", printed)[1])
 
@@ -50,7 +45,7 @@ def test_version_stands_once(installed):
 def installed(tmp_path_factory) -> Path:
     """Folder of an installed copy; its sources and its build are gone."""
     folder = tmp_path_factory.mktemp("solver")
-    source = copy_of_package(folder / "source")
+    source = shutil.copytree(PACKAGE, folder / "source")
     prefix = folder / "prefix"
     run("cmake", "-D", "DDE_TESTS=OFF", "-S", source, "-B", folder / "build")
     run("cmake", "--build", folder / "build")
@@ -86,7 +81,7 @@ def with_procedures(source: str, *procedures: str) -> str:
 def test_values_in_the_manual():
     """The example, which the solver's own tests run, has the published values."""
     printed = re.findall(r"y\((\d+)\) = (\d+\.\d+)", prose_of(MANUAL))
-    # as in fortran/dde/test/suites/test_dde_solutions.f90
+    # as in fortran/dde/test/suites/test_dde_accuracy.f90
     assert printed == [("50", f"{1.060954362898:.6f}"), ("200", f"{1.186718107117:.6f}")]
 
 
@@ -112,14 +107,14 @@ def test_second_program_of_the_manual(installed, tmp_path, method, added):
 
 def test_fpm_builds_it(tmp_path):
     """From a copy of its folder alone."""
-    copy_of_package(tmp_path / "dde")
+    shutil.copytree(PACKAGE, tmp_path / "dde")
     shutil.copytree(OUTSIDE, tmp_path / "mine")
     assert largest_error(run("fpm", "run", cwd=tmp_path / "mine")) < 100 * TOLERANCE
 
 
 @pytest.mark.skipif(platform.machine() != "x86_64", reason="other processors have other bits")
 def test_five_problems_cost_what_the_manual_says(installed, tmp_path):
-    source = PACKAGE / "benchmarks" / "delay_problems.f90"
+    source = PACKAGE / "example" / "delay_problems.f90"
     run("sh", "-c", f'gfortran "{source}" -o mine {compiler_flags(installed)}', cwd=tmp_path)
     assert run(tmp_path / "mine") in (PACKAGE / "README.md").read_text()
 

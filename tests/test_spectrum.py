@@ -1,6 +1,6 @@
 """The spectrum program: against SciPy's Welch, and what its file says of known signals.
 
-Peaks, their labels and verdicts are shown by the suite spectral_lines.
+Peaks, their labels and verdicts are shown by the suite spectrum.
 """
 
 import numpy as np

@@ -76,8 +76,8 @@ module model_description
 
    !> What a definition says, for messages and files.
    type :: description_type
-      !> Name, and where the equations are from
-      character(len=line_length) :: name = "", source = ""
+      !> Name, what kind of model it is, and where the equations are from
+      character(len=line_length) :: name = "", kind = "", source = ""
       !> Where a state at rest is, or near which it is looked for
       character(len=line_length) :: rest = ""
       !> Parameters
@@ -136,6 +136,8 @@ contains
             description%name = words(2)
          case ("rest")
             description%rest = words(2)
+         case ("kind")
+            description%kind = words(2)
          case ("source")
             description%source = words(2)
          case ("equation")

@@ -54,11 +54,6 @@ class Arguments:
         self.numbers = model.numbers(parameters)
         self.states = model.states
         self.n = len(self.states) * model.blocks
-        # of a ring the library keeps neighbours at most two places apart
-        self.order = np.arange(model.blocks)
-        if model.ends == "ring":
-            place = np.arange(1, model.blocks + 1)
-            self.order = np.where(place % 2, (place - 1) // 2, model.blocks - place // 2)
 
     number = staticmethod(number_of)
 
@@ -148,17 +143,6 @@ class Arguments:
             found.append(np.concatenate([[time], np.tile(each, self.model.blocks)]))
         return sorted(found, key=lambda one: one[0])
 
-    def by_block(self, rows: np.ndarray) -> np.ndarray:
-        """State vectors, shape (rows, n), with the blocks of a ring in their order."""
-        if self.model.ends != "ring":
-            return rows
-        blocks = rows.reshape(len(rows), self.model.blocks, len(self.states))
-        return blocks[:, np.argsort(self.order)].reshape(rows.shape)
-
-    def by_place(self, values: np.ndarray) -> np.ndarray:
-        """The state vector of values of shape (blocks, states)."""
-        return values[self.order].ravel()
-
     def values(self, what: str, given: Mapping, t: float | None = None) -> np.ndarray:
         """The state vector of values by state or auxiliary: numbers, or functions read at t."""
         found = np.full((self.model.blocks, len(self.states)), np.nan)
@@ -182,7 +166,7 @@ class Arguments:
                 raise ModelError(f"{what} of {state}: no value; expected one for each state")
         if t is None and not np.isfinite(found).all():
             raise ModelError(f"{what}: {dict(given)!r}; expected finite numbers")
-        return self.by_place(found)
+        return found.ravel()
 
     def by_name(self, what: str, given) -> Mapping:
         """Values by state; a model with one state may leave out its name."""

@@ -30,7 +30,7 @@ TIMES = {
 RATES = {"zero_level": 3e-5, "longest_bar": 1e-3}
 """Times that are not given in units of time of the model (the longest delay or, without one, the
 inverse of the fastest rate at the start), and rates in units of its inverse."""
-ALWAYS = ("point", "orbit", "special", "root")
+ALWAYS = ("point", "orbit", "special", "root", "peak")
 """Dimensions that results keep where they have no such thing."""
 OF_FILES = ("scene", "name", "parameters")
 """Attributes of files that are left out."""
@@ -42,10 +42,19 @@ def command(
 ) -> xr.Dataset:
     """Run a command of the library with a namelist of these groups."""
     lists = {"settings": groups} | ({"histories": histories} if histories else {})
+    return answer(own.model.handle, name, text_of(lists))
+
+
+def text_of(groups: Mapping) -> str:
+    """The text of a namelist."""
     text = io.StringIO()
-    f90nml.Namelist(lists).write(text)
-    asked = name.encode(), text.getvalue().encode()
-    return dataset_of(call(LIBRARY.dk_command, own.model.handle, *asked))
+    f90nml.Namelist(groups).write(text)
+    return text.getvalue()
+
+
+def answer(handle, name: str, text: str) -> xr.Dataset:
+    """What a command of the library returns for a namelist, of a model if it needs one."""
+    return dataset_of(call(LIBRARY.dk_command, handle, name.encode(), text.encode()))
 
 
 def dataset_of(found: Results) -> xr.Dataset:
@@ -115,7 +124,7 @@ def histories_group(own: Arguments, history) -> dict:
         given = own.by_name("history", history)
         if any(callable(one) or isinstance(one, tuple) for one in given.values()):
             raise ModelError("history: expected numbers here, or a run whose last state is taken")
-        values = own.values("history", given).reshape(own.model.blocks, -1)[np.argsort(own.order)]
+        values = own.values("history", given).reshape(own.model.blocks, -1)
     return {"names": list(own.states), "values": values.T.ravel().tolist()}
 
 
@@ -134,7 +143,7 @@ def mean_of(model, run) -> dict[str, float]:
 def in_units(own: Arguments, histories: Mapping, given: Mapping) -> dict:
     """Options with times and rates in units of the model where they are None."""
     past = np.reshape(histories["values"], (len(own.states), -1)).T
-    unit = own.unit_of_time(own.by_place(past))
+    unit = own.unit_of_time(past.ravel())
     known = {key: time * unit for key, time in TIMES.items()}
     known |= {key: rate / unit for key, rate in RATES.items()}
     return {key: known[key] if value is None else value for key, value in given.items()}

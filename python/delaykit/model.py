@@ -4,7 +4,6 @@
 import copy
 import ctypes
 from collections.abc import Mapping
-from operator import ge, gt
 from pathlib import Path
 
 import numpy as np
@@ -12,10 +11,11 @@ import numpy as np
 from delaykit import methods, objects, runs, scans
 from delaykit.arguments import ENDS, number_of
 from delaykit.errors import ModelError, check_name
+from delaykit.generator.ranges import expected_of, is_inside
 from delaykit.library import LIBRARY, address, open_object
 
 OPTIONS = {
-    *("about", "source", "auxiliary", "definitions", "fast", "domain", "event", "section"),
+    *("about", "kind", "source", "auxiliary", "definitions", "fast", "domain", "event", "section"),
     *("integral", "coordinates", "steady_state"),
 }
 """Keys of a definition that may be given by name (generator/README.md explains them)."""
@@ -157,10 +157,9 @@ class Model:
             check_name("parameter", key, self.definition["parameters"])
             number = numbers[key] = number_of(f"parameter {key}", value)
             entry = self.definition["parameters"][key]
-            for bound, sign, holds in (("above", ">", gt), ("at_least", ">=", ge)):
-                if bound in entry and not holds(number, entry[bound]):
-                    expected = f"a number {sign} {entry[bound]}"
-                    raise ModelError(f"parameter {key}: {number!r}; expected {expected}")
+            if not is_inside(number, entry):
+                expected = expected_of(key, entry)
+                raise ModelError(f"parameter {key}: {number!r}; expected {expected}")
         return numbers
 
     def numbers(self, values: Mapping | None = None) -> np.ndarray:

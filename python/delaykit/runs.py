@@ -58,9 +58,7 @@ class Solution:
         """
         if self.pieces is None:
             raise RunError("this run has no dense output; expected one with dense_output=True")
-        names = self.model.definition["parameters"]
-        own = Arguments(self.model, dict(zip(names, self.numbers, strict=True)))
-        return own.by_block(self.pieces(np.atleast_1d(t))).T
+        return self.pieces(np.atleast_1d(t)).T
 
     def to_dataset(self):
         """The run as an xarray.Dataset."""
@@ -174,11 +172,11 @@ def section(model, history, t_end, event, *, t_transient=0.0, **options):
 def solution_of(own: Arguments, found: Results, events: list[Event], before) -> Solution:
     """The arrays of results of the library."""
     model, t = own.model, found.values("t")
-    y = own.by_block(found.values("y").reshape(len(t), own.n)).T
+    y = found.values("y").reshape(len(t), own.n).T
     counts = dict(zip(COUNTS, found.values("counts").astype(int).tolist(), strict=False))
     which = found.values("event_which", np.int32)
     times = found.values("event_time")
-    states = own.by_block(found.values("event_y").reshape(len(times), own.n))
+    states = found.values("event_y").reshape(len(times), own.n)
     return Solution(
         model=model,
         numbers=own.numbers,

@@ -5,6 +5,7 @@ import numpy as np
 import xarray as xr
 
 from delaykit.errors import ModelError, check_name
+from delaykit.methods import answer, text_of
 
 UNEVEN = 1e-6
 """Greatest difference of the times between samples, as a share of their mean."""
@@ -15,6 +16,7 @@ def spectrum(
     state=None,
     *,
     t_transient=0.0,
+    window="hann",
     segments=8,
     overlap=0.5,
     floor=1e-6,
@@ -23,46 +25,30 @@ def spectrum(
     """Power spectral density of a state from t_transient on, by Welch's method, and its peaks.
 
     run: with evenly spaced samples (`t_eval=np.arange(...)`). state: the first unless given.
-    segments: of equal length, which overlap by a share and go through a Hann window.
+    window: hann or boxcar. segments: of equal length, which overlap by a share.
     floor: least height of a peak over the highest. prominence: least height of a peak over the
         ground that parts it from higher ones.
 
     Frequencies count turns in a unit of time. The density is the square of the state's unit over
-    that of a frequency; its integral is the variance.
+    that of a frequency; its integral is the variance. `peak_kind`: base, harmonic, second_base,
+    combination of both, or other. The highest peak is the first.
     """
-    from scipy.signal import find_peaks, welch
-
     if state is None:
         state = next(iter(run.data_vars))
     check_name("state", state, [name for name in run.data_vars if run[name].dims == ("t",)])
-    t, y = run.t.values, run[state].values
-    y, t = y[t >= t_transient], t[t >= t_transient]
-    steps = np.diff(t)
-    if len(t) < 4 * segments or np.ptp(steps) > UNEVEN * steps.mean():
+    shown = run[state].sel(t=slice(t_transient, None))
+    steps = np.diff(shown.t)
+    if len(steps) == 0 or np.ptp(steps) > UNEVEN * steps.mean():
         raise ModelError(
-            f"spectrum: {len(t)} samples; expected at least {4 * segments}, evenly spaced, as from "
-            "a run with t_eval=np.arange(...)"
+            f"spectrum: {shown.size} samples; expected evenly spaced ones, as from a run with "
+            "t_eval=np.arange(...)"
         )
-    length = int(len(t) / (1 + (segments - 1) * (1 - overlap)))
-    frequency, density = welch(y, 1 / steps.mean(), "hann", length, int(overlap * length))
-    logs = np.log(np.maximum(density, np.finfo(float).tiny))
-    lowest = logs[1:].max() + np.log(floor)
-    at, _ = find_peaks(logs, lowest, prominence=np.log(prominence))
-    # a line through a Hann window, from three bins: fortran/src/methods/spectra/spectral_peaks.f90
-    before, here, behind = np.sqrt([density[at - 1], density[at], density[at + 1]])
-    shift = 2 * (behind - before) / (before + 2 * here + behind)
-    height = density[at] * ((1 - shift**2) / np.sinc(shift)) ** 2
-    order = np.argsort(-height)
-    return xr.Dataset(
-        {
-            "density": ("frequency", density, {"long_name": f"power spectral density of {state}"}),
-            "peak_frequency": (
-                "peak",
-                (frequency[at] + shift * frequency[1])[order],
-                {"long_name": "frequency of a peak, the highest first"},
-            ),
-            "peak_density": ("peak", height[order], {"long_name": "density at the peak"}),
-        },
-        {"frequency": ("frequency", frequency, {"long_name": "frequency"})},
-        {**run.attrs, "window": "hann", "segments": segments, "overlap": overlap},
-    )
+    asked = {"window": window, "segments": segments, "overlap": overlap}
+    asked |= {"peak_floor": floor, "peak_prominence": prominence}
+    # f90nml takes seconds to write many numbers
+    values = "\n".join(map(repr, shown.values.tolist()))
+    signal = f"&signal name = '{state}' interval = {steps.mean()} values =\n{values}\n/\n"
+    found = answer(None, "spectrum", text_of({"settings": {"spectrum": asked}}) + signal)
+    found = found.rename(power="density", peak_power="peak_density")
+    found = found.isel(peak=np.argsort(-found.peak_density.values))
+    return found.assign_attrs(run.attrs)

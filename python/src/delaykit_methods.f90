@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Methods for callers in C: the commands of the program, with requests and results in memory.
 module delaykit_methods
-   use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_int, c_loc, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_int, c_loc, c_ptr
    use all_commands, only: list_commands
    use command, only: command_type, names_of
    use dde_errors, only: error_type, raise
@@ -16,7 +16,7 @@ contains
    !> Run a command on a model; 0 if it succeeded, else 1 with a message.
    integer(c_int) function dk_command(model, name, namelist, result, message, length) &
       result(status) bind(c)
-      !> The model, name of the command, and the text of its namelist
+      !> The model or null, name of the command, and the text of its namelist
       type(c_ptr), value :: model, name, namelist
       !> The results
       type(c_ptr), intent(out) :: result
@@ -31,7 +31,7 @@ contains
 
       allocate (found)
       result = c_loc(found)
-      call c_f_pointer(model, given%model)
+      if (c_associated(model)) call c_f_pointer(model, given%model)
       call ask(given, "", string_of(namelist))
       commands = list_commands()
       at = findloc(commands%name == string_of(name), .true., dim=1)

@@ -10,8 +10,9 @@ module delaykit_runs
    use dde_kinds, only: wp
    use delaykit_handles, only: message_of, model_of, string_of
    use delaykit_outcomes, only: put_events, put_outcome, put_past, put_samples, put_switched
-   use model_chain, only: chain_ends, find_neighbours
+   use model_chain, only: blocks_in_order, chain_ends, find_neighbours
    use model_problem, only: model_type
+   use model_settings, only: check_numbers
    use natural_units, only: in_own_units
    implicit none (type, external)
    private
@@ -140,26 +141,33 @@ contains
    subroutine set_model(request, model, error)
       type(request_type), intent(in) :: request
       type(model_type), intent(inout) :: model
-      !> A delay is negative
+      !> A parameter is out of its range, or a delay negative
       type(error_type), allocatable, intent(out) :: error
       real(wp), pointer :: numbers(:), past(:)
-      real(wp) :: lag(model%sizes%delayed)
-      integer :: k
 
       numbers => reals_at(request%parameters, model%sizes%parameters)
-      lag = model%delays(numbers)
-      do k = 1, size(lag)
-         if (lag(k) >= 0.0_wp) cycle
-         call raise(error, "delay "//text(k)//" of the model is "//text(lag(k))//"; >= 0 expected")
-         return
-      end do
+      call check_numbers(model, "", numbers, error)
+      if (allocated(error)) return
       if (size(model%sizes%couplings) > 0) then
          model%ends = chain_ends(request%ends)
          call find_neighbours(request%blocks, trim(model%ends), model%left, model%right)
       end if
       past => reals_at(request%past, model%sizes%states*request%blocks)
-      call model%set(numbers, past)
+      call model%set(numbers, past(places_of(model, request%blocks)))
    end subroutine set_model
+
+   !> Where each component of the state vector stands among those of the caller, which are in the
+   !> order of the blocks.
+   pure function places_of(model, blocks) result(at)
+      type(model_type), intent(in) :: model
+      integer, intent(in) :: blocks
+      integer :: at(model%sizes%states*blocks), i, k, order(blocks)
+
+      order = blocks_in_order(blocks, trim(model%ends))
+      associate (n => model%sizes%states)
+         at = [((n*(order(k) - 1) + i, i=1, n), k=1, blocks)]
+      end associate
+   end function places_of
 
    !> The run, from dose to dose.
    subroutine run(request, model, data, error)
@@ -176,7 +184,7 @@ contains
       type(table_sampler), target :: table
       real(wp), pointer :: doses(:, :)
       real(wp) :: from, to
-      integer :: k
+      integer :: at(model%n), k
       logical :: follows
 
       call begin(request, model, now)
@@ -215,6 +223,7 @@ contains
          if (allocated(error)) exit
       end do
       if (.not. allocated(outcome%y)) return
+      at = places_of(model, request%blocks)
       if (follows) then
          if (followed%is_full) then
             if (.not. allocated(error)) then
@@ -227,15 +236,22 @@ contains
             followed%next = outcome%t
             call followed%take(outcome%y)
          end if
+         followed%values(at, :) = followed%values
          call put_samples(data, followed%time(:followed%received), &
                           followed%values(:, :followed%received))
       else
+         table%values(at, :) = table%values
          call put_samples(data, table%time, table%values)
       end if
+      if (watcher%received > 0) watcher%y(at, :) = watcher%y
       call put_events(data, watcher)
       call put_outcome(data, total, now)
       call put_switched(data, model, total)
-      if (request%keep_all /= 0 .and. allocated(now%step_length)) call put_past(data, now)
+      if (request%keep_all /= 0 .and. allocated(now%step_length)) then
+         now%y(at) = now%y
+         now%coefficients(:, at, :) = now%coefficients
+         call put_past(data, now)
+      end if
    end subroutine run
 
    !> Method, tolerances and limits.
@@ -276,11 +292,15 @@ contains
       type(model_type), intent(in) :: model
       type(continuation_type), intent(out) :: now
       type(pieces_type), pointer :: given
+      real(wp), pointer :: state(:)
+      integer :: at(model%n)
 
       if (.not. c_associated(request%state)) return
       call c_f_pointer(request%history, given)
       now%time = request%t_start
-      now%y = reals_at(request%state, model%n)
+      at = places_of(model, request%blocks)
+      state => reals_at(request%state, model%n)
+      now%y = state(at)
       allocate (now%slope(0), now%rate(0))
       now%origin = reals_at(given%origin, 2)
       now%kept = integers_at(given%kept, given%components)
@@ -295,6 +315,7 @@ contains
          now%coefficients = reshape( &
                             reals_at(given%coefficients, (1 + degree)*given%components*steps), &
                             [1 + degree, given%components, steps])
+         if (model%ends == "ring") now%coefficients = now%coefficients(:, at, :)
       end associate
    end subroutine begin
 

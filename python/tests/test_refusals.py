@@ -43,7 +43,7 @@ REFUSED = {
     "did you mean 'tau'": lambda m: m.with_parameters(tua=1),
     "'long'; expected a finite number": lambda m: m.with_parameters(tau="long"),
     "did you mean 'radau5'": lambda m: m.run(1, 1, method="radua5"),
-    "delay 1 of the model is -1": lambda m: m.run(1, 1, parameters={"tau": -1}),
+    "delay 1 of the model = -1": lambda m: m.run(1, 1, parameters={"tau": -1}),
     "STATE = NUMBER": lambda m: m.run(1, 1, events="y > 1"),
     "expected ascending times from t_start": lambda m: m.run(1, 1, t_eval=[1, 0]),
     r"-1.0; expected ascending times": lambda m: m.run(1, 1, t_eval=[-1]),

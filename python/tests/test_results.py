@@ -33,7 +33,7 @@ def test_pictures(mackey_glass, sine):
         "greatest y": mackey_glass.cycle(1.2, "tau", (5, 20), parameters={"tau": 6}, near={"y": 1}),
         "maxima of y": mackey_glass.scan(tau=[5, 10], history=0.5, t_end=500, progress=False),
         "the next time between passages": mackey_glass.section(1.2, 500, "y = 1"),
-        "power spectral density of y": dk.spectrum(
+        "one-sided power spectral density of y": dk.spectrum(
             sine.run(math.sin, 200, t_eval=np.arange(0, 200, 0.5))
         ),
     }

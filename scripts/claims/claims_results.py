@@ -5,7 +5,7 @@ from pathlib import Path
 
 from scripts.files.inputs import Dataset, read
 from scripts.files.tsv import read_table
-from scripts.namelists.laws import law_of
+from scripts.models.records import law_of
 from scripts.plans import studies
 
 REPRODUCED = "reproduced"

@@ -9,7 +9,7 @@ import numpy as np
 
 from scripts.files.inputs import Dataset
 from scripts.files.tsv import rows_by
-from scripts.namelists.parameters import PARAMETERS
+from scripts.models.models import PARAMETERS
 
 NOTHING = 1e-5
 """Shares below this are not given as numbers: they are errors of the solver."""

@@ -10,7 +10,7 @@ import jsonschema
 from scripts.config import check_models, si
 from scripts.config.checks import check_blocks, check_samples, check_smooth, place_of, wrong
 from scripts.files.read_config import ConfigError
-from scripts.namelists.laws import history_of, is_law
+from scripts.models.models import model_of
 from scripts.plans import studies
 
 EQUATIONS = 3
@@ -142,8 +142,8 @@ def _contradictions(config: dict) -> Iterator[str]:
 def _contradictions_of_scene(config: dict, place: str, scene: dict):
     """Problems of a scene and of its exponents."""
     transient, t_end, wanted = scene["t_transient"], scene["t_end"], scene.get("exponents")
-    stored = list(history_of(config, scene["law"]))
-    delay = scene["tau"] if is_law(config, scene["law"]) else math.nan
+    model = model_of(config, scene)
+    stored, delay = list(model.history), scene["tau"] if model.is_block else math.nan
     if not set(scene.get("variables", stored)) <= set(stored):
         yield wrong(place, scene, "variables", f"some of: {', '.join(stored)}")
     if transient >= t_end:

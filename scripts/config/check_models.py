@@ -3,31 +3,33 @@
 import copy
 from collections.abc import Iterator
 
+from generator.ranges import expected_of, is_inside, range_of
 from scripts.config.checks import check_values, place_of
-from scripts.config.ranges import expected_of, is_inside, range_of
-from scripts.files.read_config import ConfigError
-from scripts.namelists.laws import (
+from scripts.files.read_config import ConfigError, read
+from scripts.models.check_definitions import check_definition
+from scripts.models.models import (
+    BLOCK,
+    Model,
     block_parameters,
     chain_parameters,
-    check_users_models,
-    definitions,
-    history_of,
-    is_law,
-    names_of_models,
-    own_parameters,
-    parameters_of,
+    definition,
+    forms_of,
+    models,
+    models_of_entries,
 )
 
 KEYWORDS = {"above": "exclusiveMinimum", "at_least": "minimum"}
 """Of the schema, for bounds in definitions."""
+KINDS = {"meaning": str, "unit": str, **dict.fromkeys(("above", "at_least"), int | float)}
+"""Of what a definition says of a parameter."""
 OUTSIDE = ("laws", "models", "claims")
 """Sections whose parts have no model."""
 
 
 def name_models(config: dict) -> Iterator[str]:
     """Put `model` of entries, a name under models, in the place of their law; problems."""
-    models = config.get("models")
-    known = list(models) if isinstance(models, dict) else []
+    users = config.get("models")
+    known = list(users) if isinstance(users, dict) else []
     for path, entry in _parts(config):
         if "model" not in entry:
             continue
@@ -49,7 +51,7 @@ def with_parameters(schema: dict, config: dict) -> dict:
         for kind, part in users.items()
         for name, entry in part.items()
     }
-    laws = [dict(_entries(law)) for law in definitions({}).values()]
+    laws = [model.own_parameters for model in models({}).values()]
     known = [block_parameters(), *laws, chain_parameters()]
     every: dict[str, list[dict]] = {}
     for parameters in [*known, *own.values()]:
@@ -90,7 +92,9 @@ def _entries(model):
     """Parameters of a definition that may not be one."""
     parameters = model.get("parameters") if isinstance(model, dict) else None
     for name, entry in parameters.items() if isinstance(parameters, dict) else ():
-        yield str(name), entry if isinstance(entry, dict) else {}
+        given = entry.items() if isinstance(entry, dict) else ()
+        # the rules of its section refuse the rest
+        yield str(name), {key: one for key, one in given if isinstance(one, KINDS.get(key, ()))}
 
 
 def _with_law(schema):
@@ -113,48 +117,59 @@ def contradictions(config: dict) -> Iterator[str]:
     except ConfigError as problem:
         yield str(problem)
         return
-    models = names_of_models(config)
-    every = {name for model in models for name in parameters_of(config, model)}
-    every |= set(chain_parameters())
+    known = models_of_entries(config)
+    every = {name for model in models(config).values() for name in model.parameters}
     for path, entry in _parts(config):
         if "law" not in entry:
             continue
         place = place_of(path)
-        if entry["law"] not in models:
-            yield f"{place}: law = {entry['law']!r}; expected one of: {', '.join(models)}"
+        if entry["law"] not in known:
+            yield f"{place}: law = {entry['law']!r}; expected one of: {', '.join(known)}"
             continue
-        yield from _parameters(config, place, entry, every)
+        yield from _parameters(known[entry["law"]], place, entry, every)
         if "history" in entry:
-            rules = history_of(config, entry["law"])
+            rules = known[entry["law"]].history
             yield from check_values(f"{place} history", entry["history"], rules)
 
 
-def _parameters(config: dict, place: str, entry: dict, every: set[str]) -> Iterator[str]:
+def _parameters(model: Model, place: str, entry: dict, every: set[str]) -> Iterator[str]:
     """Problems of the parameters of an entry."""
-    model = entry["law"]
-    known, own = parameters_of(config, model), own_parameters(config, model)
-    kind = "law" if is_law(config, model) else "model"
-    if "blocks" in entry and kind == "law":
+    known, own, name = model.parameters, model.own_parameters, entry["law"]
+    kind = "law" if model.is_block else "model"
+    if "blocks" in entry and model.is_block:
         known = known | chain_parameters()
     shown = own if kind == "law" else known
     for key in sorted((every - set(known)) & set(entry)):
         has = f"it has {', '.join(shown)}" if shown else "it has none of its own"
-        yield f"{place}: {key} is no parameter of the {kind} {model}; {has}"
+        yield f"{place}: {key} is no parameter of the {kind} {name}; {has}"
     axes = {entry.get(key) for key in ("along", "abscissa", "ordinate")} - {None}
     axes |= {key.removesuffix("_window") for key in entry if key.endswith("_window")}
     # without an axis that is known, nothing says which value is left out
     varied = axes - {"abscissa", "ordinate"}
-    if not varied <= {*known, *history_of(config, model)}:
+    if not varied <= {*known, *model.history}:
         return
     for key, rules in known.items():
         if key not in entry and key not in axes and "default" in rules:
             entry[key] = rules["default"]
         if key not in entry and key not in axes:
-            of_model = f": a parameter of the {kind} {model}" if key in own else ""
+            of_model = f": a parameter of the {kind} {name}" if key in own else ""
             yield f"{place}: key [{key!r}] is missing{of_model}"
         for value in _as_list(entry.get(key, [])):
             if not is_inside(value, rules):
                 yield f"{place}: {key} = {value!r}; expected {expected_of(key, rules)}"
+
+
+def check_users_models(config: dict) -> None:
+    """Refuse the first of a user's laws and models of which none can be made; raise ConfigError."""
+    taken = {*models({})}
+    for section in ("laws", "models"):
+        for name, own in config[section].items():
+            place, whole = f"config {section} {name}", definition(name, own)
+            names = {form.compiled for form in forms_of(name, whole)}
+            if names & taken:
+                raise ConfigError(f"{place}: another model has this name; expected another name")
+            taken |= names
+            check_definition(place, [read(BLOCK), whole] if section == "laws" else [whole])
 
 
 def _as_list(value) -> list:

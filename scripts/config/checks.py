@@ -3,17 +3,8 @@
 import math
 from collections.abc import Iterable, Iterator
 
-from scripts.config.ranges import expected_of, is_inside, range_of
-from scripts.namelists.laws import (
-    HISTORY,
-    PREFIX,
-    has_rest,
-    history_of,
-    is_driven,
-    is_law,
-    parameters_of,
-    switch_of,
-)
+from generator.ranges import expected_of, is_inside, range_of
+from scripts.models.models import ALONE, HISTORY, model_of
 
 LEAST_LN_V, LARGEST_LN_V = -700.0, 700.0
 """Between these exp(ln v) is a positive finite number."""
@@ -64,21 +55,22 @@ def check_values(place: str, values: dict, rules: dict[str, dict]) -> Iterator[s
 
 def check_own_history(config: dict, place: str, entry: dict, key: str = "history") -> Iterator[str]:
     """A model of a user's own without its history: that of the section is the block's."""
-    if key not in entry and not is_law(config, entry["law"]):
-        states = ", ".join(history_of(config, entry["law"]))
+    model = model_of(config, entry)
+    if key not in entry and not model.is_block:
+        states = ", ".join(model.history)
         yield f"{place}: key [{key!r}] is missing: {states} of the model {entry['law']}"
 
 
 def check_rest(config: dict, place: str, entry: dict) -> Iterator[str]:
     """A model without the state at rest at which roots, Hopf points and cycles begin."""
-    if not has_rest(config, entry["law"]):
+    if not model_of(config, entry).has_rest:
         expected = "a model with steady_state: Hopf points and cycles begin there"
         yield f"{place}: model = {entry['law']!r}; expected {expected}"
 
 
 def check_not_driven(config: dict, place: str, entry: dict) -> Iterator[str]:
     """A model with t in its equations, of whose motions there are no classes."""
-    if is_driven(config, entry["law"]):
+    if model_of(config, entry).is_driven:
         expected = "a model without t in its equations: classes of motion are of these"
         yield f"{place}: model = {entry['law']!r}; expected {expected}"
     yield from check_smooth(config, place, entry)
@@ -86,7 +78,7 @@ def check_not_driven(config: dict, place: str, entry: dict) -> Iterator[str]:
 
 def check_smooth(config: dict, place: str, entry: dict) -> Iterator[str]:
     """A model of whose motions there are no exponents, since disturbances jump."""
-    if term := switch_of(config, entry["law"]):
+    if term := model_of(config, entry).switch:
         yield f"{place}: model = {entry['law']!r}; expected a smooth model, without {term}"
 
 
@@ -134,7 +126,7 @@ def check_axis(place: str, entry: dict, key: str, known: dict[str, dict]) -> Ite
 
 def check_plane(config: dict, place: str, plane: dict) -> Iterator[str]:
     """The axes of a plane, two parameters of its model."""
-    known = parameters_of(config, plane["law"])
+    known = model_of(config, plane).parameters
     yield from check_axis(place, plane, "abscissa", known)
     others = {name: rules for name, rules in known.items() if name != plane["abscissa"]}
     yield from check_axis(place, plane, "ordinate", others)
@@ -142,9 +134,9 @@ def check_plane(config: dict, place: str, plane: dict) -> Iterator[str]:
 
 def check_line(config: dict, inside: str, line: dict, *, histories: bool = False) -> Iterator[str]:
     """A line along a parameter, or a value of the history; starts on it, of cycles."""
-    known = parameters_of(config, line["law"])
-    more = history_of(config, line["law"]) if histories else {}
-    yield from check_axis(inside, line, "along", {**known, **more})
+    model = model_of(config, line)
+    more = model.history if histories else {}
+    yield from check_axis(inside, line, "along", {**model.parameters, **more})
     yield from check_own_history(config, inside, line)
     low, high = line["window"]
     for start in line.get("starts", []):
@@ -176,8 +168,8 @@ def window(
 def check_blocks(config: dict, place: str, scene: dict) -> Iterator[str]:
     """Keys of a scene that do not fit its model or its number of blocks."""
     yield from check_ends(place, scene)
-    blocks, disturbance = scene["blocks"], scene["disturbance"]
-    known = [name for key in history_of(config, scene["law"]) for name in (key, f"ln_{key}")]
+    blocks, disturbance, model = scene["blocks"], scene["disturbance"], model_of(config, scene)
+    known = [name for key in model.history for name in (key, f"ln_{key}")]
     if unknown := sorted(set(disturbance) - {*known, "seed", "block"}):
         allowed = ", ".join(["seed", "block", *known])
         yield f"{place} disturbance: unknown key {unknown}; allowed: {allowed}"
@@ -188,11 +180,16 @@ def check_blocks(config: dict, place: str, scene: dict) -> Iterator[str]:
     if disturbance["block"] > blocks:
         expected = f"a whole number >= 0 and <= blocks = {blocks}"
         yield wrong(f"{place} disturbance", disturbance, "block", expected)
-    is_block = is_law(config, scene["law"])
-    if blocks == 1 and is_block and scene["kappa"] != 0:
+    if blocks == 1 and model.is_block and scene["kappa"] != 0:
         yield wrong(place, scene, "kappa", "0 with blocks = 1")
-    if blocks > 1 and (not is_block or scene["law"].startswith(PREFIX)):
-        yield wrong(place, scene, "law", "a law with inertia, which chains have")
+    if blocks > 1:
+        yield from check_coupled(config, place, scene)
+
+
+def check_coupled(config: dict, place: str, entry: dict) -> Iterator[str]:
+    """A model of which there are no chains."""
+    if model_of(config, entry).kind != ALONE:
+        yield wrong(place, entry, "law", "a law with inertia, which chains have")
 
 
 def check_ends(place: str, chain: dict) -> Iterator[str]:

@@ -5,7 +5,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from scripts.drawing.style import FAINT
-from scripts.namelists.laws import is_on
+from scripts.models.records import is_on
 
 LETTER = 4.5
 """How wide a letter of a name is, in points."""

@@ -1,6 +1,7 @@
-"""The figure of a rule; functions of figures get what their arguments name."""
+"""The figure of a rule and the numbers of its caption; functions get what their arguments name."""
 
 import inspect
+import json
 from collections.abc import Callable, Mapping
 from importlib import import_module
 from pathlib import Path
@@ -10,6 +11,7 @@ import xarray as xr
 
 from scripts.drawing.style import logged, save
 from scripts.files.inputs import read
+from scripts.files.outputs import written
 from scripts.files.tsv import read_table
 
 
@@ -20,12 +22,9 @@ def contents_of(paths: str | Path | list) -> xr.Dataset | list:
     return read(paths) if Path(paths).suffix == ".nc" else read_table(paths)
 
 
-def call(function: Callable, inputs: Mapping, params: Mapping):
-    """Call a function with what its arguments name: contents of inputs, or params."""
-    names = inspect.signature(function).parameters
-    return function(
-        **{name: contents_of(inputs[name]) if name in inputs else params[name] for name in names}
-    )
+def call(function: Callable, given: Mapping):
+    """Call a function with what its arguments name."""
+    return function(**{name: given[name] for name in inspect.signature(function).parameters})
 
 
 def drawing_of(module: str) -> ModuleType:
@@ -35,5 +34,11 @@ def drawing_of(module: str) -> ModuleType:
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        inputs, params = dict(snakemake.input.items()), dict(snakemake.params.items())
-        save(call(drawing_of(params["module"]).draw, inputs, params), snakemake.output)
+        given = dict(snakemake.params.items())
+        given |= {name: contents_of(paths) for name, paths in snakemake.input.items()}
+        module = drawing_of(given["module"])
+        save(call(module.draw, given), snakemake.output)
+        numbers = call(getattr(module, "numbers", lambda: {}), given)
+        with written(snakemake.output.numbers) as file:
+            # those of NumPy as Python's own
+            file.write_text(json.dumps(numbers, default=lambda one: one.tolist()), encoding="utf-8")

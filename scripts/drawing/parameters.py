@@ -3,8 +3,8 @@
 import math
 from collections.abc import Mapping
 
-from scripts.namelists.laws import HISTORY, PAPER, block_parameters, is_of_block, law_of, spoken
-from scripts.namelists.parameters import PARAMETERS
+from scripts.models.models import HISTORY, PAPER, PARAMETERS, block_parameters
+from scripts.models.records import is_of_block, law_of, spoken
 
 GREEK = (
     *("alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "kappa", "lambda"),

@@ -58,7 +58,7 @@ def move_offsets(figure: Figure) -> bool:
 
 
 def save(figure: Figure, output) -> None:
-    """Write a figure for print, as picture and for the page; `output` names the three files."""
+    """Write a figure for print, as picture and for the page; `output` names the files."""
     break_titles(figure)
     # the layout once for all three: without an engine none of them draws twice
     figure.draw_without_rendering()

@@ -9,7 +9,8 @@ from matplotlib.axes import Axes
 
 from scripts.drawing.style import FAINT, INK
 from scripts.drawing.wording import short
-from scripts.namelists.laws import BEFORE, HISTORY, is_of_block
+from scripts.models.models import BEFORE, HISTORY
+from scripts.models.records import is_of_block
 
 MOST_MISSED = 0.01
 """Maxima of v that exceed their samples by a larger share are mentioned."""

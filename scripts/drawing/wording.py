@@ -5,7 +5,7 @@ import re
 from collections.abc import Mapping, Sequence
 
 from scripts.drawing import parameters
-from scripts.namelists.laws import is_of_block
+from scripts.models.records import is_of_block
 
 COUNTS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
 MOST_LISTED = 8

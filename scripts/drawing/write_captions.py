@@ -12,7 +12,6 @@ from scripts.claims.claims_results import (
     NOT_TESTABLE,
     REPRODUCED,
 )
-from scripts.drawing.make_figure import call, drawing_of
 from scripts.drawing.wording import FILTERS
 from scripts.files.outputs import logged, written
 
@@ -29,19 +28,11 @@ ENVIRONMENT = Environment(
 ENVIRONMENT.filters |= FILTERS
 
 
-def caption_of(figure: dict, claims: list[dict] | None) -> str:
-    """The caption of a figure, given by `template`, `drawing`, `inputs` and `params`.
-
-    In the template `paper` says whether it is a figure of the project's own configuration.
-    """
-    text = Path(figure["template"]).read_text(encoding="utf-8")
-    numbers_of = getattr(drawing_of(figure["drawing"]), "numbers", lambda: {})
-    numbers = call(numbers_of, figure["inputs"], figure["params"])
-    return render(text, paper=figure["paper"], claims=claims, **numbers)
-
-
 def render(text: str, claims: list[dict] | None, **numbers) -> str:
-    """A template filled in; a number or a claim that is missing is an error."""
+    """A template filled in; a number or a claim that is missing is an error.
+
+    `paper` says whether it is a figure of the project's own configuration.
+    """
     verdicts = {claim["id"]: IN_WORDS[claim["verdict"]] for claim in claims or []}
     # a run that failed may have no ledger of claims
     verdict = "**was not tested in this run**".format if claims is None else verdicts.__getitem__
@@ -54,7 +45,10 @@ if __name__ == "__main__":
         # a user's file may have no claims, and its figures say nothing of them
         path = snakemake.input.claims
         ledger = json.loads(Path(path).read_text()) if path else None
-        for figure, target in zip(snakemake.params.figures, snakemake.output, strict=True):
-            caption = caption_of(figure, ledger)
+        templates, paper = snakemake.params.templates, snakemake.params.paper
+        files = zip(templates, snakemake.input.numbers, snakemake.output, strict=True)
+        for template, numbers, target in files:
+            text, values = (Path(name).read_text(encoding="utf-8") for name in (template, numbers))
+            caption = render(text, ledger, paper=paper, **json.loads(values))
             with written(target) as file:
                 file.write_text(caption, encoding="utf-8")

@@ -1,7 +1,7 @@
 """Results of scenes by their paths, and what figures mark of scenes, by the configuration."""
 
-from scripts.namelists.laws import has_rest, is_law, law_in_words
-from scripts.namelists.parameters import place_of
+from scripts.models.models import model_of
+from scripts.models.records import place_of, record_of
 
 
 def scenes_of(config: dict, figure: str) -> list[str]:
@@ -45,22 +45,18 @@ def blocks_of(config: dict) -> list[str]:
 def roots_of_scenes(config: dict) -> list[str]:
     """Roots of the scenes of one block whose model declares a state at rest."""
     scenes = config["scenes"]
-    names = [name for name in blocks_of(config) if has_rest(config, scenes[name]["law"])]
+    names = [name for name in blocks_of(config) if model_of(config, scenes[name]).has_rest]
     return paths_of_scenes("linear_stability", names)
 
 
 def marked_scenes(config: dict) -> dict[str, dict]:
-    """Parameters of the scenes that figures mark: of one block, with attractors looked for."""
+    """Records of the scenes that figures mark: of one block, with attractors looked for."""
     names = [name for name in scenes_with(config, "attractors") if is_block(config, name)]
-    scenes = {name: config["scenes"][name] for name in names}
-    return {
-        name: place_of(config, scene) | {"law": law_in_words(config, scene)}
-        for name, scene in scenes.items()
-    }
+    return {name: record_of(config, config["scenes"][name]) for name in names}
 
 
 def scenes_in_plane(config: dict, settings: dict) -> dict[str, dict]:
-    """Parameters of the marked scenes that lie in a plane."""
+    """Records of the marked scenes that lie in a plane."""
     axes = (settings["abscissa"], settings["ordinate"])
     return {
         name: place
@@ -72,5 +68,5 @@ def scenes_in_plane(config: dict, settings: dict) -> dict[str, dict]:
 def curves_of(config: dict, line: dict) -> dict | None:
     """Windows of two parameters in which curves of cycles on a line are followed: its own ones, or
     those of the block."""
-    shared = config["cycles"].get("curves") if is_law(config, line["law"]) else None
+    shared = config["cycles"].get("curves") if model_of(config, line).is_block else None
     return line.get("curves", shared)

@@ -1,6 +1,7 @@
 """The studies: each is a folder in scripts/studies/ with a plan.py. No list names them."""
 
 import copy
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
@@ -9,11 +10,16 @@ from pathlib import Path, PurePath
 from types import ModuleType
 
 from scripts.files.read_config import ConfigError, merge, read
-from scripts.namelists.methods import METHODS
 from scripts.plans.declare import Figure, Run, Study, Table
 
 PROJECT = Path(__file__).parents[2]
 FOLDER = PROJECT / "scripts" / "studies"
+METHODS = re.findall(
+    r'^ +"(\w+)", "\w+"',
+    (PROJECT / "fortran/dde/src/loop/dde_methods.f90").read_text(encoding="utf-8"),
+    re.MULTILINE,
+)
+"""The methods of the solver, in the order of its table, which is read before a program is built."""
 
 
 @cache

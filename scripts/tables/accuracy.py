@@ -7,7 +7,7 @@ import numpy as np
 
 from scripts.files.inputs import read
 from scripts.files.tsv import read_table, rows_by
-from scripts.namelists.laws import law_in_file
+from scripts.models.records import law_of
 
 BEFORE, BEHIND = "time", "uncertainty"
 """Columns of a reference beside those of the state."""
@@ -63,7 +63,7 @@ def read_runs(path: str | Path) -> list[dict]:
             | {"state": np.array([row[name].values[reached] for name in states])}
         )
     for run in runs:
-        run["law"] = law_in_file({**data.attrs, **run})
+        run["law"] = law_of({**data.attrs, **run})
         run["least"], run["most"] = (run[f"{end}_{data.attrs['signal']}"] for end in ENDS)
     return runs
 

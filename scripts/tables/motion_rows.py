@@ -5,7 +5,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from scripts.namelists.laws import law_in_file, law_of
+from scripts.models.records import law_of
 
 UNDECIDED = "undecided"
 AXES_FIRST = ("epsilon", "tau", "xi", "gamma")
@@ -75,9 +75,9 @@ def plane_of(place: Mapping, axes: tuple[str, str] | None = None) -> tuple:
     """The plane of a row or of curves: what is fixed of the block, its law and axes."""
     axes = axes or axes_of(place)
     values = [math.nan if key in axes else place.get(key, math.nan) for key in FIXED]
-    law = law_in_file(place, *axes) if "parameters" in place else law_of(place)
     # NaN is not equal to itself
-    return *(-2.0 if math.isnan(value) else value for value in values), law, *axes
+    known = (-2.0 if math.isnan(value) else value for value in values)
+    return *known, law_of(place, *axes), *axes
 
 
 def planes_of(rows: list[dict]) -> dict[tuple, list[dict]]:

@@ -26,7 +26,7 @@ PROJECT = Path(__file__).parents[2]
 RECORD = PROJECT / "docs" / "numbers.json"
 MEASURED = PROJECT / "docs" / "measured-times.tsv"
 """Times of a whole run of `./reproduce` from a fresh clone, its set-up included."""
-FOLDERS = [PROJECT / folder for folder in ("results/tables", "docs", "fortran/dde/benchmarks")]
+FOLDERS = [PROJECT / folder for folder in ("results/tables", "docs", "benchmarks")]
 RELATIONS = {
     "=": lambda cell, value: as_text(cell) == value,
     "from": lambda cell, value: cell >= float(value),

@@ -12,7 +12,7 @@ from scripts.claims.declare import OURS
 from scripts.claims.ledger import check_user_claims, names_in, paper_claims
 from scripts.config.check_config import checked
 from scripts.files.read_config import ConfigError, check_size, merge, read
-from scripts.namelists.laws import HISTORY, history_of, is_law
+from scripts.models.models import HISTORY, model_of
 from scripts.plans import studies
 from scripts.plans.declare import Figure
 from scripts.plans.studies import inside
@@ -185,8 +185,9 @@ def set_variables(config: dict, figures: dict[str, Figure], *, least: list[str])
     """
     for name, scene in config["scenes"].items():
         used = variables_used(config, name, figures)
-        known = list(history_of(config, scene["law"]))
-        if used and not is_law(config, scene["law"]):
+        model = model_of(config, scene)
+        known = list(model.history)
+        if used and not model.is_block:
             used = set(known)
         default = [key for key in known if key in used.union(least)] or known
         lacking = sorted(used - set(scene.setdefault("variables", default)))

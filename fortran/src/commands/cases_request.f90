@@ -16,15 +16,21 @@ module cases_request
    !> Most cases in one file, lines of one in the copy of its namelist, and most states of a case.
    integer, parameter :: most_cases = 1000, lines_of_case = 60, most_states = 16
 
+   !> The history of a case, as `&histories` has those of a scene.
+   type :: histories_type
+      !> Names of states or of their exponentials, and their values before the initial time
+      character(len=word_length) :: names(most_states) = ""
+      real(wp) :: values(most_states) = absent
+   end type histories_type
+
    !> A case as the namelist gives it; all nondimensional.
    type :: case_settings_type
       !> Name
       character(len=256) :: name = ""
       !> The model with its parameters
       type(model_settings_type) :: model
-      !> Names of states or of their exponentials, and their values before the initial time
-      character(len=word_length) :: history(most_states) = ""
-      real(wp) :: values(most_states) = absent
+      !> Its history
+      type(histories_type) :: histories
       !> Last time, and time between samples
       real(wp) :: t_end = missing, sample_interval = missing
    end type case_settings_type
@@ -51,8 +57,10 @@ contains
             case%t_end = one%t_end
             case%sample_interval = one%sample_interval
             call one%model%open(place, case%model, error, opened=given%model)
-            call read_history(place, case%model, pack(one%history, one%history /= ""), &
-                              elements(one%values), case%history, error)
+            associate (past => one%histories)
+               call read_history(place, case%model, pack(past%names, past%names /= ""), &
+                                 elements(past%values), case%history, error)
+            end associate
             call check_number(error, place, "t_end", one%t_end, at_least=0.0_wp)
             call check_number(error, place, "sample_interval", one%sample_interval, &
                               at_least=one%t_end/most_samples)

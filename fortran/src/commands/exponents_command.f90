@@ -142,7 +142,7 @@ contains
          call dimension_of(exponents, settings%zero_level, dimension(i), dimension_error(i))
       end do
       do i = 1, settings%count
-         batches(i, :) = exponents(i)%blocks
+         batches(i, :) = exponents(i)%batches
       end do
       associate (first => measured(1))
          call running_averages(with_flow(first%growth, flow), first%length, most_times, time, &

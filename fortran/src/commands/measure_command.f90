@@ -121,6 +121,7 @@ contains
       character(len=reason_length) :: reasons(size(runs))
       integer :: i, j, most_samples, of(size(runs)), run, sample
       character(len=:), allocatable :: name
+      type(description_type) :: about
 
       do i = 1, size(runs)
          of(i) = 1 + (i - 1)/(size(runs)/size(cases))
@@ -140,6 +141,8 @@ contains
       call data%words(run, "model", [(model_name(cases(of(i))), i=1, size(runs))], &
                       "name of the model")
       associate (model => cases(1)%model, history => cases(1)%history)
+         about = model%describe()
+         call data%attribute("model_kind", trim(about%kind))
          call data%attribute("parameters", joined(model%names))
          call put_places(data, run, model, [(cases(of(i))%model%numbers, i=1, size(runs))])
          do j = 1, size(history%names)

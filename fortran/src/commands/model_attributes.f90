@@ -12,7 +12,7 @@ module model_attributes
 
 contains
 
-   !> Write name, source, equations and parameters of a model as attributes.
+   !> Write name, kind, source, equations and parameters of a model as attributes.
    subroutine put_model(data, model, but)
       class(results_type), intent(inout) :: data
       class(model_type), intent(in) :: model
@@ -24,6 +24,7 @@ contains
 
       about = model%describe()
       call data%attribute("model", trim(about%name))
+      if (about%kind /= "") call data%attribute("model_kind", trim(about%kind))
       call data%attribute("model_source", trim(about%source))
       equations = trim(about%equations(1))
       do i = 2, size(about%equations)

@@ -11,7 +11,7 @@ module request
    use model_problem, only: model_type
    use progress_receiver, only: progress_receiver_type
    use recorded_signal, only: signal_type
-   use value_checks, only: absent, missing_count
+   use value_checks, only: absent, check_number, missing, missing_count
    implicit none (type, external)
    private
    public :: ask, ask_for_keys, elements, element_length, request_type, word_length
@@ -207,18 +207,38 @@ contains
       call model%set((model%numbers), history%past(model, 1), (model%keeps_delays))
    end subroutine read_histories
 
-   !> Read the signal of a trajectory. Only the program has files of them.
+   !> Read a signal of evenly spaced samples, the group &signal. Only the program has files of them.
    subroutine read_signal(self, path, block, recorded, error)
       class(request_type), intent(in) :: self
-      !> Path of the file
+      !> Path of a file, and number of the block of a chain; none where a caller gives the samples
       character(len=*), intent(in) :: path
-      !> Number of the block of a chain
       integer, intent(in) :: block
       type(signal_type), intent(out) :: recorded
       !> It cannot be read
       type(error_type), allocatable, intent(out) :: error
+      character(len=model_length) :: name
+      character(len=256) :: reason
+      real(wp) :: interval
+      real(wp), allocatable :: values(:)
+      integer :: i, status
+      namelist /signal/ name, interval, values
 
-      call raise(error, self%place//path//": expected a caller that reads files of trajectories")
+      reason = "expected name, interval and values of a signal in the text"
+      status = merge(0, 1, path == "" .and. block == 1 .and. self%has("signal"))
+      name = ""
+      interval = missing
+      ! a number and what parts it from the next have two letters at least
+      allocate (values(len(self%lines)*size(self%lines)/2), source=absent)
+      if (status == 0) read (self%lines, nml=signal, iostat=status, iomsg=reason)
+      if (status /= 0) then
+         call read_nothing()
+         call raise(error, self%place//path//"namelist group &signal: "//trim(reason))
+      end if
+      call check_number(error, self%place, "interval", interval, above=0.0_wp)
+      recorded%signal = name
+      recorded%v = elements(values)
+      recorded%sample_interval = interval
+      recorded%t = [(interval*(i - 1), i=1, size(recorded%v))]
    end subroutine read_signal
 
    !> Text in small letters.

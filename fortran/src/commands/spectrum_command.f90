@@ -10,7 +10,7 @@ module spectrum_command
    use results, only: results_type
    use spectral_peaks, only: base_peak, combination_peak, find_peaks, harmonic_peak, other_peak, &
                              peak_type, second_base_peak
-   use spectrum, only: power_spectrum
+   use spectral_density, only: power_spectrum
    use spectrum_verdict, only: continuum_share, line_share, spectrum_kind, spectrum_kind_name
    use value_checks, only: check_choice, check_count, missing, missing_count
    implicit none (type, external)
@@ -70,7 +70,7 @@ contains
       end if
       call power_spectrum(v, interval, settings%window, settings%segments, settings%overlap, &
                           frequency, power, error)
-      if (allocated(error)) error%message = path//": "//error%message
+      if (allocated(error) .and. path /= "") error%message = path//": "//error%message
       if (allocated(error)) return
       if (allocated(recorded%u)) call undo_smoothing(interval, frequency, power)
       peaks = find_peaks(frequency, power, settings%peak_floor, settings%peak_prominence)

@@ -56,7 +56,7 @@ contains
       call given%progress%begin("synchrony of "//trim(scene%name))
       how = growth_settings_type(t_begin=scene%t_transient, t_end=settings%t_end, &
                                  t_turning=settings%t_turning, interval=settings%interval, &
-                                 blocks=settings%batches)
+                                 batches=settings%batches)
       call measure_transverse_growth(scene%problem, settings%values(1), how, scene%options(), &
                                      growth, error, given%progress)
       if (allocated(error)) return

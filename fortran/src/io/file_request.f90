@@ -26,7 +26,7 @@ module file_request
 
 contains
 
-   !> Read times and signal, and its integral where the times are uneven.
+   !> Read times and signal of a file, and its integral where the times are uneven.
    subroutine read_signal(self, path, block, recorded, error)
       class(file_request_type), intent(in) :: self
       character(len=*), intent(in) :: path
@@ -39,6 +39,10 @@ contains
       character(len=64) :: integral
       integer :: dimension, file, length, status
 
+      if (path == "") then
+         call self%request_type%read_signal(path, block, recorded, error)
+         return
+      end if
       call check_input(path)
       call check(nf90_open(path, nf90_nowrite, file), &
                  "cannot be opened (remove it; the next run makes it again)")

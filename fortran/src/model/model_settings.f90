@@ -4,13 +4,13 @@ module model_settings
    use model_chain, only: chain_ends, find_neighbours
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use model_description, only: description_type, parameter_type, unbounded, word_length
+   use model_description, only: description_type, unbounded, word_length
    use model_library, only: list_models, open_model, path_of_model
    use model_problem, only: model_type
    use value_checks, only: absent, check_choice, check_count, check_number
    implicit none (type, external)
    private
-   public :: model_settings_type
+   public :: check_numbers, model_settings_type
 
    !> Most parameters of a model.
    integer, parameter :: most_parameters = 1024
@@ -65,7 +65,6 @@ contains
       logical, intent(in), optional :: at_rest
       !> The model, if it is open already
       type(model_type), intent(in), optional :: opened
-      type(description_type) :: about
       real(wp), allocatable :: numbers(:), state(:)
       integer :: block, i, number
 
@@ -85,7 +84,6 @@ contains
             return
          end if
       end if
-      about = model%describe()
       do i = 1, most_parameters
          if (self%parameters(i) == "") cycle
          call check_choice(error, place, "parameter of the model "//trim(self%name), &
@@ -95,9 +93,8 @@ contains
       do i = 1, size(numbers)
          number = findloc(self%parameters, model%names(i), dim=1)
          if (number > 0) numbers(i) = self%values(number)
-         call check_parameter(about%parameters(i), place, numbers(i), error)
       end do
-      call check_delays(model, place, numbers, error)
+      call check_numbers(model, place, numbers, error)
       call check_blocks(self, model, place, error)
       if (allocated(error)) return
       model%own_units = self%own_units
@@ -110,38 +107,38 @@ contains
       call model%set(numbers, [(state, block=1, self%blocks)], keep_delays)
    end subroutine open_settings
 
-   !> Refuse a parameter out of its range; keep an earlier error.
-   subroutine check_parameter(about, place, value, error)
-      type(parameter_type), intent(in) :: about
-      character(len=*), intent(in) :: place
-      real(wp), intent(in) :: value
-      type(error_type), allocatable, intent(inout) :: error
-
-      if (about%at_least > unbounded) then
-         call check_number(error, place, trim(about%name), value, at_least=about%at_least)
-      else if (about%above > unbounded) then
-         call check_number(error, place, trim(about%name), value, above=about%above)
-      else
-         call check_number(error, place, trim(about%name), value)
-      end if
-   end subroutine check_parameter
-
-   !> Refuse a negative delay; keep an earlier error.
-   subroutine check_delays(model, place, numbers, error)
+   !> Refuse a parameter out of its range, and a negative delay; keep an earlier error.
+   subroutine check_numbers(model, place, numbers, error)
       type(model_type), intent(in) :: model
+      !> What stands before messages
       character(len=*), intent(in) :: place
+      !> All parameters, in the order of the definition
       real(wp), intent(in) :: numbers(:)
+      !> First error met
       type(error_type), allocatable, intent(inout) :: error
+      type(description_type) :: about
       real(wp) :: lag(model%sizes%delayed)
       integer :: i
 
+      about = model%describe()
+      do i = 1, size(numbers)
+         associate (one => about%parameters(i))
+            if (one%at_least > unbounded) then
+               call check_number(error, place, trim(one%name), numbers(i), at_least=one%at_least)
+            else if (one%above > unbounded) then
+               call check_number(error, place, trim(one%name), numbers(i), above=one%above)
+            else
+               call check_number(error, place, trim(one%name), numbers(i))
+            end if
+         end associate
+      end do
       if (allocated(error)) return
       lag = model%delays(numbers)
       do i = 1, size(lag)
          call check_number(error, place, "delay "//text(i)//" of the model", lag(i), &
                            at_least=0.0_wp)
       end do
-   end subroutine check_delays
+   end subroutine check_numbers
 
    !> Refuse a chain that there is not; keep an earlier error.
    subroutine check_blocks(self, model, place, error)

@@ -14,7 +14,7 @@ module attractor_verdict
    use section_motion, only: find_third_phase, not_measured, period_of_tail, section_roughness, &
                              torus_roughness
    use spectral_peaks, only: find_peaks, other_peak, peak_type
-   use spectrum, only: power_spectrum
+   use spectral_density, only: power_spectrum
    use spectrum_verdict, only: continuum, line_share, one_base, spectrum_kind, two_bases
    use value_checks, only: missing, missing_count
    implicit none (type, external)
@@ -101,7 +101,7 @@ contains
       type(peak_type), allocatable :: peaks(:)
       logical :: clear
 
-      attractor%exponents = average_growth(measured%growth, measured%length, blocks=1, flow=flow)
+      attractor%exponents = average_growth(measured%growth, measured%length, batches=1, flow=flow)
       attractor%by_exponents = class_by_exponents(attractor%exponents, settings%zero_level, &
                                                   settings%longest_bar)
       clear = clear_by_exponents(attractor%exponents, sum(measured%length))

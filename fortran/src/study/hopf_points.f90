@@ -11,7 +11,7 @@ module hopf_points
    use hopf_planes, only: axis_point_type, chord_of, curve_plane_type, side, turn
    use hopf_unfoldings, only: unfold_double_hopf, unfold_generalised_hopf, unfolding_type
    use model_problem, only: model_type
-   use normal_form, only: first_lyapunov_coefficient
+   use hopf_normal_form, only: first_lyapunov_coefficient
    use root_counts, only: roots_right_of
    use sign_change, only: sign_change_type
    implicit none (type, external)

@@ -96,7 +96,7 @@ contains
          call raise(error, "s = "//text(s)//": "//problem%message)
          return
       end if
-      exponents = average_growth(measured%growth, measured%length, one%blocks, .false.)
+      exponents = average_growth(measured%growth, measured%length, one%batches, .false.)
       growth = transverse_growth_type(s, exponents(1)%value, exponents(1)%error)
    end subroutine measure_one
 

@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Blocks and chains for tests from keywords; the history is rest where a value is left out.
+!> Models for tests: any of the build, and blocks and chains from keywords, with rest as history
+!> where a value is left out.
 module block_builder
    use dde_errors, only: error_type
    use dde_kinds, only: wp
@@ -9,7 +10,7 @@ module block_builder
    implicit none (type, external)
    private
    public :: block_at, build_block, by_epsilon, by_gamma, by_tau, by_xi, index_of_ln_v, &
-             index_of_theta, index_of_u, paper_law
+             index_of_theta, index_of_u, made, paper_law
 
    !> The law of equation (4).
    character(len=*), parameter :: paper_law = "slip_delayed_logarithm"
@@ -19,6 +20,26 @@ module block_builder
    integer, parameter :: index_of_theta = 1, index_of_u = 2, index_of_ln_v = 3
 
 contains
+
+   !> A model by its name, with all its parameters and its past.
+   type(model_type) function made(name, numbers, past, keep_delays) result(model)
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: numbers(:), past(:)
+      !> Whether delays of 0 are delayed values, too
+      logical, intent(in), optional :: keep_delays
+
+      model = opened(name)
+      call model%set(numbers, past, keep_delays)
+   end function made
+
+   !> A model that the build has made; otherwise the tests end.
+   type(model_type) function opened(name) result(model)
+      character(len=*), intent(in) :: name
+      type(error_type), allocatable :: error
+
+      call open_model(trim(name), model, error)
+      if (allocated(error)) error stop "block_builder: "//error%message
+   end function opened
 
    !> A block at these parameters from this history, or blocks that begin alike.
    type(model_type) function build_block(tau, epsilon, xi, gamma, theta, u, v, law, own, blocks, &
@@ -34,16 +55,15 @@ contains
       character(len=*), intent(in), optional :: ends
       !> Whether delays of 0 are delayed values, too
       logical, intent(in), optional :: keep_delays
-      type(error_type), allocatable :: error
-      character(len=:), allocatable :: name
       real(wp), allocatable :: numbers(:)
       real(wp) :: past(3)
       integer :: i, many
 
-      name = paper_law
-      if (present(law)) name = trim(law)
-      call open_model(name, model, error)
-      if (allocated(error)) error stop "build_block: "//error%message
+      if (present(law)) then
+         model = opened(law)
+      else
+         model = opened(paper_law)
+      end if
       numbers = [tau, epsilon, xi, gamma, (0.0_wp, i=by_gamma + 1, model%sizes%parameters)]
       if (present(own)) then
          many = min(size(own), size(numbers) - by_gamma)

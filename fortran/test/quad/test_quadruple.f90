@@ -24,29 +24,22 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("precision", test_precision), &
-                   new_unittest("numbers of double precision", test_double_numbers), &
-                   new_unittest("linear", test_linear), &
-                   new_unittest("oscillator", test_oscillator)]
+                   new_unittest("known solutions", test_known)]
    end subroutine collect_quadruple
 
-   !> More than 30 digits.
+   !> More than 30 digits. 0.1 is rounded as double precision rounds it, numbers that it holds are
+   !> not.
    subroutine test_precision(error)
       type(error_type), allocatable, intent(out) :: error
 
       call expect(error, precision(1.0_wp) > 30, "more than 30 digits")
-   end subroutine test_precision
-
-   !> 0.1 is rounded as double precision rounds it, numbers that it holds are not.
-   subroutine test_double_numbers(error)
-      type(error_type), allocatable, intent(out) :: error
-
       call expect_close(error, (as_double(0.1_wp) - 0.1_wp)*2.0_wp**56, 0.4_wp, 1.0e-12_wp, &
                         "rounding of 0.1")
       call expect_close(error, as_double(0.375_wp), 0.375_wp, 0.0_wp, "a number held")
-   end subroutine test_double_numbers
+   end subroutine test_precision
 
-   !> y' = -y(t-1), y = 1 at t = 0; y = 1 before, or 0.
-   subroutine test_linear(error)
+   !> y' = -y(t-1), y = 1 at t = 0 and before, or 0 before; y = cos t.
+   subroutine test_known(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp), parameter :: exact(2, 0:1) = reshape([5.0_wp/24, 19223.0_wp/362880, &
                                                       19.0_wp/120, 10493.0_wp/518400], [2, 2])
@@ -54,24 +47,15 @@ contains
       real(wp), allocatable :: y(:, :)
       integer :: i, past
 
-      do past = 0, 1
-         problem = linear(n=1, lag=[1.0_wp], component=[1], past=[real(past, wp)], first=[1.0_wp])
-         do i = 1, size(methods)
+      do i = 1, size(methods)
+         do past = 0, 1
+            problem = linear(n=1, lag=[1.0_wp], component=[1], past=[real(past, wp)], &
+                             first=[1.0_wp])
             call solve(problem, [5.0_wp, 10.0_wp], at_tolerance(tolerance, methods(i)), y, error)
             call expect_close(error, y(1, :), exact(:, past), within, methods(i))
          end do
-      end do
-   end subroutine test_linear
-
-   !> y = cos t.
-   subroutine test_oscillator(error)
-      type(error_type), allocatable, intent(out) :: error
-      real(wp), allocatable :: y(:, :)
-      integer :: i
-
-      do i = 1, size(methods)
          call solve(swing(), [3.0_wp], at_tolerance(tolerance, methods(i)), y, error)
          call expect_close(error, y(1, :), [cos(3.0_wp)], within, methods(i))
       end do
-   end subroutine test_oscillator
+   end subroutine test_known
 end module test_quadruple

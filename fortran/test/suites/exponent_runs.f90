@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Growth of tangent vectors and Lyapunov exponents of a problem, in one call.
+!> Growth of tangent vectors and Lyapunov exponents of a problem, in one call, and a receiver that
+!> keeps the progress reported to it.
 module exponent_runs
    use dde, only: continuation_type, dde_problem_type, integration_options
    use dde_errors, only: failure_type => error_type
@@ -11,27 +12,43 @@ module exponent_runs
    use progress_receiver, only: progress_receiver_type
    implicit none (type, external)
    private
-   public :: find_exponents, measure
+   public :: find_exponents, measure, recorder
+
+   !> Reports, call by call.
+   type, extends(progress_receiver_type) :: recorder
+      !> Pieces done, and pieces in all
+      integer, allocatable :: done(:), total(:)
+   contains
+      procedure :: advance
+   end type recorder
 
 contains
 
-   !> Exponents, from an earlier run where it is given.
-   subroutine find_exponents(problem, settings, options, exponents, error, measured, arrived)
+   !> Keep a report.
+   subroutine advance(self, done, total)
+      class(recorder), intent(inout) :: self
+      integer, intent(in) :: done, total
+
+      if (.not. allocated(self%done)) allocate (self%done(0), self%total(0))
+      self%done = [self%done, done]
+      self%total = [self%total, total]
+   end subroutine advance
+
+   !> Exponents, and the growth from which they are.
+   subroutine find_exponents(problem, settings, options, exponents, error, measured)
       class(dde_problem_type), intent(in) :: problem
       type(growth_settings_type), intent(in) :: settings
       type(integration_options), intent(in) :: options
       type(exponent_type), allocatable, intent(out) :: exponents(:)
       type(error_type), allocatable, intent(inout) :: error
-      type(growth_type), intent(out), optional :: measured
-      type(continuation_type), intent(in), optional :: arrived
-      type(growth_type) :: found
+      type(growth_type), intent(out) :: measured
 
       allocate (exponents(0))
-      call measure(error, problem, settings, options, found, arrived)
+      call measure(error, problem, settings, options, measured)
       if (allocated(error)) return
-      exponents = average_growth(found%growth, found%length, settings%blocks, settings%across_flow)
+      exponents = average_growth(measured%growth, measured%length, settings%batches, &
+                                 settings%across_flow)
       call expect(error, size(exponents) == settings%exponents, "as many exponents as asked for")
-      if (present(measured)) measured = found
    end subroutine find_exponents
 
    !> Growth that must be measured.

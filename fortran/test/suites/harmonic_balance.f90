@@ -6,7 +6,9 @@ module harmonic_balance
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
    use expectations, only: expect, expect_success
-   use lapack, only: solve
+   use hopf_normal_form, only: critical_vectors
+   use lapack_algebra, only: solve
+   use linear_system, only: linear_part
    use mctc_env_testing, only: error_type
    use model_problem, only: model_type
    implicit none (type, external)
@@ -26,54 +28,49 @@ module harmonic_balance
 contains
 
    !> Newton's method from the linear oscillation.
-   subroutine find_cycle(block, omega, q, amplitude, epsilon, frequency, error)
-      !> The block, which keeps delays of 0; its epsilon is the first guess
+   subroutine find_cycle(block, omega, r, epsilon, frequency, error)
+      !> The block on the Hopf curve, which keeps delays of 0
       class(model_type), intent(in) :: block
-      !> First guess of the frequency
-      real(wp), intent(in) :: omega
-      !> Eigenvector
-      complex(wp), intent(in) :: q(3)
-      !> Coefficient of cos t in ln v
-      real(wp), intent(in) :: amplitude
-      !> Epsilon at which there is this cycle
-      real(wp), intent(out) :: epsilon
-      !> Its frequency
-      real(wp), intent(out) :: frequency
+      !> Frequency of its pair; |z|, with the pair's eigenvector of length 1
+      real(wp), intent(in) :: omega, r
+      !> Epsilon at which there is this cycle, and its frequency
+      real(wp), intent(out) :: epsilon, frequency
       !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
       type(failure_type), allocatable :: failure
-      complex(wp) :: answer(unknowns, 1), matrix(unknowns, unknowns)
-      complex(wp) :: scaled(3)
-      real(wp) :: x(unknowns, 0:1), base(unknowns), change
+      complex(wp) :: answer(unknowns, 1), matrix(unknowns, unknowns), p(3), q(3)
+      real(wp) :: amplitude, base(unknowns), change, moved(unknowns), x(unknowns)
       real(wp), parameter :: step = 1.0e-6_wp
       integer :: iteration, j
 
-      scaled = q/q(index_of_ln_v)*amplitude
-      x(:, 0) = 0.0_wp
-      associate (coefficients => x(:, 0))
-         do j = 1, 3
-            coefficients(place(j, cosine)) = real(scaled(j))
-            coefficients(place(j, sine)) = -aimag(scaled(j))
-         end do
-         coefficients(place(index_of_ln_v, cosine)) = block%numbers(by_epsilon)
-         coefficients(place(index_of_ln_v, sine)) = omega
-      end associate
+      call critical_vectors(linear_part(block), cmplx(0.0_wp, omega, kind=wp), q, p, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      ! the coefficient of cos t in ln v
+      amplitude = 2.0_wp*abs(q(index_of_ln_v))*r
+      q = q/q(index_of_ln_v)*amplitude
+      x = 0.0_wp
+      do j = 1, 3
+         x([place(j, cosine), place(j, sine)]) = [real(q(j)), -aimag(q(j))]
+      end do
+      x([place(index_of_ln_v, cosine), place(index_of_ln_v, sine)]) = &
+         [block%numbers(by_epsilon), omega]
       do iteration = 1, 12
-         base = residual(block, amplitude, x(:, 0))
+         base = residual(block, amplitude, x)
          do j = 1, unknowns
-            x(:, 1) = x(:, 0)
-            x(j, 1) = x(j, 1) + step
-            matrix(:, j) = (residual(block, amplitude, x(:, 1)) - base)/step
+            moved = x
+            moved(j) = moved(j) + step
+            matrix(:, j) = (residual(block, amplitude, moved) - base)/step
          end do
          call solve(matrix, reshape(cmplx(base, kind=wp), [unknowns, 1]), answer, failure)
          call expect_success(error, failure)
          if (allocated(error)) return
-         x(:, 0) = x(:, 0) - real(answer(:, 1))
+         x = x - real(answer(:, 1))
          change = maxval(abs(answer))
       end do
       call expect(error, change < 1.0e-11_wp, "Newton's method has converged")
-      epsilon = x(place(index_of_ln_v, cosine), 0)
-      frequency = x(place(index_of_ln_v, sine), 0)
+      epsilon = x(place(index_of_ln_v, cosine))
+      frequency = x(place(index_of_ln_v, sine))
    end subroutine find_cycle
 
    !> frequency x'(t) less the right-hand side at all points of a period.

@@ -26,8 +26,8 @@ module orbit_runs
    use special_points, only: special_point_type
    implicit none (type, external)
    private
-   public :: advance, branch_from, branch_from_hopf, correct, cycle_of_block, multipliers_of, &
-             new_orbit, orbit_of_block
+   public :: branch_from, branch_from_hopf, correct, cycle_of_block, last_maxima, multipliers_of, &
+             new_orbit, orbit_of_block, sine_orbit
 
 contains
 
@@ -42,6 +42,18 @@ contains
       orbit%period = period
       orbit%parameters = parameters
    end function new_orbit
+
+   !> An orbit of made_circle, one turn of a sine, before its correction.
+   pure type(periodic_orbit_type) function sine_orbit(degree, intervals, amplitude, period, &
+                                                      parameters) result(orbit)
+      integer, intent(in) :: degree, intervals
+      real(wp), intent(in) :: amplitude, period, parameters(3)
+
+      orbit = new_orbit(degree, intervals, period, parameters)
+      associate (s => orbit%node_times())
+         orbit%nodes = reshape(amplitude*sin(2.0_wp*acos(-1.0_wp)*s), [1, size(s)])
+      end associate
+   end function sine_orbit
 
    !> Correct an orbit at fixed parameters.
    subroutine correct(model, orbit, newton, failure)
@@ -58,31 +70,25 @@ contains
                          newton, failure)
    end subroutine correct
 
-   !> Go on with a run, and note the maxima of a component.
-   subroutine advance(problem, from, to, place, error, component, maxima)
+   !> Maxima of a component of a run in the last part of its time.
+   subroutine last_maxima(problem, component, t_end, last, maxima, error)
       class(dde_problem_type), intent(in) :: problem
-      real(wp), intent(in) :: from, to
-      type(continuation_type), intent(inout) :: place
+      integer, intent(in) :: component
+      !> Its end, and the time before it
+      real(wp), intent(in) :: t_end, last
+      real(wp), allocatable, intent(out) :: maxima(:)
       type(error_type), allocatable, intent(inout) :: error
-      integer, intent(in), optional :: component
-      real(wp), allocatable, intent(out), optional :: maxima(:)
       type(event_table) :: found
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
 
-      if (allocated(error)) return
-      if (present(maxima)) then
-         found = event_table(component=[component], level=[0.0_wp], direction=[-1], &
-                             of_slope=[.true.])
-         call integrate(problem, from, to, at_tolerance(1.0e-8_wp), outcome, failure, &
-                        watcher=found, continuation=place)
-         if (.not. allocated(failure)) maxima = found%y(component, :found%received)
-      else
-         call integrate(problem, from, to, at_tolerance(1.0e-8_wp), outcome, failure, &
-                        continuation=place)
+      found = event_table(component=[component], level=[0.0_wp], direction=[-1], of_slope=[.true.])
+      if (.not. allocated(error)) then
+         call run(error, problem, 0.0_wp, t_end, at_tolerance(1.0e-8_wp), outcome, watcher=found)
       end if
-      call expect_success(error, failure)
-   end subroutine advance
+      associate (n => found%received)
+         maxima = pack(found%y(component, :n), found%time(:n)%hi > t_end - last)
+      end associate
+   end subroutine last_maxima
 
    !> The orbit of a block that a trajectory has reached, before its correction.
    subroutine orbit_of_block(block, t_end, degree, intervals, orbit, error)

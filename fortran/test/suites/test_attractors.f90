@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Attractors of the delayed block: those of the scenes, and what cannot be told.
 module test_attractors
-   use block_builder, only: build_block
+   use block_builder, only: build_block, made
    use attractor_verdict, only: judge
    use attractor_searches, only: disturbed => disturbed_block, after => fine_settings, search
    use attractors, only: attractor_settings_type, attractor_type, find_attractor
@@ -11,7 +11,6 @@ module test_attractors
    use dde_kinds, only: wp
    use lyapunov_spectrum, only: growth_type
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use model_library, only: open_model
    use model_problem, only: model_type
    use motion_classes, only: chaos, class_names, cycle_motion, fixed_point, none, three_torus, &
                              torus, undecided
@@ -26,15 +25,12 @@ contains
    subroutine collect_attractors(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("fixed points", test_fixed_points), &
-                   new_unittest("cycles", test_cycles), &
-                   new_unittest("chaos of the paper", test_chaos), &
+      testsuite = [new_unittest("scenes of the paper", test_scenes), &
                    new_unittest("chaos that becomes clear", test_clear_chaos), &
                    new_unittest("another torus, time doubled", test_doublings), &
                    new_unittest("a 3-torus", test_three_torus), &
                    new_unittest("tori after another motion", test_late_tori), &
-                   new_unittest("unstable steady sliding", test_unstable), &
-                   new_unittest("too few samples", test_few_samples), &
+                   new_unittest("no motion and few samples", test_nothing), &
                    new_unittest("models of one state", test_one_state), &
                    new_unittest("maxima of a stuck block", test_stuck)]
    end subroutine collect_attractors
@@ -59,75 +55,56 @@ contains
       end associate
    end subroutine find
 
-   !> A cycle that meets the section once a turn: its maxima are one, and its frequency is that at
-   !> which the section is met.
-   subroutine expect_simple_cycle(error, found)
-      type(error_type), allocatable, intent(inout) :: error
-      type(attractor_type), intent(in) :: found
-
-      if (allocated(error)) return
-      call expect(error, found%period == 1, "period 1")
-      associate (n => size(found%motion%section_time))
-         call expect(error, size(found%motion%section, 2) == n, "a time for each point")
-         associate (time => found%motion%section_time)
-            call expect_close(error, found%bases(1)*(time(n) - time(1)), n - 1.0_wp, 1.0e-2_wp, &
-                              "turns by frequency and by passages")
-         end associate
-      end associate
-      call expect_close(error, found%bases(2), 0.0_wp, 0.0_wp, "second base")
-      associate (maxima => found%motion%maxima)
-         call expect_between(error, maxval(maxima)/minval(maxima), 1.0_wp, 1.001_wp, &
-                             "largest over smallest maximum")
-      end associate
-      call expect_between(error, minval(found%motion%maxima), 1.0_wp, 100.0_wp, "smallest maximum")
-   end subroutine expect_simple_cycle
-
-   !> Fig. 4a; and where it is undecided at first, since the oscillation decays slowly.
-   subroutine test_fixed_points(error)
+   !> Fig. 4a, a fixed point; 4b, a cycle; 5a and 6b, where another computation (see the README)
+   !> found a cycle; a cycle without delay, with three exponents, however many are wanted; chaos of
+   !> Fig. 5b and 7. A fixed point that is undecided at first, since the oscillation decays slowly.
+   subroutine test_scenes(error)
       type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: classes(5) = [fixed_point, spread(cycle_motion, 1, 3), chaos]
+      real(wp), parameter :: numbers(5, 5) = reshape( &
+         [0.0_wp, 0.3_wp, 0.8_wp, 600.0_wp, 1000.0_wp, 10.0_wp, 0.35_wp, 0.8_wp, 7000.0_wp, &
+          3000.0_wp, 10.0_wp, 0.5_wp, 0.8_wp, 2000.0_wp, 3000.0_wp, 0.0_wp, 0.6_wp, 0.8_wp, &
+          500.0_wp, 2000.0_wp, 7.0_wp, 0.7_wp, 0.5_wp, 1000.0_wp, 4000.0_wp], [5, 5])
       type(attractor_settings_type) :: settings
       type(attractor_type) :: found
+      integer :: i
 
-      call find(disturbed(0.0_wp, 0.3_wp, 0.8_wp), after(600.0_wp, 1000.0_wp), fixed_point, &
-                found, error)
+      do i = 1, size(classes)
+         associate (x => numbers(:, i))
+            call find(disturbed(x(1), x(2), x(3)), after(x(4), x(5)), classes(i), found, error)
+            if (allocated(error)) return
+            if (classes(i) == cycle_motion) call expect_simple_cycle(error, found)
+            if (x(1) <= 0.0_wp) call expect(error, size(found%exponents) == 3, "three exponents")
+         end associate
+      end do
+      call expect(error, found%exponents(1)%value > 3.0_wp*found%exponents(1)%error &
+                  .and. found%period == 0, "leading exponent in error bars, and no period")
       settings = after(200.0_wp, 100.0_wp)
       settings%doublings = 3
       call find(disturbed(1.6_wp, 0.63_wp, 0.5_wp), settings, fixed_point, found, error)
       if (allocated(error)) return
       call expect_between(error, found%time, 350.0_wp, 1000.0_wp, "time")
       call expect(error, found%reason == none, "no reason to be undecided")
-   end subroutine test_fixed_points
+   end subroutine test_scenes
 
-   !> Fig. 4b; Fig. 5a and 6b, where another computation (see the README) found a cycle; and without
-   !> delay, where there are three exponents, however many are wanted.
-   subroutine test_cycles(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(attractor_type) :: found
+   !> A cycle that meets the section once a turn: its maxima are one, and its frequency is that at
+   !> which the section is met.
+   subroutine expect_simple_cycle(error, found)
+      type(error_type), allocatable, intent(inout) :: error
+      type(attractor_type), intent(in) :: found
 
-      call find(disturbed(10.0_wp, 0.35_wp, 0.8_wp), after(7000.0_wp, 3000.0_wp), cycle_motion, &
-                found, error)
-      call expect_simple_cycle(error, found)
-      call find(disturbed(10.0_wp, 0.5_wp, 0.8_wp), after(2000.0_wp, 3000.0_wp), cycle_motion, &
-                found, error)
-      call expect_simple_cycle(error, found)
-      call find(disturbed(0.0_wp, 0.6_wp, 0.8_wp), after(500.0_wp, 2000.0_wp), cycle_motion, &
-                found, error)
-      call expect_simple_cycle(error, found)
-      if (allocated(error)) return
-      call expect(error, size(found%exponents) == 3, "three exponents without delay")
-   end subroutine test_cycles
-
-   !> Fig. 5b and 7.
-   subroutine test_chaos(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(attractor_type) :: found
-
-      call find(disturbed(7.0_wp, 0.7_wp, 0.5_wp), after(1000.0_wp, 4000.0_wp), chaos, found, error)
-      if (allocated(error)) return
-      call expect_between(error, found%exponents(1)%value/found%exponents(1)%error, 3.0_wp, &
-                          huge(1.0_wp), "leading exponent in error bars")
-      call expect(error, found%period == 0, "no period")
-   end subroutine test_chaos
+      associate (time => found%motion%section_time, maxima => found%motion%maxima)
+         associate (n => size(time))
+            call expect(error, found%period == 1 .and. size(found%motion%section, 2) == n &
+                        .and. .not. found%bases(2) > 0.0_wp, "period 1, times, one base")
+            call expect_close(error, found%bases(1)*(time(n) - time(1)), n - 1.0_wp, 1.0e-2_wp, &
+                              "turns by frequency and by passages")
+         end associate
+         call expect_between(error, maxval(maxima)/minval(maxima), 1.0_wp, 1.001_wp, &
+                             "largest over smallest maximum")
+         call expect_between(error, minval(maxima), 1.0_wp, 100.0_wp, "smallest maximum")
+      end associate
+   end subroutine expect_simple_cycle
 
    !> Chaos is clear by exponents in a second judgement: nothing is left of section and spectrum of
    !> the first.
@@ -162,21 +139,6 @@ contains
                   .and. all(found%bases <= 0.0_wp), "nothing of the first judgement")
    end subroutine test_clear_chaos
 
-   !> Two zero exponents, two bases and a smooth section.
-   subroutine expect_torus(error, found)
-      type(error_type), allocatable, intent(inout) :: error
-      type(attractor_type), intent(in) :: found
-
-      if (allocated(error)) return
-      call expect(error, all((found%bases > 0.0_wp) .eqv. [.true., .true., .false.]), "two bases")
-      call expect(error, found%period == 0, "no period")
-      call expect_between(error, found%roughness, 0.0_wp, 0.05_wp, "roughness")
-      call expect_between(error, found%line_share, 0.99_wp, 1.0_wp, "share of the lines")
-      call expect_between(error, maxval(abs(found%exponents(:2)%value)), 0.0_wp, 1.0e-3_wp, &
-                          "leading exponents")
-      call expect_between(error, found%exponents(3)%value, -1.0_wp, -1.0e-4_wp, "the third")
-   end subroutine expect_torus
-
    !> In 1500 units of time the exponents of a torus cannot be told from zero closely enough, in
    !> four times that they can.
    subroutine test_doublings(error)
@@ -187,15 +149,19 @@ contains
       settings = after(3000.0_wp, 1500.0_wp)
       settings%segments = 4
       call search(disturbed(15.0_wp, 0.8_wp, 0.8_wp), settings, found, error)
-      if (allocated(error)) return
-      call expect(error, found%by_exponents == undecided .and. found%class == undecided, &
-                  "undecided at first")
-      call expect(error, found%by_section == torus .and. found%by_spectrum == torus, &
-                  "the others are sure")
+      call expect(error, all([found%by_exponents, found%class, found%by_section, &
+                              found%by_spectrum] == [undecided, undecided, torus, torus]), &
+                  "undecided at first, while the others are sure")
       settings%doublings = 2
       call find(disturbed(15.0_wp, 0.8_wp, 0.8_wp), settings, torus, longer, error)
-      call expect_torus(error, longer)
       if (allocated(error)) return
+      call expect(error, all((longer%bases > 0.0_wp) .eqv. [.true., .true., .false.]) &
+                  .and. longer%period == 0, "two bases and no period")
+      call expect_between(error, longer%roughness, 0.0_wp, 0.05_wp, "roughness")
+      call expect_between(error, longer%line_share, 0.99_wp, 1.0_wp, "share of the lines")
+      call expect_close(error, longer%exponents(:2)%value, [0.0_wp, 0.0_wp], 1.0e-3_wp, &
+                        "leading exponents")
+      call expect_between(error, longer%exponents(3)%value, -1.0_wp, -1.0e-4_wp, "the third")
       call expect_between(error, maxval(longer%exponents(:2)%error), 0.0_wp, &
                           maxval(found%exponents(:2)%error), "error bars of the longer time")
    end subroutine test_doublings
@@ -224,29 +190,11 @@ contains
       call expect_close(error, found%exponents%value, [0.0_wp, 0.0_wp, 0.0_wp, -1.88e-3_wp], &
                         3.0e-5_wp, "four exponents")
       do i = 1, size(found%bases)
-         misfit = 1.0_wp
-         do k = -most, most
-            do m = -most, most
-               do n = -most, most
-                  misfit = min(misfit, abs(sum([k, m, n]*known) - found%bases(i)))
-               end do
-            end do
-         end do
+         misfit = minval([(((abs(sum([k, m, n]*known) - found%bases(i)), k=-most, most), &
+                            m=-most, most), n=-most, most)])
          call expect_between(error, misfit, 0.0_wp, 3.0e-6_wp, "a combination of three frequencies")
       end do
    end subroutine test_three_torus
-
-   !> A block that slides steadily without end, though unstably, comes to no class and to no points.
-   subroutine test_unstable(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(attractor_type) :: found
-
-      call find(build_block(tau=10.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp), &
-                after(100.0_wp, 500.0_wp), undecided, found, error)
-      if (allocated(error)) return
-      call expect(error, size(found%motion%maxima) == 0 .and. &
-                  size(found%motion%section_time) == 0, "no events")
-   end subroutine test_unstable
 
    !> Tori that are reached after another motion, with the settings of the atlas. The approach to
    !> the first is certain chaos for a while by exponents and spectrum. The second is a torus also
@@ -254,20 +202,9 @@ contains
    !> exponents and the spectrum would call it chaos.
    subroutine test_late_tori(error)
       type(error_type), allocatable, intent(out) :: error
-
-      call find_late_torus(disturbed(12.75_wp, 0.5_wp, 0.8_wp), 3.0e4_wp, error)
-      call find_late_torus(build_block(tau=0.4_wp + 19.6_wp*19.0_wp/24.0_wp, xi=0.5_wp, &
-                                       epsilon=0.05_wp + 1.45_wp/3.0_wp, gamma=1.0e8_wp, &
-                                       v=1.5_wp), 4.0e4_wp, error)
-   end subroutine test_late_tori
-
-   !> A torus that is certain late, but not later than a given time.
-   subroutine find_late_torus(block, latest, error)
-      type(model_type), intent(in) :: block
-      real(wp), intent(in) :: latest
-      type(error_type), allocatable, intent(inout) :: error
       type(attractor_settings_type) :: settings
       type(attractor_type) :: found
+      integer :: i
 
       settings = after(2000.0_wp, 800.0_wp)
       settings%t_lasting = 4000.0_wp
@@ -275,26 +212,40 @@ contains
       settings%interval = 20.0_wp
       settings%exponents = 3
       settings%doublings = 6
-      call search(block, settings, found, error)
-      if (allocated(error)) return
-      call expect(error, found%class == torus, "a torus")
-      call expect_between(error, found%time, 1.5e4_wp, latest, "time: another motion came before")
-   end subroutine find_late_torus
+      do i = 1, 2
+         if (i == 1) then
+            call search(disturbed(12.75_wp, 0.5_wp, 0.8_wp), settings, found, error)
+         else
+            call search(build_block(tau=0.4_wp + 19.6_wp*19.0_wp/24.0_wp, xi=0.5_wp, &
+                                    epsilon=0.05_wp + 1.45_wp/3.0_wp, gamma=1.0e8_wp, v=1.5_wp), &
+                        settings, found, error)
+         end if
+         call expect(error, found%class == torus, "a torus")
+         call expect_between(error, found%time, 1.5e4_wp, 2.0e4_wp + 1.0e4_wp*i, &
+                             "time: another motion came before")
+      end do
+   end subroutine test_late_tori
 
+   !> A block that slides steadily without end, though unstably, comes to no class and to no points.
    !> No spectrum: an error, no class.
-   subroutine test_few_samples(error)
+   subroutine test_nothing(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
       type(attractor_settings_type) :: settings
       type(attractor_type) :: found
 
+      call find(build_block(tau=10.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp), &
+                after(100.0_wp, 500.0_wp), undecided, found, error)
+      if (allocated(error)) return
+      call expect(error, size(found%motion%maxima) == 0 .and. &
+                  size(found%motion%section_time) == 0, "no events")
       settings = after(200.0_wp, 500.0_wp)
       settings%sample_interval = 500.0_wp
       call find_attractor(disturbed(12.5_wp, 0.5_wp, 0.8_wp), settings, &
                           at_tolerance(1.0e-6_wp, "auto"), found, failure)
       call expect_failure(error, failure, "samples")
       call expect(error, found%class == undecided, "undecided")
-   end subroutine test_few_samples
+   end subroutine test_nothing
 
    !> A model without coordinates of its section, which is met where the state rises through rest.
    !> The exponents at rest are the real parts of the roots of s + exp(-s) = 0. The points of the
@@ -304,26 +255,17 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(attractor_settings_type) :: settings
       type(attractor_type) :: found
-      type(failure_type), allocatable :: failure
-      type(model_type) :: model
       integer :: n
 
-      call open_model("made_decay", model, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
-      call model%set([1.0_wp, 1.0_wp, 0.0_wp], [0.5_wp])
-      call find(model, after(100.0_wp, 100.0_wp), fixed_point, found, error)
+      call find(made("made_decay", [1.0_wp, 1.0_wp, 0.0_wp], [0.5_wp]), after(100.0_wp, 100.0_wp), &
+                fixed_point, found, error)
       if (allocated(error)) return
       call expect_close(error, found%exponents%value, &
                         [-0.3181315052047642_wp, -0.3181315052047642_wp, &
                          -2.0622777295982839_wp, -2.0622777295982839_wp], 1.0e-12_wp, "exponents")
-      call open_model("made_mackey_glass", model, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
-      call model%set([6.0_wp], [1.2_wp])
       settings = after(1000.0_wp, 1000.0_wp)
       settings%t_path = 50.0_wp
-      call find(model, settings, cycle_motion, found, error)
+      call find(made("made_mackey_glass", [6.0_wp], [1.2_wp]), settings, cycle_motion, found, error)
       if (allocated(error)) return
       call expect(error, found%period == 1, "period 1")
       if (allocated(error)) return

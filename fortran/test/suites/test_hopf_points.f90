@@ -1,52 +1,47 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Special points of the Hopf curves of Figures 2 and 3, and what the normal forms predict beside
-!> them: directions against roots and points of the curves, cycles against harmonic balance.
+!> them: directions against roots and points of the curves; cycles against harmonic balance and
+!> continuation.
 module test_hopf_points
-   use block_builder, only: block_at, by_epsilon, by_tau, index_of_ln_v
+   use block_builder, only: block_at, build_block, by_epsilon, by_tau, by_xi
    use centre_manifold, only: normal_form_coefficient
+   use characteristic_function, only: characteristic_of, characteristic_type
+   use cycle_branches, only: cycle_line_type, cycle_settings_type, cycles_type, find_cycles, &
+                             left_out_type
+   use cycle_curves, only: cycle_curve_type, find_curves
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close, expect_success
    use harmonic_balance, only: find_cycle
    use hopf_curves, only: curve_point_type
-   use hopf_planes, only: curve_plane_type, turn
+   use hopf_lines, only: hopf_on_line_type
+   use hopf_normal_form, only: first_lyapunov_coefficient
+   use hopf_planes, only: curve_plane_type
    use hopf_points, only: find_hopf_points, hopf_point_type
-   use hopf_unfoldings, only: way_to_growth
-   use linear_system, only: linear_part
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use model_roots, only: find_model_roots
-   use normal_form, only: critical_vectors, first_lyapunov_coefficient
-   use paper_equations, only: relative_residual
+   use paper_equations, only: block_with_pair, relative_residual
+   use special_points, only: fold, torus_bifurcation
    use traced_planes, only: find_points, known_numbers, new_plane, plane_number, planes
    implicit none (type, external)
    private
    public :: collect_hopf_points
 
-   !> Amplitude |z| of the cycles.
-   real(wp), parameter :: amplitude = 0.02_wp
-
-   !> A cycle near a special point.
-   type :: cycle_type
-      !> Parameters
-      real(wp) :: numbers(4) = 0.0_wp
-      real(wp) :: period = 0.0_wp
-   end type cycle_type
-
 contains
 
-   !> All tests of this suite.
    subroutine collect_hopf_points(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("special points of Figure 2", test_figure_2), &
-                   new_unittest("special points of Figure 3", test_figure_3), &
-                   new_unittest("no special points without delay", test_no_delay), &
-                   new_unittest("a coefficient that is 0 but for rounding", test_rounding)]
+      testsuite = [new_unittest("special points of Figures 2 and 3", test_figures), &
+                   new_unittest("cycles by harmonic balance", test_cycles), &
+                   new_unittest("a coefficient that is 0 but for rounding", test_rounding), &
+                   new_unittest("curves start at special Hopf points", test_ends), &
+                   new_unittest("a closed branch", test_closed)]
    end subroutine collect_hopf_points
 
    !> Figure 2 has nine double points, six generalised ones and the point without delay as by Routh
-   !> and Hurwitz.
-   subroutine test_figure_2(error)
+   !> and Hurwitz, Figure 3 five and two. Where no point of a plane has a delay, none is special.
+   subroutine test_figures(error)
       type(error_type), allocatable, intent(out) :: error
       type(hopf_point_type), allocatable :: found(:)
       integer :: i
@@ -57,23 +52,9 @@ contains
       call expect_close(error, found(i)%numbers, [0.0_wp, 0.32_wp/1.14_wp, 0.5_wp, 0.8_wp], &
                         1.0e-14_wp, "parameters without delay")
       call expect_between(error, found(i)%l1(1), -1.0_wp, -0.01_wp, "l1")
-   end subroutine test_figure_2
-
-   !> Figure 3 has five double points and two generalised ones.
-   subroutine test_figure_3(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(hopf_point_type), allocatable :: found(:)
-
       call check_figure(2, [5, 2, 0], found, error)
-   end subroutine test_figure_3
-
-   !> Where no point of a plane has a delay, none is special for that.
-   subroutine test_no_delay(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(hopf_point_type), allocatable :: found(:)
-
       call check_figure(planes, [0, 0, 0], found, error)
-   end subroutine test_no_delay
+   end subroutine test_figures
 
    !> At gamma = 1e8 the coefficient is 0 without delay. Its rounding error, of either sign, makes
    !> no generalised Hopf point.
@@ -125,23 +106,20 @@ contains
          if (allocated(error)) return
          associate (point => found(j), omega => found(j)%omega)
             do k = 1, count(omega > 0.0_wp)
-               call expect_between(error, relative_residual(point%numbers, &
-                                                            cmplx(0.0_wp, omega(k), kind=wp)), &
-                                   0.0_wp, 1.0e-12_wp, "residual of point "//text(j))
+               call expect_close(error, relative_residual(point%numbers, omega(k)), 0.0_wp, &
+                                 1.0e-12_wp, "residual of point "//text(j))
             end do
             select case (point%kind)
             case ("generalised_hopf")
-               call expect_close(error, point%l1(1), 0.0_wp, 1.0e-12_wp, "l1")
+               call expect_close(error, [point%l1(1), real(point%unfolding%c1)], &
+                                 [0.0_wp, 0.0_wp], 1.0e-12_wp, "l1 and Re c1")
                call check_fold_direction(plane, point, error)
-               call check_fold(plane, point, error)
             case ("double_hopf")
                call expect_between(error, omega(2) - omega(1), 0.01_wp, 10.0_wp, &
                                    "distance of the frequencies")
                call expect(error, point%branch(2) > point%branch(1), &
                            "the higher frequency is on the higher branch")
                call check_torus_directions(plane, point, error)
-               call check_torus(plane, point, 1, error)
-               call check_torus(plane, point, 2, error)
             case default
                call expect_close(error, point%numbers(by_tau), 0.0_wp, 1.0e-14_wp, "tau")
             end select
@@ -209,134 +187,148 @@ contains
             way = there(plane%along) - point%numbers(plane%along)
             call expect_close(error, u%start(:, 1), way/norm2(way), 1.0e-3_wp, "start of the folds")
          end do
-         call expect_close(error, real(u%c1), 0.0_wp, 1.0e-12_wp, "Re c1")
       end associate
    end subroutine check_fold_direction
 
-   !> Epsilon along cycles of growing amplitude has its extreme at the fold. With the share of the
-   !> square of the predicted amplitude it is a parabola, the depth of which is the distance from
-   !> the Hopf curve. The period there, by its change along the cycles.
-   subroutine check_fold(plane, point, error)
-      type(curve_plane_type), intent(in) :: plane
-      type(hopf_point_type), intent(in) :: point
-      type(error_type), allocatable, intent(inout) :: error
+   !> The side of a cycle is the sign of l1, by harmonic balance: with the amplitude |z| = r of the
+   !> pair, epsilon and frequency of the cycle change by e r^2 and f r^2, with 0 = Re(c1 + e
+   !> ds/depsilon) and f = Im(c1 + e ds/depsilon), but for terms of order r^4, which two amplitudes
+   !> take away.
+   subroutine test_cycles(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(characteristic_type) :: delta
       type(failure_type), allocatable :: failure
-      type(cycle_type) :: fold
-      real(wp), parameter :: shares(-1:1) = [0.5_wp, 1.0_wp, 1.5_wp]
-      real(wp) :: curvature, epsilon(-1:1), frequency(-1:1), period_error(-1:1), slope
-      integer :: j
+      complex(wp) :: c1, slope
+      real(wp), parameter :: amplitude = 0.02_wp
+      real(wp) :: change(2, 2), frequency, epsilon, l1, omega, p(4)
+      integer :: i, k, sides(-1:1), step
 
-      call predict_fold(plane, point, fold, failure)
-      call expect_success(error, failure)
-      do j = -1, 1
-         call follow(point, 1, fold%numbers, amplitude*sqrt(shares(j)), epsilon(j), frequency(j), &
-                     error)
-         if (allocated(error)) return
+      sides = 0
+      do i = 1, 12
+         omega = 0.12_wp*i
+         do k = 1, 3
+            p = block_with_pair(omega, 0.5_wp, 0.8_wp, k)
+            call normal_form_coefficient(block_at(p), [omega], [2, 1], c1, failure)
+            call expect_success(error, failure)
+            call first_lyapunov_coefficient(block_at(p), omega, l1, failure)
+            call expect_success(error, failure)
+            do step = 1, 2
+               associate (r => amplitude/step)
+                  call find_cycle(block_at(p), omega, r, epsilon, frequency, error)
+                  change(:, step) = ([epsilon, frequency] - [p(by_epsilon), omega])/r**2
+               end associate
+            end do
+            if (allocated(error)) return
+            change(:, 2) = (4.0_wp*change(:, 2) - change(:, 1))/3.0_wp
+            delta = characteristic_of(block_at(p))
+            slope = delta%root_by(by_epsilon, cmplx(0.0_wp, omega, kind=wp))
+            associate (known => -real(c1)/real(slope))
+               call expect_close(error, change(:, 2), [known, aimag(c1 + known*slope)], &
+                                 1.0e-4_wp*abs(c1), "changes at omega = "//text(omega))
+            end associate
+            sides(nint(sign(1.0_wp, l1))) = sides(nint(sign(1.0_wp, l1))) + 1
+            call expect(error, l1*change(1, 2) < 0.0_wp .eqv. real(slope) > 0.0_wp, "the side")
+         end do
       end do
-      slope = epsilon(1) - epsilon(-1)
-      curvature = 4.0_wp*(epsilon(1) - 2.0_wp*epsilon(0) + epsilon(-1))
-      call expect_between(error, -slope/curvature, -0.01_wp, 0.01_wp, "share at the fold less 1")
-      call expect_close(error, epsilon(0), fold%numbers(by_epsilon), &
-                        0.01_wp*abs(0.5_wp*curvature), "epsilon of the fold")
-      period_error = turn/frequency - fold%period
-      call expect_between(error, period_error(0)/period_error(-1), -0.01_wp, 0.01_wp, &
-                          "error of the period over its change")
-   end subroutine check_fold
+      call expect(error, all(sides([-1, 1]) > 3), "cycles on both sides")
+   end subroutine test_cycles
 
-   !> The cycle of the predicted amplitude has the predicted epsilon and period, by their distances
-   !> from the double Hopf point.
-   subroutine check_torus(plane, point, pair, error)
-      type(curve_plane_type), intent(in) :: plane
-      type(hopf_point_type), intent(in) :: point
-      integer, intent(in) :: pair
+   !> Where the first Lyapunov coefficient vanishes, a curve of folds of cycles begins; where two
+   !> pairs of roots are imaginary, a curve of torus points.
+   subroutine test_ends(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call expect_end(settings_on(by_epsilon, [5.9_wp, 0.0_wp, 0.8_wp, 0.8_wp], &
+                                  [0.3_wp, 0.6_wp]), &
+                      [0.3_wp, 0.6_wp, 5.0_wp, 6.0_wp], fold, "generalised_hopf", error)
+      call expect_end(settings_on(by_tau, [0.0_wp, 0.5_wp, 0.8_wp, 0.8_wp], &
+                                  [12.0_wp, 12.8_wp]), &
+                      [0.4_wp, 0.6_wp, 11.5_wp, 12.8_wp], torus_bifurcation, "double_hopf", error)
+   end subroutine test_ends
+
+   !> The curves of a kind that start on a line end at a Hopf point of another kind, of those in the
+   !> plane of epsilon and tau.
+   subroutine expect_end(line, window, kind, ending, error)
+      type(cycle_settings_type), intent(in) :: line
+      real(wp), intent(in) :: window(4)
+      character(len=*), intent(in) :: kind, ending
       type(error_type), allocatable, intent(inout) :: error
-      type(cycle_type) :: torus
-      real(wp) :: epsilon, frequency
+      type(curve_point_type), allocatable :: points(:)
+      type(cycle_settings_type) :: settings
+      type(cycle_curve_type), allocatable :: curves(:)
+      type(cycles_type), allocatable :: found(:)
+      type(left_out_type), allocatable :: left_out(:)
+      type(failure_type), allocatable :: failure
+      type(hopf_on_line_type), allocatable :: hopf(:)
+      type(hopf_point_type), allocatable :: special(:)
+      integer :: ends, i, j, k
 
-      torus = predict_torus(plane, point, pair)
-      call follow(point, pair, torus%numbers, amplitude, epsilon, frequency, error)
       if (allocated(error)) return
-      call expect_between(error, (epsilon - torus%numbers(by_epsilon)) &
-                          /(torus%numbers(by_epsilon) - point%numbers(by_epsilon)), &
-                          -2.0e-3_wp, 2.0e-3_wp, "error of epsilon over its change")
-      call expect_between(error, (turn/frequency - torus%period) &
-                          /(torus%period - turn/point%omega(pair)), -2.0e-3_wp, 2.0e-3_wp, &
-                          "error of the period over its change")
-   end subroutine check_torus
-
-   !> The cycle of a pair whose oscillation has the amplitude |z|, by harmonic balance.
-   subroutine follow(point, pair, numbers, size_of_z, epsilon, frequency, error)
-      type(hopf_point_type), intent(in) :: point
-      integer, intent(in) :: pair
-      real(wp), intent(in) :: numbers(:), size_of_z
-      real(wp), intent(out) :: epsilon, frequency
-      type(error_type), allocatable, intent(inout) :: error
-      type(failure_type), allocatable :: failure
-      complex(wp) :: p(3), q(3)
-
-      call critical_vectors(linear_part(block_at(point%numbers)), &
-                            cmplx(0.0_wp, point%omega(pair), kind=wp), q, p, failure)
+      settings = line
+      settings%curve_along = [by_epsilon, by_tau]
+      settings%curve_window = reshape(window, [2, 2])
+      call find_cycles(settings, hopf, found, left_out, failure)
       call expect_success(error, failure)
-      call find_cycle(block_at(numbers), point%omega(pair), q, &
-                      2.0_wp*abs(q(index_of_ln_v))*size_of_z, epsilon, frequency, error)
-   end subroutine follow
-
-   !> A fold of cycles near a generalised Hopf point.
-   subroutine predict_fold(plane, point, fold, error)
-      type(curve_plane_type), intent(in) :: plane
-      type(hopf_point_type), intent(in) :: point
-      type(cycle_type), intent(out) :: fold
-      type(failure_type), allocatable, intent(out) :: error
-      complex(wp) :: c1, slopes(2)
-      real(wp) :: beside(2), c1_slope, epsilon_step, omega
-      real(wp), parameter :: share = 1.0e-4_wp
-      integer :: i
-
-      do i = 1, 2
-         call coefficient_at(point%omega(1)*(1.0_wp + share*(2*i - 3)), c1)
-         if (allocated(error)) return
-         beside(i) = real(c1)
+      if (allocated(error)) return
+      call find_curves(settings, found, curves, failure)
+      call expect_success(error, failure)
+      call find_points(new_plane(by_tau, 0.8_wp, settings%line%model%numbers(by_xi), window), &
+                       points, special, error)
+      if (allocated(error)) return
+      ends = 0
+      do i = 1, size(curves)
+         do k = 1, 2
+            associate (part => curves(i)%parts(k))
+               if (part%points(1)%kind /= kind .or. part%ending /= ending) cycle
+               ends = ends + 1
+               associate (last => part%points(size(part%points))%orbit%parameters)
+                  call expect(error, any([(special(j)%kind == ending .and. &
+                                           all(abs(special(j)%numbers - last) < 1.0e-4_wp), &
+                                           j=1, size(special))]), "end of the curve")
+               end associate
+            end associate
+         end do
       end do
-      c1_slope = (beside(2) - beside(1))/(2.0_wp*share*point%omega(1))
-      associate (c2 => point%unfolding%c2, r => amplitude**2)
-         omega = point%omega(1) - 2.0_wp*real(c2)*r/c1_slope
-         call coefficient_at(omega, c1)
-         if (allocated(error)) return
-         fold%numbers = known_numbers(plane, omega, point%branch(1))
-         slopes = plane%root_slopes(fold%numbers, cmplx(0.0_wp, omega, kind=wp))
-         epsilon_step = real(c2)*r**2/real(slopes(1))
-         fold%numbers(by_epsilon) = fold%numbers(by_epsilon) + epsilon_step
-         fold%period = turn/(omega + aimag(slopes(1))*epsilon_step + aimag(c1)*r)
-      end associate
+      call expect(error, ends > 0, "a curve of kind "//kind//" with the end "//ending)
+   end subroutine expect_end
 
-   contains
+   !> A line without trajectories, of a coarse mesh.
+   function settings_on(along, parameters, window) result(settings)
+      integer, intent(in) :: along
+      !> tau, epsilon, xi, gamma, and the window on the line
+      real(wp), intent(in) :: parameters(4), window(2)
+      type(cycle_settings_type) :: settings
 
-      !> The coefficient of z |z|^2 on the curve.
-      subroutine coefficient_at(omega, c1)
-         real(wp), intent(in) :: omega
-         complex(wp), intent(out) :: c1
+      settings%line = cycle_line_type(block_at(parameters), along, window)
+      allocate (settings%starts(0))
+      settings%degree = 5
+      settings%intervals = 20
+      settings%most_orbits = 40
+   end function settings_on
 
-         call normal_form_coefficient(block_at(known_numbers(plane, omega, point%branch(1))), &
-                                      [omega], [2, 1], c1, error)
-      end subroutine coefficient_at
-   end subroutine predict_fold
+   !> Cycles of three maxima exist between two folds: their branch is closed and is found once.
+   subroutine test_closed(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(cycle_settings_type) :: settings
+      type(cycles_type), allocatable :: found(:)
+      type(left_out_type), allocatable :: left_out(:)
+      type(failure_type), allocatable :: failure
+      type(hopf_on_line_type), allocatable :: hopf(:)
 
-   !> A torus bifurcation of the cycle of a pair near a double Hopf point.
-   type(cycle_type) function predict_torus(plane, point, pair) result(torus)
-      type(curve_plane_type), intent(in) :: plane
-      type(hopf_point_type), intent(in) :: point
-      integer, intent(in) :: pair
-      complex(wp) :: slopes(2)
-      real(wp) :: way(2)
-
-      associate (form => point%unfolding%form)
-         way = way_to_growth(plane, point%numbers, form%omega, &
-                             -amplitude**2*real(form%g(:, pair)))
-         slopes = plane%root_slopes(point%numbers, cmplx(0.0_wp, form%omega(pair), kind=wp))
-         torus%numbers = point%numbers
-         torus%numbers(plane%along) = torus%numbers(plane%along) + way
-         torus%period = turn/(form%omega(pair) + sum(aimag(slopes)*way) &
-                              + amplitude**2*aimag(form%g(pair, pair)))
-      end associate
-   end function predict_torus
+      settings%line = cycle_line_type(build_block(0.0_wp, 0.7_wp, 0.5_wp, 0.8_wp, v=1.1_wp), &
+                                      by_tau, [4.8_wp, 5.2_wp])
+      settings%starts = [5.0_wp, 5.0_wp]
+      settings%most_orbits = 100
+      call find_cycles(settings, hopf, found, left_out, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect(error, size(hopf) == 0 .and. size(found) == 1 .and. size(left_out) == 1, &
+                  "no Hopf point, one branch, and a start left out")
+      if (allocated(error)) return
+      call expect(error, found(1)%branch%ending == "closed", "a closed branch")
+      call expect(error, size(found(1)%points) == 2 .and. all(found(1)%points%kind == fold), &
+                  "two folds")
+      call expect(error, left_out(1)%reason == "its cycle is on a branch", "why it is left out")
+      call expect_close(error, left_out(1)%at, 5.0_wp, 0.0_wp, "and where")
+   end subroutine test_closed
 end module test_hopf_points

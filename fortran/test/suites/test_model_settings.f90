@@ -4,7 +4,7 @@
 module test_model_settings
    use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_quiet_nan, ieee_value
    use block_builder, only: build_block
-   use dde_errors, only: failure_type => error_type
+   use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_close, expect_failure, expect_success
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
@@ -23,23 +23,22 @@ contains
       testsuite = [new_unittest("models", test_models), &
                    new_unittest("refused models", test_refused_models), &
                    new_unittest("histories", test_histories), &
-                   new_unittest("histories of a ring", test_ring), &
                    new_unittest("refused histories", test_refused_histories)]
    end subroutine collect_model_settings
 
-   !> Settings of a block with a parameter of its law.
-   pure type(model_settings_type) function block_settings(tau, epsilon, xi, gamma, c) &
-      result(settings)
-      real(wp), intent(in) :: tau, epsilon, xi, gamma
-      real(wp), intent(in), optional :: c
+   !> Settings of a block, the last parameter first; c may be missing, and an empty name is none.
+   pure type(model_settings_type) function block_settings(numbers) result(settings)
+      !> tau, epsilon, xi, gamma, c
+      real(wp), intent(in) :: numbers(:)
+      character(len=7), parameter :: names(5) = [character(len=7) :: "tau", "epsilon", "xi", &
+                                                 "gamma", "c"]
+      integer :: i
 
       settings%name = "slip_cut_off"
-      if (present(c)) call settings%put("c", c)
-      call settings%put("gamma", gamma)
-      call settings%put("tau", tau)
-      call settings%put("", 7.0_wp)
-      call settings%put("xi", xi)
-      call settings%put("epsilon", epsilon)
+      do i = size(numbers), 1, -1
+         call settings%put(names(i), numbers(i))
+         call settings%put("", 7.0_wp)
+      end do
    end function block_settings
 
    !> Parameters have their values by name, in whatever order they are given, and the last value
@@ -50,8 +49,9 @@ contains
       type(model_settings_type) :: settings
       type(model_type) :: model
       real(wp) :: least(5)
+      integer :: kept
 
-      settings = block_settings(7.0_wp, 0.7_wp, 0.5_wp, 0.8_wp, 0.3_wp)
+      settings = block_settings([7.0_wp, 0.7_wp, 0.5_wp, 0.8_wp, 0.3_wp])
       call settings%put("xi", 0.6_wp)
       settings%name = "quasistatic_slip_cut_off"
       call settings%put("zeta", 0.1_wp)
@@ -60,54 +60,56 @@ contains
       if (allocated(error)) return
       call expect(error, all(model%names == [character(len=7) :: "tau", "epsilon", "xi", "gamma", &
                                              "c", "zeta"]), "names")
-      call expect_close(error, model%numbers, [7.0_wp, 0.7_wp, 0.6_wp, 0.8_wp, 0.3_wp, 0.1_wp], &
-                        0.0_wp, "numbers")
-      call expect_close(error, model%past, [0.0_wp, 0.0_wp, 0.0_wp], 0.0_wp, "rest")
-
+      call expect_close(error, [model%numbers, model%past], &
+                        [7.0_wp, 0.7_wp, 0.6_wp, 0.8_wp, 0.3_wp, 0.1_wp, 0.0_wp, 0.0_wp, 0.0_wp], &
+                        0.0_wp, "numbers, and rest")
       least = [0.0_wp, nearest(-1.0_wp, 1.0_wp), tiny(1.0_wp), nearest(huge(1.0_wp), -1.0_wp), &
                0.0_wp]
-      settings = block_settings(least(1), least(2), least(3), least(4), least(5))
-      call settings%open("input.nml: ", model, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
-      call expect_close(error, model%numbers, least, 0.0_wp, "ends of the ranges")
-      call expect(error, size(model%lag) == 0, "no delay")
-      call settings%open("input.nml: ", model, failure, keep_delays=.true.)
-      call expect(error, size(model%lag) == 1, "a delay of 0 that is kept")
+      settings = block_settings(least)
+      do kept = 0, 1
+         call settings%open("input.nml: ", model, failure, keep_delays=kept == 1)
+         call expect_success(error, failure)
+         if (allocated(error)) return
+         call expect_close(error, model%numbers, least, 0.0_wp, "ends of the ranges")
+         call expect(error, size(model%lag) == kept, "a delay of 0 only if it is kept")
+      end do
    end subroutine test_models
 
    !> The message has the place, the key, the value and the range; of several errors the first.
+   !> tests/test_programs.py has other names.
    subroutine test_refused_models(error)
       type(error_type), allocatable, intent(out) :: error
-      character(len=*), parameter :: at_least_0 = "; expected a finite number >= 0.0", &
-                                     above_0 = "; expected a finite number > 0.0"
+      character(len=*), parameter :: at_least_0 = "; expected a finite number >= 0.0"
+      real(wp), parameter :: good(5) = [1.0_wp, 0.5_wp, 0.5_wp, 0.8_wp, 0.0_wp]
+      real(wp), parameter :: bad(4) = [-0.1_wp, -1.0_wp, 0.0_wp, -0.5_wp]
+      character(len=7), parameter :: words(4) = [character(len=7) :: "tau", "epsilon", "xi", "c"], &
+                                     ranges(4) = [character(len=7) :: ">= 0.0", "> -1.0", &
+                                                  "> 0.0", ">= 0.0"]
       type(model_settings_type) :: settings
-      real(wp) :: infinity, no_number
+      integer :: i
 
-      infinity = ieee_value(1.0_wp, ieee_positive_inf)
-      no_number = ieee_value(1.0_wp, ieee_quiet_nan)
-      call refuse(block_settings(-0.1_wp, 0.5_wp, 0.5_wp, 0.8_wp, 0.0_wp), "tau = -0.1"//at_least_0)
-      call refuse(block_settings(infinity, 0.5_wp, 0.5_wp, 0.8_wp, 0.0_wp), at_least_0)
-      call refuse(block_settings(1.0_wp, -1.0_wp, 0.5_wp, 0.8_wp, 0.0_wp), &
-                  "epsilon = -1.0; expected a finite number > -1.0")
-      call refuse(block_settings(1.0_wp, 0.5_wp, 0.0_wp, 0.8_wp, 0.0_wp), "xi = 0.0"//above_0)
-      call refuse(block_settings(1.0_wp, 0.5_wp, 0.5_wp, no_number, 0.0_wp), &
-                  "gamma = NaN"//above_0//" (NaN: missing, or not a number)")
-      call refuse(block_settings(1.0_wp, 0.5_wp, 0.5_wp, 0.8_wp, -0.5_wp), "c = -0.5"//at_least_0)
-      call refuse(block_settings(1.0_wp, 0.5_wp, 0.5_wp, 0.8_wp), "c is missing"//at_least_0)
-      call refuse(block_settings(-1.0_wp, -2.0_wp, -3.0_wp, -4.0_wp), "tau = -1.0"//at_least_0)
+      do i = 1, 4
+         settings = block_settings(good)
+         call settings%put(trim(words(i)), bad(i))
+         call refuse(settings, trim(words(i))//" = "//text(bad(i))//"; expected a finite number " &
+                     //trim(ranges(i)))
+      end do
+      call settings%put("c", 0.0_wp)
+      call settings%put("tau", ieee_value(1.0_wp, ieee_positive_inf))
+      call refuse(settings, at_least_0)
+      settings = block_settings(good)
+      call settings%put("gamma", ieee_value(1.0_wp, ieee_quiet_nan))
+      call refuse(settings, "gamma = NaN; expected a finite number > 0.0 (NaN: missing, or not a " &
+                  //"number)")
+      call refuse(block_settings(good(:4)), "c is missing"//at_least_0)
+      call refuse(block_settings([-1.0_wp, -2.0_wp, -3.0_wp, -4.0_wp]), "tau = -1.0"//at_least_0)
 
-      settings = block_settings(1.0_wp, 0.5_wp, 0.5_wp, 0.8_wp, 0.0_wp)
+      settings = block_settings(good)
       settings%blocks = 2
       call refuse(settings, "blocks = 2 of the model slip_cut_off; expected 1, since it has no " &
                   //"second difference")
-      call settings%put("zeta", 0.1_wp)
-      call refuse(settings, "parameter of the model slip_cut_off = 'zeta'; expected one of " &
-                  //"'tau' 'epsilon' 'xi' 'gamma' 'c'")
-      settings%name = "slip"
-      call refuse(settings, "model = 'slip'; expected one of 'ageing_delayed_logarithm'")
 
-      settings = block_settings(1.0_wp, 0.5_wp, 0.5_wp, 0.8_wp, 0.0_wp)
+      settings = block_settings(good)
       settings%name = "chain_slip_cut_off"
       call settings%put("kappa", 1.0_wp)
       settings%blocks = 0
@@ -118,12 +120,6 @@ contains
       settings%ends = "open"
       call refuse(settings, "ends = 'open'; expected one of 'free' 'ring' 'plate'")
 
-      ! a delay without a range of its own
-      settings = model_settings_type(name="made_decay")
-      call settings%put("lag", -1.0_wp)
-      call settings%put("a", 1.0_wp)
-      call settings%put("b", 1.0_wp)
-      call refuse(settings, "delay 1 of the model = -1.0"//at_least_0)
       call refuse(model_settings_type(name="made_enzyme"), "the model made_enzyme has no state " &
                   //"at rest; expected one with steady_state in its definition", at_rest=.true.)
 
@@ -144,11 +140,14 @@ contains
    end subroutine test_refused_models
 
    !> Values by names in any order, of a state or of its exponential. Files show the exponential.
+   !> Values are given along a ring, and states are where its blocks stand when it is folded.
    subroutine test_histories(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
       type(history_type) :: history
-      type(model_type) :: block
+      type(model_type) :: block, ring
+      integer, parameter :: folded(5) = [1, 5, 2, 4, 3]
+      integer :: i
       real(wp), parameter :: values(3, 2) = reshape( &
          [1.5_wp, 0.1_wp, -0.2_wp, tiny(1.0_wp), -1.0e300_wp, 0.0_wp], [3, 2])
 
@@ -159,8 +158,8 @@ contains
                         history, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
-      call expect(error, history%count() == 2, "two histories")
-      call expect(error, all(history%names == [character(len=5) :: "theta", "u", "v"]), "names")
+      call expect(error, history%count() == 2 .and. &
+                  all(history%names == [character(len=5) :: "theta", "u", "v"]), "names")
       call expect_close(error, [history%values(:, 1, :)], [values([2, 3, 1], :)], 0.0_wp, "values")
       call expect_close(error, history%past(block, 1), [0.1_wp, -0.2_wp, log(1.5_wp)], 0.0_wp, &
                         "states")
@@ -171,40 +170,26 @@ contains
       call expect_close(error, history%past(block, 1), [4.0_wp, 3.0_wp, -2.0_wp], 0.0_wp, &
                         "a state by its own name")
       call expect_close(error, history%values(3, 1, 1), exp(-2.0_wp), 0.0_wp, "its exponential")
-   end subroutine test_histories
-
-   !> Values are given along a ring, and states are where its blocks stand when it is folded.
-   subroutine test_ring(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(history_type) :: history
-      type(model_type) :: ring
-      integer, parameter :: folded(5) = [1, 5, 2, 4, 3]
-      integer :: i
-
       ring = build_block(1.0_wp, 0.5_wp, 0.5_wp, 0.8_wp, law="chain_slip_cut_off", &
                          own=[0.0_wp, 1.0_wp], blocks=5, ends="ring")
       call read_history("input.nml: ", ring, ["w    ", "theta", "u    "], &
                         [(real([3*i, 3*i + 1, 3*i + 2], wp), i=1, 10)], history, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
-      call expect(error, history%count() == 2, "two histories")
       call expect_close(error, history%past(ring, 2), &
-                        [(real(3*folded(i) + 15 + [1, 2, 0], wp), i=1, 5)], 0.0_wp, "past")
-   end subroutine test_ring
+                        [(real(3*folded(i) + 15 + [1, 2, 0], wp), i=1, 5)], 0.0_wp, "a ring")
+   end subroutine test_histories
 
    !> The message has the place, the name, the value and the range.
    subroutine test_refused_histories(error)
       type(error_type), allocatable, intent(out) :: error
       character(len=5), parameter :: names(3) = [character(len=5) :: "theta", "u", "v"]
       type(model_type) :: block
-      real(wp) :: infinity, no_number
 
-      infinity = ieee_value(1.0_wp, ieee_positive_inf)
-      no_number = ieee_value(1.0_wp, ieee_quiet_nan)
       block = build_block(1.0_wp, 0.5_wp, 0.5_wp, 0.8_wp)
-      call refuse(names, [infinity, 0.0_wp, 1.0_wp], "history of theta = ")
-      call refuse(names, [0.0_wp, no_number, 1.0_wp], "missing")
+      call refuse(names, [ieee_value(1.0_wp, ieee_positive_inf), 0.0_wp, 1.0_wp], &
+                  "history of theta = ")
+      call refuse(names, [0.0_wp, ieee_value(1.0_wp, ieee_quiet_nan), 1.0_wp], "missing")
       call refuse(names, [0.0_wp, 0.0_wp, 0.0_wp], &
                   "history of v = 0.0; expected a finite number > 0.0")
       call refuse(names, [0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, -1.0_wp], "history of v = -1.0")

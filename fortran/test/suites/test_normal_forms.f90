@@ -1,36 +1,38 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Normal forms beyond the first Lyapunov coefficient.
+!> Normal forms of Hopf points: published coefficients, coefficients in closed form, and those that
+!> do not change with coordinates or units.
 module test_normal_forms
-   use block_builder, only: block_at
+   use block_builder, only: block_at, made
    use centre_manifold, only: normal_form_coefficient
-   use closed_form, only: block_with_pair
    use dde_errors, only: failure_type => error_type, text
+   use dde_kinds, only: wp
    use double_hopf, only: double_hopf_type, find_double_hopf, word_length
    use expectations, only: expect, expect_close, expect_success
-   use known_models, only: block_by_values, duffing_with_pair, known_model, layers, lienard, &
-                           neurons, quadratic, transformed
-   use dde_kinds, only: wp
+   use hopf_normal_form, only: first_lyapunov_coefficient
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use model_problem, only: model_type
-   use normal_form, only: first_lyapunov_coefficient
+   use model_roots, only: find_rightmost
+   use paper_equations, only: block_with_pair
    use pseudo_random, only: uniform
    implicit none (type, external)
    private
    public :: collect_normal_forms
+
+   real(wp), parameter :: pi = acos(-1.0_wp)
 
 contains
 
    subroutine collect_normal_forms(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("first order of the series is l1", test_l1), &
-                   new_unittest("planar systems", test_planar), &
-                   new_unittest("transformed normal form", test_transformed), &
+      testsuite = [new_unittest("planar systems", test_planar), &
+                   new_unittest("other coordinates", test_coordinates), &
+                   new_unittest("published l1", test_published_l1), &
                    new_unittest("published second coefficients", test_published_l2), &
                    new_unittest("published double Hopf points", test_published_double), &
                    new_unittest("cases of the unfolding", test_unfolding), &
                    new_unittest("tori of the amplitude equations", test_amplitudes), &
-                   new_unittest("derivatives of the block", test_block), &
+                   new_unittest("the block in v, l1 and c2", test_block), &
                    new_unittest("the block with large gamma", test_large_gamma)]
    end subroutine collect_normal_forms
 
@@ -46,72 +48,81 @@ contains
       call expect_success(error, failure)
    end function coefficient
 
-   !> Of z^2 conj z, over omega, against the other program.
-   subroutine test_l1(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      complex(wp) :: c1
-      real(wp) :: l1, omega, p(4)
-      integer :: i, k
-
-      do i = 1, 10
-         omega = 0.15_wp*i
-         do k = 1, 2
-            p = block_with_pair(omega, 0.5_wp, 0.8_wp, k)
-            call first_lyapunov_coefficient(block_at(p), omega, l1, failure)
-            call expect_success(error, failure)
-            c1 = coefficient(block_at(p), [omega], [2, 1], error)
-            call expect_close(error, real(c1)/omega, l1, 1.0e-12_wp*(1.0_wp + abs(l1)), "l1")
-         end do
-      end do
-   end subroutine test_l1
-
-   !> Lienard's equation without cubic term by averaging: for the amplitude A,
-   !> A' = -(5/16) a5 A^5, and A = sqrt(2) |z|. The quadratic system: the focal values of Bautin
-   !> (1952), V3 = -(pi/4) l5 (l3 - l6) and V5 = (pi/24) l2 l4 (l3 - l6) [l4 + 5 (l3 - l6)], with
-   !> A' = (V3 A^3 + V5 A^5)/(2 pi), V5 where l5 = 0.
+   !> Lienard's equation by averaging: for the amplitude A, A' = -(5/16) a5 A^5, and A = sqrt(2)
+   !> |z|. The quadratic system: the focal values of Bautin (1952), V3 = -(pi/4) l5 (l3 - l6) and V5
+   !> = (pi/24) l2 l4 (l3 - l6) [l4 + 5 (l3 - l6)], with A' = (V3 A^3 + V5 A^5)/(2 pi), V5 where l5
+   !> = 0.
    subroutine test_planar(error)
       type(error_type), allocatable, intent(out) :: error
-      real(wp), parameter :: pi = acos(-1.0_wp), a5 = 0.3_wp
-      complex(wp) :: c1, c2
-      real(wp) :: l(6)
+      real(wp), parameter :: at_0(2) = 0.0_wp, l2 = 0.3_wp, l3 = 0.5_wp, l4 = -0.7_wp, &
+                             l5 = 0.4_wp, l6 = 1.1_wp, a5 = 0.3_wp
+      complex(wp) :: c
 
-      c2 = coefficient(known_model(lienard, [0.0_wp, a5]), [1.0_wp], [3, 2], error)
-      call expect_close(error, real(c2), -1.25_wp*a5, 1.0e-9_wp, "Re c2 of Lienard")
-      l = [0.0_wp, 0.3_wp, 0.5_wp, -0.7_wp, 0.0_wp, 1.1_wp]
-      associate (v5 => pi/24.0_wp*l(2)*l(4)*(l(3) - l(6))*(l(4) + 5.0_wp*(l(3) - l(6))))
-         c2 = coefficient(known_model(quadratic, l), [1.0_wp], [3, 2], error)
-         call expect_close(error, real(c2), 2.0_wp*v5/pi, 1.0e-9_wp, "Re c2 of Bautin")
-      end associate
-      l(5) = 0.4_wp
-      c1 = coefficient(known_model(quadratic, l), [1.0_wp], [2, 1], error)
-      call expect_close(error, real(c1), -0.25_wp*l(5)*(l(3) - l(6)), 1.0e-9_wp, "Re c1 of Bautin")
+      c = coefficient(made("made_planar", [spread(0.0_wp, 1, 5), a5], at_0), [1.0_wp], [3, 2], &
+                      error)
+      call expect_close(error, real(c), -1.25_wp*a5, 1.0e-9_wp, "Re c2 of Lienard")
+      c = coefficient(made("made_planar", [l2, l3, l4, 0.0_wp, l6, 0.0_wp], at_0), [1.0_wp], &
+                      [3, 2], error)
+      call expect_close(error, real(c), l2*l4*(l3 - l6)*(l4 + 5.0_wp*(l3 - l6))/12.0_wp, &
+                        1.0e-9_wp, "Re c2 of Bautin")
+      c = coefficient(made("made_planar", [l2, l3, l4, l5, l6, 0.0_wp], at_0), [1.0_wp], [2, 1], &
+                      error)
+      call expect_close(error, real(c), -0.25_wp*l5*(l3 - l6), 1.0e-9_wp, "Re c1 of Bautin")
    end subroutine test_planar
 
-   !> Coefficients are the same after nonlinear changes of coordinates near the identity, but for
-   !> Im c2; with eigenvectors of length 1 those of order 3 are doubled, of order 5 fourfold.
-   subroutine test_transformed(error)
+   !> Coefficients are the same after nonlinear changes of coordinates, but for Im c2. There y4 = x4
+   !> + x2, so that |z1|^2 = (4/3) |zeta1|^2 and |z2|^2 = 2 |zeta2|^2 with eigenvectors of length 1.
+   subroutine test_coordinates(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
       type(double_hopf_type) :: form
-      type(transformed) :: model
-      complex(wp) :: c2, f(2), g(2, 2)
-      real(wp), parameter :: omega(2) = [1.0_wp, sqrt(2.0_wp)]
-      integer :: j
+      type(model_type) :: model
+      complex(wp) :: c2
+      real(wp), parameter :: omega(2) = [1.0_wp, sqrt(2.0_wp)], units(2) = [4.0_wp/3, 2.0_wp]
+      complex(wp), parameter :: f(2) = [(0.6_wp, 0.3_wp), (-0.2_wp, 0.3_wp)]
+      complex(wp), parameter :: g(2, 2) = reshape([(-0.3_wp, 0.2_wp), (0.9_wp, 0.1_wp), &
+                                                   (0.5_wp, -0.7_wp), (-0.4_wp, 0.6_wp)], [2, 2])
+      integer :: j, k
 
-      g = reshape([(-0.3_wp, 0.2_wp), (0.9_wp, 0.1_wp), (0.5_wp, -0.7_wp), (-0.4_wp, 0.6_wp)], &
-                  [2, 2])
-      f = [(0.6_wp, 0.3_wp), (-0.2_wp, 0.3_wp)]
-      model = transformed(omega, g, f)
+      model = made("made_waves", [1.0_wp, 0.0_wp, 0.0_wp, 0.6_wp, 0.7_wp, 0.0_wp, omega(1), &
+                                  0.0_wp, omega(2), ((g(j, k)%re, g(j, k)%im, j=1, 2), k=1, 2), &
+                                  0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, (f(j)%re, f(j)%im, j=1, 2)], &
+                   spread(0.0_wp, 1, 4))
       call find_double_hopf(model, omega, form, failure)
       call expect_success(error, failure)
-      call expect_close(error, abs(pack(form%g - 2.0_wp*g, .true.)), spread(0.0_wp, 1, 4), &
-                        1.0e-11_wp, "error of g_jk")
+      call expect_close(error, abs(pack(form%g - g*spread(units, 1, 2), .true.)), &
+                        spread(0.0_wp, 1, 4), 1.0e-11_wp, "error of g_jk")
       do j = 1, 2
          c2 = coefficient(model, [omega(j)], [3, 2], error)
-         call expect_close(error, real(c2), 4.0_wp*real(f(j)), 1.0e-9_wp, "Re c2")
+         call expect_close(error, real(c2), units(j)**2*real(f(j)), 1.0e-9_wp, "Re c2")
       end do
-   end subroutine test_transformed
+   end subroutine test_coordinates
+
+   !> Two neurons (Shayer and Campbell 2000, SIAM J. Appl. Math. 61, 673) with the weight a21 and
+   !> the delay of a neuron for itself.
+   type(model_type) function neurons(a21, tau_s) result(model)
+      real(wp), intent(in) :: a21, tau_s
+
+      model = made("made_neuron", [0.5_wp, -1.0_wp, 1.0_wp, a21, 0.2_wp, 0.2_wp, tau_s], &
+                     [0.1_wp, 0.1_wp])
+   end function neurons
+
+   !> "neuron" of DDE-BIFTOOL: omega and l1.
+   subroutine test_published_l1(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      complex(wp), allocatable :: roots(:)
+      real(wp) :: l1
+
+      call find_rightmost(neurons(0.8071232250_wp, 1.5_wp), 2, roots, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect_close(error, [roots(1)%re, roots(1)%im], [0.0_wp, 0.7819651621_wp], 1.0e-9_wp, &
+                        "the pair")
+      call first_lyapunov_coefficient(neurons(0.8071232250_wp, 1.5_wp), roots(1)%im, l1, failure)
+      call expect_success(error, failure)
+      call expect_close(error, l1, -0.39615712_wp, 1.0e-8_wp, "l1")
+   end subroutine test_published_l1
 
    !> The two generalised Hopf points of the delayed oscillator of Duffing that DDE-BIFTOOL's
    !> demonstration minimal_demo publishes, in its state and in one with quadratic terms.
@@ -140,6 +151,19 @@ contains
       end do
    end subroutine test_published_l2
 
+   !> Duffing's oscillator at a frequency above sqrt(a) with this pair on the axis, on branch k.
+   type(model_type) function duffing_with_pair(omega, k, bend) result(model)
+      real(wp), intent(in) :: omega, bend
+      integer, intent(in) :: k
+      real(wp), parameter :: a = 0.5_wp, d = 0.05_wp
+      real(wp) :: b, excess
+
+      excess = omega**2 - a
+      b = (excess**2 + (d*omega)**2)/(2.0_wp*excess)
+      model = made("made_duffing", [(atan2(-d*omega, b - excess) + 2.0_wp*pi*k)/omega, a, b, d, &
+                                    bend], [0.5_wp, 0.0_wp])
+   end function duffing_with_pair
+
    !> The points of DDE-BIFTOOL's demonstrations neuron (demo1_simple) and nmfm_demo.
    subroutine test_published_double(error)
       type(error_type), allocatable, intent(out) :: error
@@ -149,14 +173,14 @@ contains
          [(-0.030007_wp, -0.0094837_wp), (-0.11318_wp, 0.037831_wp), &
           (-0.060013_wp, -0.018967_wp), (-0.056592_wp, 0.018915_wp)]
 
-      call find_double_hopf(known_model(neurons, [0.2072962626_wp, 8.6340742187_wp]), &
+      call find_double_hopf(neurons(0.2072962626_wp, 8.6340742187_wp), &
                             [0.3287154065_wp, 0.9157115883_wp], form, failure)
       call expect_success(error, failure)
       call expect_close(error, abs(pack(form%g, .true.) - known), spread(0.0_wp, 1, 4), 1.0e-5_wp, &
                         "error of the neurons' g_jk")
       call expect_close(error, form%ratios(), [1.0605_wp, 3.7719_wp], 5.0e-5_wp, "theta, delta")
-      call find_double_hopf(known_model(layers, [0.0899922748_wp, 0.7735178974_wp, &
-                                                 12.7_wp, 20.2_wp]), &
+      call find_double_hopf(made("made_layers", [0.0899922748_wp, 0.7735178974_wp, 12.7_wp, &
+                                                 20.2_wp], [0.1_wp, 0.1_wp]), &
                             [0.1560058562_wp, 0.2900084424_wp], form, failure)
       call expect_success(error, failure)
       call expect_close(error, form%ratios(), [1.5255011842_wp, 1.6984697752_wp], 5.0e-9_wp, &
@@ -228,33 +252,32 @@ contains
       call expect(error, all(seen > 20), "all kinds occur")
    end subroutine test_amplitudes
 
-   !> The derivatives of the block by formula and by values, and its second coefficient in ln v and
-   !> in v, which are known to agree.
+   !> c1 of z^2 conj z over omega is l1 of the other program; c1 and c2 of the block in ln v, with
+   !> derivatives of up to order 5, are those in v.
    subroutine test_block(error)
       type(error_type), allocatable, intent(out) :: error
-      type(model_type) :: block
-      type(block_by_values) :: in_v, in_w
-      complex(wp) :: by_formula(3), by_values(3), c2(2), x(3, 2, 5)
-      real(wp) :: omega, p(4)
+      type(failure_type), allocatable :: failure
+      type(model_type) :: in_v
+      complex(wp) :: c(2), c_in_v(2)
+      real(wp) :: l1, omega, p(4), units(2)
       integer :: i, k
 
-      x = reshape([(cmplx(sin(1.0_wp*i), cos(3.0_wp*i), kind=wp), i=1, size(x))], shape(x))
       do i = 1, 10
          omega = 0.15_wp*i
-         p = block_with_pair(omega, 0.5_wp, 0.8_wp, 2)
-         block = block_at(p)
-         in_w = block_by_values(p, .false.)
-         in_v = block_by_values(p, .true.)
-         do k = 2, 5
-            by_formula = block%derivative(x(:, :, :k))
-            by_values = in_w%derivative(x(:, :, :k))
-            call expect_close(error, maxval(abs(by_formula - by_values)), 0.0_wp, &
-                              1.0e-10_wp*maxval(abs(by_formula)), "error of order "//text(k))
+         do k = 1, 2
+            p = block_with_pair(omega, 0.5_wp, 0.8_wp, k)
+            in_v = made("made_block_in_v", p, spread(0.0_wp, 1, 3), keep_delays=.true.)
+            call first_lyapunov_coefficient(block_at(p), omega, l1, failure)
+            call expect_success(error, failure)
+            c = [coefficient(block_at(p), [omega], [2, 1], error), &
+                 coefficient(block_at(p), [omega], [3, 2], error)]
+            c_in_v = [coefficient(in_v, [omega], [2, 1], error), &
+                      coefficient(in_v, [omega], [3, 2], error)]
+            units = 1.0_wp + abs(c)
+            call expect_close(error, real(c(1))/omega, l1, 1.0e-12_wp*(1.0_wp + abs(l1)), "l1")
+            call expect_close(error, real(c_in_v)/units, real(c)/units, 1.0e-8_wp, &
+                              "c1 and c2 at omega = "//text(omega))
          end do
-         c2(1) = coefficient(block, [omega], [3, 2], error)
-         c2(2) = coefficient(in_v, [omega], [3, 2], error)
-         call expect_close(error, real(c2(2)), real(c2(1)), 1.0e-8_wp*(1.0_wp + abs(c2(1))), &
-                           "Re c2 at omega = "//text(omega))
       end do
    end subroutine test_block
 

@@ -1,22 +1,21 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Single periodic orbits, against exact solutions and other discretisations.
 module test_periodic_orbits
-   use block_builder, only: build_block, index_of_ln_v
+   use block_builder, only: build_block, index_of_ln_v, made
    use collocation_basis, only: collocation_basis_type
-   use dde, only: continuation_type
+   use dde, only: continuation_type, integration_result
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use floquet_multipliers, only: multipliers_type
-   use known_models, only: delayed_sine, known_model
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use model_problem, only: model_type
    use orbit_equations, only: newton_type
    use orbit_mesh, only: adapted_mesh
-   use orbit_runs, only: advance, correct, cycle_of_block, new_orbit
+   use orbit_runs, only: correct, cycle_of_block, new_orbit, sine_orbit
    use orbit_start, only: orbit_of_trajectory
    use periodic_orbit, only: periodic_orbit_type
-   use solving, only: at_tolerance
+   use solving, only: at_tolerance, run
    implicit none (type, external)
    private
    public :: collect_periodic_orbits
@@ -62,29 +61,31 @@ contains
    end subroutine test_points
 
    !> The orbit sqrt(rho) sin t from a disturbed one: the error of the state is of order m + 1 where
-   !> the delay does not fall on the mesh.
+   !> the delay does not fall on the mesh. The phase is that of the nearest sine.
    subroutine test_order(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
       type(newton_type) :: newton
       type(periodic_orbit_type) :: orbit
-      real(wp) :: off(2), period_off(2)
-      integer, parameter :: intervals(2) = [9, 19]
-      integer :: i, m
+      real(wp) :: off(2), part(2), period_off(2), state(1)
+      integer, parameter :: intervals(2) = [9, 19], places = 1000
+      integer :: i, j, m
 
       do m = 3, 5
          do i = 1, 2
-            orbit = new_orbit(m, intervals(i), 6.3_wp, [0.25_wp])
-            orbit%nodes = reshape(0.51_wp*sin(2.0_wp*pi*orbit%node_times()), &
-                                  [1, intervals(i)*m + 1])
-            call correct(known_model(delayed_sine, orbit%parameters), orbit, newton, failure)
+            orbit = sine_orbit(m, intervals(i), 0.51_wp, 6.3_wp, [-0.75_wp, -1.0_wp, 0.0_wp])
+            call correct(made("made_circle", orbit%parameters, [1.0_wp]), orbit, newton, failure)
             call expect_success(error, failure)
             if (allocated(error)) return
             call expect(error, newton%iterations <= 5, "Newton's method is fast")
             period_off(i) = abs(orbit%period - 2.0_wp*pi)
-            ! the phase is that of the nearest sine
+            part = 0.0_wp
+            do j = 1, places
+               state = orbit%at(real(j, wp)/places)
+               part = part + state(1)*[sin(2.0_wp*pi*j/places), cos(2.0_wp*pi*j/places)]
+            end do
             off(i) = maxval(abs(orbit%nodes(1, :) - 0.5_wp*sin( &
-                                2.0_wp*pi*orbit%node_times() + phase_of(orbit))))
+                                2.0_wp*pi*orbit%node_times() + atan2(part(2), part(1)))))
          end do
          call expect_between(error, log(off(1)/off(2))/log(19.0_wp/9), m + 0.6_wp, m + 2.0_wp, &
                              "order of the state, degree "//text(m))
@@ -92,21 +93,6 @@ contains
                              m + 0.6_wp, 2*m + 1.5_wp, "order of the period, degree "//text(m))
       end do
    end subroutine test_order
-
-   !> Phase of the sine that is nearest to an orbit of one component.
-   real(wp) function phase_of(orbit) result(value)
-      type(periodic_orbit_type), intent(in) :: orbit
-      real(wp) :: part(2), state(1)
-      integer, parameter :: places = 1000
-      integer :: i
-
-      part = 0.0_wp
-      do i = 1, places
-         state = orbit%at(real(i, wp)/places)
-         part = part + state(1)*[sin(2.0_wp*pi*i/places), cos(2.0_wp*pi*i/places)]
-      end do
-      value = atan2(part(2), part(1))
-   end function phase_of
 
    !> Without delay the product of all multipliers is exp(integral of the divergence) (Liouville).
    subroutine test_no_delay(error)
@@ -198,15 +184,16 @@ contains
    !> negative, or shifted by a sixth of the period, it lies on the other side of the short cycle.
    subroutine test_shorter(error)
       type(error_type), allocatable, intent(out) :: error
-      type(periodic_orbit_type) :: large, negative, shifted, small
+      type(periodic_orbit_type) :: large, small
 
       large = wave(0.3_wp, 0.0_wp)
       small = wave(0.01_wp, 0.0_wp)
-      negative = wave(-0.01_wp, 0.0_wp)
-      shifted = wave(0.01_wp, 1.0_wp/6)
       call expect(error, large%opposite_parts(small) == 0, "on one side")
-      call expect(error, negative%opposite_parts(small) == 3, "opposite beside thirds")
-      call expect(error, shifted%opposite_parts(small) == 3, "shifted beside thirds")
+      large = wave(-0.01_wp, 0.0_wp)
+      call expect(error, large%opposite_parts(small) == 3, "opposite beside thirds")
+      large = wave(0.01_wp, 1.0_wp/6)
+      call expect(error, large%opposite_parts(small) == 3, "shifted beside thirds")
+      large = wave(0.3_wp, 0.0_wp)
       call expect(error, small%comes_to_shorter(large), "towards the short cycle")
       call expect(error, .not. large%comes_to_shorter(small), "away from it")
       call expect(error, .not. large%comes_to_shorter(large), "far from it")
@@ -228,17 +215,18 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(continuation_type) :: arrived
       type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
       type(newton_type) :: newton
       type(periodic_orbit_type) :: orbit
       type(model_type) :: block
 
-      orbit = new_orbit(4, 10, 6.0_wp, [-0.5_wp])
-      orbit%nodes = reshape(sin(2.0_wp*pi*orbit%node_times()), [1, 41])
+      orbit = sine_orbit(4, 10, 1.0_wp, 6.0_wp, [-1.5_wp, -1.0_wp, 0.0_wp])
       newton%most_iterations = 4
-      call correct(known_model(delayed_sine, orbit%parameters), orbit, newton, failure)
+      call correct(made("made_circle", orbit%parameters, [1.0_wp]), orbit, newton, failure)
       call expect_failure(error, failure, "Newton's method")
       block = build_block(tau=0.0_wp, epsilon=0.1_wp, xi=0.5_wp, gamma=0.8_wp, v=1.1_wp)
-      call advance(block, 0.0_wp, 10.0_wp, arrived, error)
+      call run(error, block, 0.0_wp, 10.0_wp, at_tolerance(1.0e-8_wp), outcome, &
+               continuation=arrived)
       call orbit_of_trajectory(block, at_tolerance(1.0e-9_wp), arrived, index_of_ln_v, 1.0_wp, &
                                collocation_basis_type(4), 10, orbit, failure)
       call expect_failure(error, failure, "maxima")

@@ -2,7 +2,6 @@
 !> Planes of Hopf curves of the block as traced, and what is known of them in closed form.
 module traced_planes
    use block_builder, only: block_at, by_epsilon, by_gamma, by_tau, by_xi
-   use closed_form, only: closed_epsilon, closed_tau, closed_xi
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_success
@@ -10,6 +9,7 @@ module traced_planes
    use hopf_planes, only: curve_plane_type, middles
    use hopf_points, only: find_hopf_points, hopf_point_type, judge_points
    use mctc_env_testing, only: error_type
+   use paper_equations, only: closed_epsilon, closed_tau, closed_xi
    implicit none (type, external)
    private
    public :: find_points, known_numbers, known_place, new_plane, plane_number, planes, trace

@@ -46,34 +46,23 @@ contains
       class(model_type), intent(in) :: model
       real(wp), intent(in) :: y(:), z(:)
       character(len=*), intent(in) :: name
-      real(wp) :: by_y(size(y), size(y)), by_z(size(y), size(z)), shift_y(size(y)), shift_z(size(z))
+      real(wp) :: after(size(y)), before(size(y)), by_y(size(y), size(y)), &
+                  by_z(size(y), size(z)), columns(size(y), size(y) + size(z)), &
+                  shift(size(y) + size(z))
       integer :: i
 
       call find_slopes(model, y, z, by_y, by_z)
-      shift_z = 0.0_wp
-      do i = 1, size(y)
-         shift_y = 0.0_wp
-         shift_y(i) = h
-         call compare_column(by_y(:, i), "state "//text(i))
-      end do
-      shift_y = 0.0_wp
-      do i = 1, size(z)
-         shift_z = 0.0_wp
-         shift_z(i) = h
-         call compare_column(by_z(:, i), "delayed value "//text(i))
-      end do
-
-   contains
-
-      subroutine compare_column(column, by)
-         real(wp), intent(in) :: column(:)
-         character(len=*), intent(in) :: by
-         real(wp), dimension(size(y)) :: after, before
-
-         call model%rhs(now, y + shift_y, z + shift_z, after)
-         call model%rhs(now, y - shift_y, z - shift_z, before)
-         call compare(error, column, (after - before)/(2.0_wp*h), good, name//", slope by "//by)
-      end subroutine compare_column
+      columns = reshape([by_y, by_z], shape(columns))
+      associate (n => size(y))
+         do i = 1, size(shift)
+            shift = 0.0_wp
+            shift(i) = h
+            call model%rhs(now, y + shift(:n), z + shift(n + 1:), after)
+            call model%rhs(now, y - shift(:n), z - shift(n + 1:), before)
+            call compare(error, columns(:, i), (after - before)/(2.0_wp*h), good, &
+                         name//", slope by state or delayed value "//text(i))
+         end do
+      end associate
    end subroutine check_jacobian
 
    !> Derivatives as full matrices.
@@ -109,6 +98,9 @@ contains
       class(model_type), intent(in) :: model
       real(wp), intent(in) :: y(:), z(:)
       character(len=*), intent(in) :: name
+      integer :: k
+      real(wp), parameter :: powers(0:degree) = [(place**k, k=0, degree)], &
+                             slopes(0:degree) = [0.0_wp, (k*place**(k - 1), k=1, degree)]
       real(wp) :: unit
       real(wp) :: expected(size(y)), of_y(0:degree, size(y)), of_z(0:degree, size(z))
 
@@ -117,10 +109,10 @@ contains
       of_y(0, :) = y
       of_z = delayed_series(z)
       call model%series(now, unit, degree, of_z, of_y)
-      call model%rhs(now + place*unit, value_of(of_y), value_of(of_z), expected)
+      call model%rhs(now + place*unit, matmul(powers, of_y), matmul(powers, of_z), expected)
       ! the first power left out is as large as the last one kept, and s is small
       associate (left_out => 100.0_wp*degree*maxval(abs(of_y(degree, :)))*place**degree)
-         call compare(error, slope_of(of_y), unit*expected, 1.0e-28_wp + left_out, &
+         call compare(error, matmul(slopes, of_y), unit*expected, 1.0e-28_wp + left_out, &
                       name//", slope of the series")
       end associate
    end subroutine check_series
@@ -182,7 +174,7 @@ contains
       class(model_type), intent(in) :: model
       character(len=*), intent(in) :: name
       real(wp), parameter :: wide = 1.0e-6_wp
-      real(wp) :: expected(model%n), mixed(model%n, 2), x(model%n, 1 + size(model%lag), 3)
+      real(wp) :: mixed(model%n, 2), x(model%n, 1 + size(model%lag), 3)
       integer :: i
 
       if (allocated(error)) return
@@ -190,24 +182,27 @@ contains
          x(:, :, i) = reshape(uniform(700 + i, size(x(:, :, 1)), -1.0_wp, 1.0_wp), &
                               shape(x(:, :, 1)))
       end do
-      expected = slope_at(0.0_wp*x(:, :, 1), x(:, :, 1))
-      call compare(error, real(model%derivative(cmplx(x(:, :, :1), kind=wp))), expected, good, &
-                   name//", first form")
-      expected = (slope_at(h*x(:, :, 2), x(:, :, 1)) &
-                  - slope_at(-h*x(:, :, 2), x(:, :, 1)))/(2.0_wp*h)
-      call compare(error, real(model%derivative(cmplx(x(:, :, :2), kind=wp))), expected, good, &
-                   name//", second form")
+      call check(1, slope_at(0.0_wp*x(:, :, 1), x(:, :, 1)), good)
+      call check(2, (slope_at(h*x(:, :, 2), x(:, :, 1)) &
+                     - slope_at(-h*x(:, :, 2), x(:, :, 1)))/(2.0_wp*h), good)
       do i = 1, 2
          associate (way => (-1)**i*wide*x(:, :, 3))
             mixed(:, i) = (slope_at(way + wide*x(:, :, 2), x(:, :, 1)) &
                            - slope_at(way - wide*x(:, :, 2), x(:, :, 1)))/(2.0_wp*wide)
          end associate
       end do
-      expected = (mixed(:, 2) - mixed(:, 1))/(2.0_wp*wide)
-      call compare(error, real(model%derivative(cmplx(x, kind=wp))), expected, 1.0e-9_wp, &
-                   name//", third form")
+      call check(3, (mixed(:, 2) - mixed(:, 1))/(2.0_wp*wide), 1.0e-9_wp)
 
    contains
+
+      !> The form of an order.
+      subroutine check(order, expected, within)
+         integer, intent(in) :: order
+         real(wp), intent(in) :: expected(:), within
+
+         call compare(error, real(model%derivative(cmplx(x(:, :, :order), kind=wp))), expected, &
+                      within, name//", form of order "//text(order))
+      end subroutine check
 
       !> The Jacobian at a shift from the steady state, times a disturbance.
       function slope_at(shift, disturbance) result(slope)
@@ -326,30 +321,6 @@ contains
       end do
       series(0, :) = z
    end function delayed_series
-
-   !> Values of series at the place.
-   pure function value_of(series) result(values)
-      real(wp), intent(in) :: series(0:, :)
-      real(wp) :: values(size(series, 2))
-      integer :: k
-
-      values = 0.0_wp
-      do k = ubound(series, 1), 0, -1
-         values = values*place + series(k, :)
-      end do
-   end function value_of
-
-   !> Slopes of series at the place.
-   pure function slope_of(series) result(values)
-      real(wp), intent(in) :: series(0:, :)
-      real(wp) :: values(size(series, 2))
-      integer :: k
-
-      values = 0.0_wp
-      do k = ubound(series, 1), 1, -1
-         values = values*place + k*series(k, :)
-      end do
-   end function slope_of
 
    !> Numbers agree, relative to the largest.
    subroutine compare(error, met, expected, tolerance, what)

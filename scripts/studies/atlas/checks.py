@@ -10,7 +10,7 @@ from scripts.config.checks import (
     check_values,
     wrong,
 )
-from scripts.namelists.laws import HISTORY
+from scripts.models.models import HISTORY
 from scripts.studies.atlas.plan import part_of, refinements_of
 
 MOST_POINTS = 1_000_000

@@ -19,7 +19,7 @@ from scripts.drawing.hopf_plane import SCENE, SUBCRITICAL, draw_piece, mark_scen
 from scripts.drawing.special_points import STYLES, in_words, words_of
 from scripts.drawing.style import INK
 from scripts.drawing.wording import as_formulas, place_in_words, short, with_error
-from scripts.namelists.laws import is_of_block, is_on
+from scripts.models.records import is_of_block, is_on
 from scripts.tables.motion_rows import (
     axes_of,
     count_in_words,

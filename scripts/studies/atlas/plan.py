@@ -6,9 +6,9 @@ Formulas and sources: `attractors.f90`, `motion_classes.f90`, `section_motion.f9
 
 from pathlib import PurePath
 
-from scripts.namelists.attractor_surveys import survey_groups
 from scripts.plans.declare import LONG_RUN, Figure, Run, Study, Table
 from scripts.plans.scenes import curves_of, marked_scenes, plane_of
+from scripts.requests.attractor_surveys import survey_groups
 
 LEAST_DISTANCES = 6
 """Distances between the lines of a plane that are computed in full: those of the default grid, of

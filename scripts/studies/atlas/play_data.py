@@ -14,7 +14,8 @@ import xarray as xr
 from scripts.files.inputs import read
 from scripts.files.outputs import logged, written
 from scripts.files.tsv import read_table
-from scripts.namelists.laws import PAPER, is_of_block, law_of
+from scripts.models.models import PAPER
+from scripts.models.records import is_of_block, law_of
 from scripts.page.page_views import exponents, motion
 from scripts.tables.motion_rows import (
     COLOURS,

@@ -1,6 +1,6 @@
 """The atlas in the workflow: its parts and their namelists, its table, and no point twice.
 
-The suites refined_grid and attractor_points show which points of a refined plane are computed.
+The suite attractor_points shows which points of a refined plane are computed.
 """
 
 import math
@@ -19,7 +19,7 @@ from matplotlib.figure import Figure
 from conftest import Programs
 from scripts.drawing import class_map
 from scripts.files.tsv import read_table, write_table
-from scripts.namelists.write_namelist import write_namelist
+from scripts.requests.write_namelist import write_namelist
 from scripts.studies.atlas import figure as atlas
 from scripts.studies.atlas import play_data
 from scripts.studies.atlas.plan import groups, inputs, part_of

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from scripts.config.checks import check_histories, check_observation, wrong
-from scripts.namelists.laws import is_law
+from scripts.models.models import model_of
 
 
 def contradictions(config: dict) -> Iterator[str]:
@@ -15,6 +15,9 @@ def contradictions(config: dict) -> Iterator[str]:
     if study["observation"]["kept"] == 0:
         yield f"{place}: kept = 0; expected a whole number >= 1"
     for name, scene in config["scenes"].items():
-        if scene.get("attractors", {}).get("histories", 1) > 1 and not is_law(config, scene["law"]):
+        if (
+            scene.get("attractors", {}).get("histories", 1) > 1
+            and not model_of(config, scene).is_block
+        ):
             expected = "1: ranges of histories are those of the block"
             yield wrong(f"scene '{name}' attractors", scene["attractors"], "histories", expected)

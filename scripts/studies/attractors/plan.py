@@ -3,11 +3,11 @@
 Formulas and sources: `attractors.f90`, `motion_classes.f90`, `section_motion.f90`.
 """
 
-from scripts.namelists.attractor_surveys import drawn_histories, survey_groups
-from scripts.namelists.chains import histories_of
-from scripts.namelists.parameters import HISTORY
+from scripts.models.models import HISTORY
 from scripts.plans.declare import PAPER, Run, Study, Table
 from scripts.plans.scenes import blocks_of, paths_of_scenes, scenes_with
+from scripts.requests.attractor_surveys import drawn_histories, survey_groups
+from scripts.requests.parameters import histories_of
 
 
 def groups(config: dict, scene: str) -> dict:

@@ -8,7 +8,7 @@ from scripts.config.checks import (
     check_observation,
     check_own_history,
 )
-from scripts.namelists.laws import history_of
+from scripts.models.models import model_of
 
 
 def contradictions(config: dict) -> Iterator[str]:
@@ -23,5 +23,5 @@ def contradictions(config: dict) -> Iterator[str]:
         yield from check_own_history(config, where, place, "histories")
         yield from check_not_driven(config, where, place)
         if "histories" in place:
-            rules = history_of(config, place["law"])
+            rules = model_of(config, place).history
             yield from check_histories(f"{where} histories", place["histories"], rules)

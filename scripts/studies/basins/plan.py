@@ -1,8 +1,8 @@
 """Basins: the share of random histories that reaches each motion where several coexist."""
 
-from scripts.namelists.attractor_surveys import drawn_histories, survey_groups
-from scripts.namelists.laws import history_of
+from scripts.models.models import model_of
 from scripts.plans.declare import LONG_RUN, Run, Study, Table
+from scripts.requests.attractor_surveys import drawn_histories, survey_groups
 
 
 def groups(config: dict, place: str) -> dict:
@@ -10,7 +10,7 @@ def groups(config: dict, place: str) -> dict:
     basins = config["basins"]
     settings = basins["places"][place]
     ranges = settings.get("histories", basins["histories"])
-    histories = drawn_histories(basins["count"], ranges, history_of(config, settings["law"]))
+    histories = drawn_histories(basins["count"], ranges, model_of(config, settings).history)
     return survey_groups(config, "basins", place, place=settings, histories=histories)
 
 

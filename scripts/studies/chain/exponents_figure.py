@@ -8,7 +8,7 @@ from matplotlib.ticker import MaxNLocator
 from scripts.drawing import parameters
 from scripts.drawing.style import INK
 from scripts.drawing.wording import joined, place_in_words, short
-from scripts.namelists.parameters import PARAMETERS
+from scripts.models.models import PARAMETERS
 from scripts.studies.chain.table import exponents_of
 
 MARKS = ["o", "s", "^", "D", "v", "P"]

@@ -7,8 +7,8 @@ import numpy as np
 from scripts.files.inputs import DataArray, Dataset, read
 from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
-from scripts.namelists.laws import law_of
-from scripts.namelists.parameters import PARAMETERS
+from scripts.models.models import PARAMETERS
+from scripts.models.records import law_of
 from scripts.tables.exponent_signs import SIGNS
 
 ALIKE = 1e-6

@@ -10,9 +10,9 @@ from scipy.integrate import solve_ivp
 from conftest import ROOT
 from scripts.config.check_config import checked
 from scripts.files.read_config import ConfigError, read
-from scripts.namelists.chains import histories_of
-from scripts.namelists.program_groups import scene_groups
 from scripts.plans.studies import studies
+from scripts.requests.parameters import histories_of
+from scripts.requests.program_groups import scene_groups
 
 PLACE = {"tau": 5.0, "epsilon": 0.7, "xi": 0.5, "gamma": 0.8}
 

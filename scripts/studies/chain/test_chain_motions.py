@@ -6,8 +6,8 @@ from independent_chain import made_up_chain
 from made_up_results import NO, YES, assert_finding
 
 from scripts.config.check_config import checked
-from scripts.namelists.program_groups import scene_groups
 from scripts.plans.studies import studies
+from scripts.requests.program_groups import scene_groups
 from scripts.studies.chain import exponents_figure
 from scripts.studies.chain.finding import describe
 from scripts.studies.chain.table import (

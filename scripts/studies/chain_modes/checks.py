@@ -2,9 +2,9 @@
 
 from collections.abc import Iterator
 
-from scripts.config.checks import check_ends, window, wrong
-from scripts.config.ranges import range_of
-from scripts.namelists.laws import PREFIX, block_parameters, is_law
+from generator.ranges import range_of
+from scripts.config.checks import check_coupled, check_ends, window
+from scripts.models.models import block_parameters
 
 
 def contradictions(config: dict) -> Iterator[str]:
@@ -17,5 +17,4 @@ def contradictions(config: dict) -> Iterator[str]:
             place, "epsilon_window", plane["epsilon_window"], **range_of(known["epsilon"])
         )
         yield from window(place, "tau_window", plane["tau_window"], **range_of(known["tau"]))
-        if plane["law"].startswith(PREFIX) or not is_law(config, plane["law"]):
-            yield wrong(place, plane, "law", "a law with inertia, which chains have")
+        yield from check_coupled(config, place, plane)

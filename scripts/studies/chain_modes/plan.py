@@ -1,7 +1,7 @@
 """Where modes of a chain are unstable: Hopf curves of all modes over epsilon and tau."""
 
-from scripts.namelists.parameters import plane_group
 from scripts.plans.declare import Figure, Run, Study, Table
+from scripts.requests.parameters import plane_group
 
 
 def modes_of(config: dict) -> range:

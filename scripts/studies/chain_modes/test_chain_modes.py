@@ -9,7 +9,7 @@ import xarray as xr
 
 from scripts.config.check_config import checked
 from scripts.files.read_config import ConfigError
-from scripts.namelists.parameters import plane_group
+from scripts.requests.parameters import plane_group
 from scripts.studies.chain_modes.figure import critical_of
 from scripts.studies.chain_modes.plan import groups, modes_of
 from scripts.studies.chain_modes.table import mode_rows, stiffness_of

@@ -2,9 +2,9 @@
 
 from collections.abc import Iterator
 
+from generator.ranges import range_of
 from scripts.config.checks import check_line, check_rest, window
-from scripts.config.ranges import range_of
-from scripts.namelists.laws import block_parameters, parameters_of
+from scripts.models.models import block_parameters, model_of
 
 
 def contradictions(config: dict) -> Iterator[str]:
@@ -12,7 +12,7 @@ def contradictions(config: dict) -> Iterator[str]:
     study = config["cycles"]
     yield from check_curves("config cycles curves", study.get("curves", {}), block_parameters())
     for name, line in study["lines"].items():
-        place, known = f"config cycles lines {name}", parameters_of(config, line["law"])
+        place, known = f"config cycles lines {name}", model_of(config, line).parameters
         yield from check_line(config, place, line)
         yield from check_rest(config, place, line)
         yield from check_curves(f"{place} curves", line.get("curves", {}), known)

@@ -14,7 +14,7 @@ from scripts.drawing.along_parameter import mark_scenes, maxima_of
 from scripts.drawing.special_points import STYLES, in_words, words_of
 from scripts.drawing.style import FAINT, INK, PAGE, columns_of
 from scripts.drawing.wording import count, counted_at, place_in_words, short, words_of_state
-from scripts.namelists.laws import is_of_block
+from scripts.models.records import is_of_block
 from scripts.studies.cycles.branches import most_of, parts_of
 
 HEIGHT = 1.7

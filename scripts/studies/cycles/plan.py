@@ -7,9 +7,10 @@ Formulas and sources: `orbit_equations.f90`, `floquet_multipliers.f90`, `orbit_b
 from itertools import chain
 from pathlib import PurePath
 
-from scripts.namelists.parameters import histories_group, place_of, with_model
+from scripts.models.records import place_of
 from scripts.plans.declare import LONGEST, Figure, Run, Study, Table
 from scripts.plans.scenes import curves_of, marked_scenes
+from scripts.requests.parameters import histories_group, with_model
 
 
 def groups(config: dict, cycle_line: str) -> dict[str, dict]:

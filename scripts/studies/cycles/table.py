@@ -7,8 +7,8 @@ import xarray as xr
 from scripts.files.inputs import read
 from scripts.files.outputs import logged
 from scripts.files.tsv import as_digits, read_table, rows_by, write_table
-from scripts.namelists.laws import law_in_file, law_of
-from scripts.namelists.parameters import PARAMETERS
+from scripts.models.models import PARAMETERS
+from scripts.models.records import law_of
 from scripts.studies.cycles.branches import cycles_there, most_of
 from scripts.tables.attractor_tables import SAME_MAXIMUM
 from scripts.tables.motion_rows import UNDECIDED
@@ -36,7 +36,7 @@ def rows_of(line: str, cycles: xr.Dataset, swept: list[dict]) -> list[dict]:
         # beside the line its curve's parameters have other values
         axes = [key for key in cycles.attrs["parameters"].split() if f"curve_{key}" in cycles]
         cusp = place(cycles.isel(cusp=i), "cusp", axes)
-        law = law_in_file(cycles.attrs, *axes)
+        law = law_of(cycles.attrs, *axes)
         rows.append({"law": law, "kind": "cusp", **cusp, "confirmed": "not simulated"})
     return [{"of": line, "law": law_of(cycles.attrs), **row} for row in rows]
 

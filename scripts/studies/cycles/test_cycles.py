@@ -23,7 +23,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from scripts.drawing.special_points import STYLES
-from scripts.namelists.laws import PAPER
+from scripts.models.models import PAPER
 from scripts.studies.cycles import figure as cycles
 from scripts.studies.cycles.branches import branch_of, cycles_there, smooth_curve
 from scripts.studies.cycles.plan import sweeps_on_lines

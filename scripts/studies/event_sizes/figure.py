@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from scripts.drawing.style import INK
 from scripts.drawing.wording import place_in_words, short, with_error
-from scripts.namelists.parameters import PARAMETERS
+from scripts.models.models import PARAMETERS
 from scripts.studies.event_sizes.laws import (
     CONFIDENCE,
     EXPONENT_RANGE,

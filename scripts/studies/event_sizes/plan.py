@@ -3,9 +3,9 @@
 Formulas and sources: `slip_events.f90`, `laws.py`.
 """
 
-from scripts.namelists.program_groups import scene_groups
 from scripts.plans.declare import LONG, Figure, Run, Study, Table
 from scripts.plans.scenes import paths_of_scenes
+from scripts.requests.program_groups import scene_groups
 
 
 def names(config: dict) -> list[str]:

@@ -9,8 +9,8 @@ import xarray as xr
 from scripts.files.inputs import read
 from scripts.files.outputs import logged
 from scripts.files.tsv import read_table, write_table
-from scripts.namelists.laws import law_of
-from scripts.namelists.parameters import PARAMETERS
+from scripts.models.models import PARAMETERS
+from scripts.models.records import law_of
 from scripts.studies.event_sizes.laws import (
     fit_aftershocks,
     fit_definition,

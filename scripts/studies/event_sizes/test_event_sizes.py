@@ -7,7 +7,7 @@ import xarray as xr
 from made_up_results import NO, PARTLY, YES, assert_finding, cases
 from scipy.ndimage import label
 
-from scripts.namelists.program_groups import scene_groups
+from scripts.requests.program_groups import scene_groups
 from scripts.studies.event_sizes import figure as event_sizes
 from scripts.studies.event_sizes.events_table import event_rows
 from scripts.studies.event_sizes.laws import (

@@ -3,9 +3,9 @@
 Formulas and sources: `slip_events.f90`.
 """
 
-from scripts.namelists.program_groups import scene_groups
 from scripts.plans.declare import Figure, Run, Study
 from scripts.plans.scenes import paths_of_scenes, scenes_of
+from scripts.requests.program_groups import scene_groups
 
 STUDY = Study(
     reads=("cycles", "scenes"),

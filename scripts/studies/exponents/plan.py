@@ -4,11 +4,11 @@ Formulas and sources: `lyapunov_spectrum.f90`, `tangent_problem.f90`, `tangent_v
 `exponent_averages.f90`.
 """
 
-from scripts.namelists.laws import is_driven
-from scripts.namelists.parameters import zero_of
-from scripts.namelists.program_groups import scene_groups
+from scripts.models.models import model_of
 from scripts.plans.declare import LONGEST, Figure, Run, Study, Table
 from scripts.plans.scenes import paths_of_scenes, scenes_with
+from scripts.requests.parameters import zero_of
+from scripts.requests.program_groups import scene_groups
 
 
 def groups(config: dict, scene: str) -> dict[str, dict]:
@@ -36,7 +36,7 @@ def runs_shown(config: dict) -> list[str]:
 def params(config: dict) -> dict:
     """Scenes with t in their equations: none of their exponents is that of the flow."""
     scenes = config["scenes"]
-    return {"driven": [name for name in scenes if is_driven(config, scenes[name]["law"])]}
+    return {"driven": [name for name in scenes if model_of(config, scenes[name]).is_driven]}
 
 
 FIGURE = {

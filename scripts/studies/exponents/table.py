@@ -3,7 +3,7 @@
 from scripts.files.inputs import Dataset, read
 from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
-from scripts.namelists.laws import law_of
+from scripts.models.records import law_of
 from scripts.tables.exponent_signs import SIGNS
 
 

@@ -2,9 +2,9 @@
 
 from collections.abc import Iterator
 
+from generator.ranges import range_of
 from scripts.config.checks import check_observation, check_scenes, check_values, window
-from scripts.config.ranges import range_of
-from scripts.namelists.laws import HISTORY, block_parameters, definitions, own_parameters
+from scripts.models.models import HISTORY, block_parameters, models
 
 
 def contradictions(config: dict) -> Iterator[str]:
@@ -21,7 +21,7 @@ def contradictions(config: dict) -> Iterator[str]:
         yield from window(inside, "tau_window", plane["tau_window"], **range_of(known["tau"]))
         others = {key: known[key] for key in known.keys() - {"tau", "epsilon"}}
         yield from check_values(inside, {key: plane[key] for key in fixed}, others)
-    bare = [law for law in definitions(config) if not own_parameters(config, law)]
+    bare = [name for name, one in models(config).items() if one.is_block and not one.own_parameters]
     for law in study["laws"]:
         if law not in bare:
             yield f"{place} laws: {law!r}; expected some of: {', '.join(bare)}"

@@ -12,7 +12,7 @@ from scripts.drawing.class_map import draw_classes, legend_of
 from scripts.drawing.si_axes import TIMES, add_axis
 from scripts.drawing.style import INK, PAGE
 from scripts.drawing.wording import place_in_words
-from scripts.namelists.laws import spoken
+from scripts.models.records import spoken
 from scripts.studies.friction_laws.table import planes_of, rows_of_planes, scenes_of, shares_of
 from scripts.tables.motion_rows import COLOURS, UNDECIDED, kind_of
 

@@ -3,8 +3,8 @@
 Formulas and sources: `fortran/src/model/laws/`.
 """
 
-from scripts.namelists.attractor_surveys import survey_groups
 from scripts.plans.declare import LONG_RUN, Figure, Run, Study, Table
+from scripts.requests.attractor_surveys import survey_groups
 
 
 def groups(config: dict, friction_law: str, part_of_laws: str) -> dict:

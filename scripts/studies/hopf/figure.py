@@ -13,7 +13,7 @@ from scripts.drawing.parameters import axis_of, in_words, symbol_of
 from scripts.drawing.special_points import words_of
 from scripts.drawing.style import INK
 from scripts.drawing.wording import counted_at, place_in_words, short
-from scripts.namelists.laws import is_of_block
+from scripts.models.records import is_of_block
 from scripts.tables.motion_rows import axes_of
 
 DARKEST = 0.3

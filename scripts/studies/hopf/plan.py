@@ -1,13 +1,13 @@
 """Hopf curves in a plane of epsilon and another parameter.
 
 Formulas and sources: (5) `characteristic_function.f90`; curves `hopf_curves.f90`;
-supercritical or subcritical `normal_form.f90`; special points `hopf_points.f90`,
+supercritical or subcritical `hopf_normal_form.f90`; special points `hopf_points.f90`,
 `hopf_unfoldings.f90`, `double_hopf.f90`.
 """
 
-from scripts.namelists.parameters import plane_group
 from scripts.plans.declare import MAIN, PAPER, Figure, Run, Study, Table
 from scripts.plans.scenes import roots_of_scenes, scenes_in_plane
+from scripts.requests.parameters import plane_group
 
 
 def groups(config: dict, plane: str) -> dict[str, dict]:

@@ -7,7 +7,7 @@ import xarray as xr
 from scripts.files.inputs import read
 from scripts.files.outputs import logged
 from scripts.files.tsv import as_digits, write_table
-from scripts.namelists.laws import law_of
+from scripts.models.records import law_of
 from scripts.tables.amplitude_death import amplitude_death
 from scripts.tables.motion_rows import AXES_FIRST
 

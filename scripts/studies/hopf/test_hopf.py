@@ -1,7 +1,7 @@
 """Special points of Hopf curves in equation (5); the table, captions, verdicts.
 
 The suite hopf_curves shows that curves are those of the closed form, complete and smooth, and which
-way roots cross; the suite hopf_unfoldings shows where curves of folds and of tori start.
+way roots cross; the suite hopf_points shows where curves of folds and of tori start.
 """
 
 import numpy as np

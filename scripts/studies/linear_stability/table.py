@@ -7,8 +7,8 @@ import xarray as xr
 from scripts.files.inputs import read
 from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
-from scripts.namelists.laws import law_of
-from scripts.namelists.parameters import PARAMETERS
+from scripts.models.models import PARAMETERS
+from scripts.models.records import law_of
 from scripts.tables.amplitude_death import amplitude_death
 
 ROOTS_SHOWN = 3

@@ -9,7 +9,7 @@ from made_up_results import NO, YES, assert_finding, cases, changing
 
 from scripts.claims.filters import with_changes
 from scripts.files.tsv import read_table
-from scripts.namelists.parameters import PARAMETERS
+from scripts.models.models import PARAMETERS
 from scripts.studies.linear_stability.table import amplitude_death, row_of
 from scripts.tables.roots_of_5 import unstable_roots
 

@@ -1,6 +1,6 @@
 """Velocity, phase portrait and power spectrum of the paper's scenes.
 
-Formulas and sources: `spectrum.f90`, `spectral_peaks.f90`, `base_frequencies.f90`,
+Formulas and sources: `spectral_density.f90`, `spectral_peaks.f90`, `base_frequencies.f90`,
 `spectrum_verdict.f90`.
 """
 

@@ -94,6 +94,6 @@ def test_numbers_of_trajectories():
     assert cycle == {"motion": "limit cycle", "end": words}
     rest = row_where(attractor_row("fixed point"))
     assert rest["end"] == "at the end v is 0.5 or less from steady sliding, :math:`v = 1`"
-    other = row_where(attractor_row("fixed point", law="model mine", **peaks))
+    other = row_where(attractor_row("fixed point", law="model mine", xi=np.nan, **peaks))
     assert other["end"] == "at the end v is between 0.5 and 1.5"
     assert row_where(attractor_row("torus", "other"))["motion"] == "unknown"

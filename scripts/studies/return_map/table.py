@@ -8,8 +8,8 @@ from scipy.stats import chatterjeexi, pearsonr, spearmanr
 from scripts.files.inputs import Dataset, read
 from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
-from scripts.namelists.laws import law_of
-from scripts.namelists.parameters import PARAMETERS
+from scripts.models.models import PARAMETERS
+from scripts.models.records import law_of
 
 FEWEST = 10
 """Pairs that a correlation needs."""

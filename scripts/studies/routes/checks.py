@@ -8,7 +8,7 @@ from scripts.config.checks import (
     check_observation,
     check_values,
 )
-from scripts.namelists.laws import HISTORY
+from scripts.models.models import HISTORY
 
 
 def contradictions(config: dict) -> Iterator[str]:

@@ -15,7 +15,7 @@ from scripts.drawing.class_map import draw_strips, legend_of
 from scripts.drawing.style import FAINT, PAGE, columns_of
 from scripts.drawing.wording import joined, place_in_words, short
 from scripts.files.tsv import rows_by
-from scripts.namelists.laws import is_of_block
+from scripts.models.records import is_of_block
 from scripts.tables.attractor_tables import same_attractor
 from scripts.tables.motion_rows import UNDECIDED, count_in_words, has_problem, parameter_of
 

@@ -3,9 +3,9 @@
 Formulas and sources: as of the attractors; sweeps `attractor_points.f90`.
 """
 
-from scripts.namelists.attractor_surveys import evenly_spaced, survey_groups
 from scripts.plans.declare import LONG_RUN, Figure, Run, Study, Table
 from scripts.plans.scenes import marked_scenes
+from scripts.requests.attractor_surveys import evenly_spaced, survey_groups
 
 
 def groups(config: dict, route: str, run: str) -> dict:

@@ -23,8 +23,7 @@ from made_up_results import (
 )
 
 from scripts.drawing.write_captions import render
-from scripts.namelists.laws import PAPER
-from scripts.namelists.parameters import HISTORY
+from scripts.models.models import HISTORY, PAPER
 from scripts.page.captions import as_html
 from scripts.plans import studies
 from scripts.studies.routes import figure, plan
@@ -236,7 +235,7 @@ def test_runs_of_a_route_go_along_its_parameter(own_config, run, sweep):
     model = {"name": PAPER, "parameters": ["tau", "xi", "gamma"], "values": [7.0, 0.5, 0.8]}
     assert points["model"] == model
     history = routes["histories"].get(run, routes["histories"]["near"])
-    assert groups["histories"] == {"names": HISTORY, "values": [history[key] for key in HISTORY]}
+    assert groups["histories"] == {"names": [*HISTORY], "values": [history[key] for key in HISTORY]}
     assert groups["observation"].items() >= own_config["spectra"].items()
     assert (points["refinements"], points["kept"]) == (0, routes["observation"]["kept"])
 
@@ -248,7 +247,7 @@ def test_route_along_a_value_of_the_history(own_config):
     groups = plan.groups(own_config, "mine", "slip")
     points, histories = groups["points"], groups["histories"]
     theta, u = (own_config["routes"]["histories"]["slip"][key] for key in ("theta", "u"))
-    assert histories["names"] == HISTORY
+    assert histories["names"] == [*HISTORY]
     assert histories["values"] == [theta, u, 0.5, theta, u, 1.0, theta, u, 1.5]
     assert "axes" not in points
     assert points["sweep"] == "none"

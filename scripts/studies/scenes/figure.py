@@ -24,7 +24,7 @@ from scripts.drawing.trajectories import (
     signal_of,
 )
 from scripts.drawing.wording import as_formulas, place_in_words, short, with_error, words_of_state
-from scripts.namelists.laws import is_of_block
+from scripts.models.records import is_of_block
 from scripts.tables.attractor_tables import SAME_MAXIMUM, rows_of
 from scripts.tables.exponent_signs import SIGNS, count_in_words
 from scripts.tables.motion_rows import UNDECIDED, class_in_words, has_problem, kind_of

@@ -1,12 +1,13 @@
 """Figure of one scene: in time, phase portrait, section, exponents, and spectrum.
 
-Formulas and sources: (3), (4) `spring_block.yaml`, `slip_delayed_logarithm.yaml`; `spectrum.f90`.
+Formulas and sources: (3), (4) `spring_block.yaml`, `slip_delayed_logarithm.yaml`;
+`spectral_density.f90`.
 """
 
-from scripts.namelists.laws import has_rest
-from scripts.namelists.program_groups import scene_groups
+from scripts.models.models import model_of
 from scripts.plans.declare import PAPER, Figure, Run, Study
 from scripts.plans.scenes import is_block
+from scripts.requests.program_groups import scene_groups
 
 
 def spectrum_groups(config: dict, scene: str) -> dict:
@@ -22,7 +23,7 @@ def inputs(config: dict) -> dict:
         "trajectory": f"<results>/trajectories/{scene}.nc",
         "spectrum": f"<results>/spectra/{scene}.nc",
         "attractors": f"<results>/attractors/scenes/{scene}.nc",
-        **(roots if has_rest(config, settings["law"]) else {}),
+        **(roots if model_of(config, settings).has_rest else {}),
     }
 
 

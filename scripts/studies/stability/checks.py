@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from scripts.config.checks import check_reference, wrong
-from scripts.namelists.laws import is_law
+from scripts.models.models import model_of
 from scripts.studies.stability.plan import cases_of_family, number_of_cases
 
 MOST_CASES = 1000
@@ -34,7 +34,7 @@ def check_family(config: dict, name: str, family: dict) -> Iterator[str]:
             f"{place}: case '{longest}' of {len(longest)} letters; expected at most {LONGEST_NAME}"
             " (shorten the family's name)"
         )
-    if family["reference"] == "stationary" and not is_law(config, family["law"]):
+    if family["reference"] == "stationary" and not model_of(config, family).is_block:
         yield wrong(place, family, "reference", "quadruple or none with a model of one's own")
     elif family["reference"] == "stationary" and family["t_end"] < LONG:
         expected = f"a finite number >= {LONG} where the reference is the stationary state"

@@ -3,9 +3,9 @@
 import math
 from itertools import product
 
-from scripts.namelists.parameters import place_of
-from scripts.namelists.program_groups import REFERENCE_STEPS, case_groups
+from scripts.models.records import place_of
 from scripts.plans.declare import LONG_RUN, Figure, Run, Study, Table
+from scripts.requests.program_groups import REFERENCE_STEPS, case_groups
 
 
 def number_of_cases(config: dict, family: str) -> int:

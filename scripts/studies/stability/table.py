@@ -4,7 +4,7 @@ import numpy as np
 
 from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
-from scripts.namelists.parameters import PARAMETERS
+from scripts.models.models import PARAMETERS
 from scripts.tables.accuracy import (
     Reference,
     distances,

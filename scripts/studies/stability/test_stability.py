@@ -10,8 +10,8 @@ from scripts.claims.ledger import check_user_claims
 from scripts.config.check_config import checked
 from scripts.files.read_config import ConfigError
 from scripts.files.tsv import read_table
-from scripts.namelists.laws import PAPER
-from scripts.namelists.program_groups import case_groups
+from scripts.models.models import PAPER
+from scripts.requests.program_groups import case_groups
 from scripts.studies.stability import figure as drawing
 from scripts.studies.stability.finding import describe
 from scripts.studies.stability.plan import cases_of_family

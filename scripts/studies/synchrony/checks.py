@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from scripts.config.checks import check_scenes, window, wrong
-from scripts.namelists.laws import PREFIX, is_law
+from scripts.models.models import ALONE, model_of
 
 
 def contradictions(config: dict) -> Iterator[str]:
@@ -14,7 +14,7 @@ def contradictions(config: dict) -> Iterator[str]:
     yield from check_scenes(f"{place} scenes", synchrony["scenes"], config["scenes"])
     for name in config["scenes"].keys() & set(synchrony["scenes"]):
         scene = config["scenes"][name]
-        if scene["law"].startswith(PREFIX) or not is_law(config, scene["law"]):
+        if model_of(config, scene).kind != ALONE:
             yield f"{place} scenes: {name!r} has the law {scene['law']}; chains have no such law"
         if synchrony["t_end"] <= scene["t_transient"]:
             expected = f"a finite number > t_transient = {scene['t_transient']} of scene '{name}'"

@@ -3,8 +3,8 @@
 Formulas and sources: `transverse_growth.f90`, `transverse_multipliers.f90`.
 """
 
-from scripts.namelists.program_groups import scene_groups
 from scripts.plans.declare import LONG_RUN, Figure, Run, Study
+from scripts.requests.program_groups import scene_groups
 
 
 def groups(config: dict, scene: str) -> dict[str, dict]:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from scripts.namelists.program_groups import scene_groups
+from scripts.requests.program_groups import scene_groups
 from scripts.studies.synchrony.figure import growing_ranges, largest_alike
 from scripts.studies.synchrony.plan import groups
 

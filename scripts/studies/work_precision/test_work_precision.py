@@ -7,7 +7,7 @@ import pytest
 
 from scripts.config.check_config import checked
 from scripts.files.tsv import read_table
-from scripts.namelists.write_namelist import end_at_horizons
+from scripts.requests.write_namelist import end_at_horizons
 from scripts.studies.work_precision import figure as drawing
 from scripts.studies.work_precision.horizons_table import horizon, row_of
 from scripts.studies.work_precision.plan import cases_of, measurement_groups

@@ -2,9 +2,8 @@
 !> Events: where they are found, in what order, and that one can end a run.
 module test_dde_events
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use dde, only: continuation_type, elapsed, event_met, event_table, event_watcher_type, &
-                  instant, integration_options, integration_result, methods, reached_end, &
-                  table_sampler
+   use dde, only: continuation_type, dde_problem_type, elapsed, event_met, event_table, instant, &
+                  integration_options, integration_result, methods, reached_end, table_sampler
    use dde_errors, only: text
    use expectations, only: expect, expect_between, expect_close
    use dde_kinds, only: wp
@@ -30,80 +29,91 @@ module test_dde_events
    type, extends(event_table) :: searched_table
    end type searched_table
 
-   !> Zeros of cos t and -sin t, each by its own component: 1 where the other was evaluated, too.
-   type, extends(event_watcher_type) :: frugal_watcher
-      !> Events, and those of which the other component is known
-      integer :: received = 0, whole = 0
-   contains
-      procedure :: reads_for => own_component
-      procedure :: takes => own_component
-      procedure :: values => both_components
-      procedure :: value => component_alone
-      procedure :: take => count_event
-   end type frugal_watcher
-
 contains
 
    subroutine collect_dde_events(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("passages and maxima", test_passages), &
+      testsuite = [new_unittest("times of events", test_times), &
                    new_unittest("an event that ends the run", test_terminal), &
-                   new_unittest("two passages in one step", test_pair), &
-                   new_unittest("order of several functions", test_order), &
-                   new_unittest("thousands of events in one step", test_thousands), &
-                   new_unittest("a zero where steps meet", test_zero_at_step_end), &
+                   new_unittest("order of events", test_order), &
                    new_unittest("a fast function of time", test_fast), &
                    new_unittest("steps without events are not searched", test_bounds), &
-                   new_unittest("an event costs its own components", test_frugal), &
                    new_unittest("within a spacing of t", test_within_spacing), &
-                   new_unittest("a slope that jumps", test_jump), &
-                   new_unittest("a zero where runs meet", test_zero_between)]
+                   new_unittest("a zero where runs meet", test_zero_between), &
+                   new_unittest("from event to event", test_turns)]
    end subroutine collect_dde_events
 
-   !> sin t = 1/2 at pi/6, 5 pi/6 and 13 pi/6: rising, falling, both. sin t = 0 at t = 0 is no
-   !> event, pi and 2 pi are. Maxima and minima of cos t, and maxima of -sin t.
-   subroutine test_passages(error)
+   !> Passages of sin t through 1/2, rising, falling and both; those through 0, that at t = 0 is
+   !> none. Maxima and minima of cos t, and maxima of -sin t. t^2 passes 1/4 and 1/100 twice within
+   !> one step from -1 to 1, whose ends do not show it; t passes numbers where steps meet. The slope
+   !> of y' = -y(t - 1) from 0 with a jump to 1 jumps from 0 to -1 at t = 1, and passes -1/2 there
+   !> and again at 5/2.
+   subroutine test_times(error)
       type(error_type), allocatable, intent(out) :: error
-      type(event_table) :: table
-      type(integration_result) :: outcome
-      integer :: i, k
+      logical, parameter :: slopes(3) = .true.
+      integer :: i
 
       do i = 1, size(methods)
-         table = event_table([1, 1, 1, 1], [0.5_wp, 0.5_wp, 0.5_wp, 0.0_wp], [1, -1, 0, 0])
-         call run(error, sine(), 0.0_wp, 8.0_wp, at_tolerance(1.0e-12_wp, methods(i)), outcome, &
-                  watcher=table)
-         call expect(error, outcome%reason == reached_end, "the run goes to its end")
-         call expect_times(error, table, 1, [pi/6, 13*pi/6], methods(i)//", rising")
-         call expect_times(error, table, 2, [5*pi/6], methods(i)//", falling")
-         call expect_times(error, table, 3, [pi/6, 5*pi/6, 13*pi/6], methods(i)//", both")
-         call expect_times(error, table, 4, [pi, 2*pi], methods(i)//", zeros")
-         call expect_close(error, table%y(1, :table%received), &
-                           table%level(table%which(:table%received)), 1.0e-14_wp, "y")
-         table = event_table([1, 1, 2], [0.0_wp, 0.0_wp, 0.0_wp], [-1, 1, -1], &
-                             of_slope=[.true., .true., .true.])
-         call run(error, swing(), 0.0_wp, 20.0_wp, at_tolerance(1.0e-12_wp, methods(i)), outcome, &
-                  watcher=table)
-         call expect_times(error, table, 1, [(2*pi*k, k=1, 3)], methods(i)//", maxima of cos t")
-         call expect_times(error, table, 2, [(2*pi*k - pi, k=1, 3)], methods(i)//", minima")
-         call expect_times(error, table, 3, [(2*pi*k - 0.5_wp*pi, k=1, 3)], &
-                           methods(i)//", maxima of -sin t")
+         call check(sine(), 0.0_wp, 8.0_wp, &
+                    event_table([1, 1, 1, 1], [0.5_wp, 0.5_wp, 0.5_wp, 0.0_wp], [1, -1, 0, 0]), &
+                    [1, 1, 5, 5, 6, 12, 13, 13]*pi/6, [1, 3, 2, 3, 4, 4, 1, 3])
+         call check(swing(), 0.0_wp, 20.0_wp, &
+                    event_table([1, 1, 2], spread(0.0_wp, 1, 3), [-1, 1, -1], of_slope=slopes), &
+                    [2, 3, 4, 6, 7, 8, 10, 11, 12]*0.5_wp*pi, [2, 3, 1, 2, 3, 1, 2, 3, 1])
+         call check(quadrature(1, 1.0_wp), -1.0_wp, 1.0_wp, &
+                    event_table([1, 1], [0.25_wp, 0.01_wp], [0, 0]), &
+                    [-0.5_wp, -0.1_wp, 0.1_wp, 0.5_wp], [1, 2, 2, 1], step=2.0_wp)
+         call check(quadrature(0, 0.0_wp), 0.0_wp, 3.5_wp, &
+                    event_table([1, 1, 1], [1.0_wp, 2.0_wp, 3.0_wp], [0, 0, 0]), &
+                    [1.0_wp, 2.0_wp, 3.0_wp], [1, 2, 3], step=1.0_wp)
+         call check(linear(past=[0.0_wp]), 0.0_wp, 2.9_wp, &
+                    event_table([1], [-0.5_wp], [0], of_slope=slopes(:1)), [1.0_wp, 2.5_wp], [1, 1])
       end do
-   end subroutine test_passages
 
-   !> Times of the events of one function.
-   subroutine expect_times(error, table, which, known, what)
+   contains
+
+      subroutine check(problem, t_start, t_end, watcher, times, which, step)
+         class(dde_problem_type), intent(in) :: problem
+         real(wp), intent(in) :: t_start, t_end, times(:)
+         type(event_table), intent(in) :: watcher
+         integer, intent(in) :: which(:)
+         !> Length of all steps, if it is given
+         real(wp), intent(in), optional :: step
+         type(event_table) :: table
+         type(integration_options) :: options
+         type(integration_result) :: outcome
+
+         options = at_tolerance(1.0e-12_wp, methods(i))
+         if (present(step)) options%first_step = step
+         if (present(step)) options%longest_step = step
+         table = watcher
+         call run(error, problem, t_start, t_end, options, outcome, watcher=table)
+         call expect(error, outcome%reason == reached_end, "the run goes to its end")
+         call expect_events(error, table, times, 1.0e-10_wp, methods(i), which)
+         if (allocated(error)) return
+         if (present(step)) then
+            call expect(error, outcome%accepted == ceiling((t_end - t_start)/step), "steps")
+         end if
+         if (any(table%of_slope)) return
+         call expect_close(error, table%y(1, :table%received), table%level(which), 1.0e-14_wp, "y")
+      end subroutine check
+   end subroutine test_times
+
+   !> All events: their times and, if given, their functions.
+   subroutine expect_events(error, table, times, within, what, which)
       type(error_type), allocatable, intent(inout) :: error
-      type(event_table), intent(in) :: table
-      integer, intent(in) :: which
-      real(wp), intent(in) :: known(:)
+      class(event_table), intent(in) :: table
+      real(wp), intent(in) :: times(:), within
       character(len=*), intent(in) :: what
+      integer, intent(in), optional :: which(:)
 
-      associate (n => table%received)
-         call expect_close(error, pack(table%time(:n)%hi, table%which(:n) == which), known, &
-                           1.0e-10_wp, what)
-      end associate
-   end subroutine expect_times
+      call expect(error, table%received == size(times), text(table%received)//" events, "//what)
+      if (allocated(error)) return
+      call expect_close(error, table%time(:table%received)%hi, times, within, what)
+      if (present(which)) call expect(error, all(table%which(:table%received) == which), &
+                                      "events of other functions, "//what)
+   end subroutine expect_events
 
    !> cos t passes 1/2, then -1/2, which ends the run: state, slope, time and samples stop there.
    !> The table looks at cos t alone, but events have -sin t, too.
@@ -122,9 +132,8 @@ contains
          call run(error, swing(), 0.0_wp, 8.0_wp, at_tolerance(1.0e-12_wp, methods(i)), outcome, &
                   samples, table, here)
          call expect(error, outcome%reason == event_met, "the reason is `event_met`")
-         call expect(error, table%received == 2, "two events")
+         call expect_events(error, table, [pi/3, 2*pi/3], 1.0e-10_wp, methods(i), [1, 2])
          if (allocated(error)) return
-         call expect_close(error, table%time(:2)%hi, [pi/3, 2*pi/3], 1.0e-10_wp, methods(i))
          call expect_close(error, table%y(1, :2), [0.5_wp, -0.5_wp], 1.0e-14_wp, "cos t")
          call expect_close(error, table%y(2, :2), -sin([pi/3, 2*pi/3]), 1.0e-10_wp, "-sin t")
          call expect_close(error, outcome%t, table%time(2)%hi, 0.0_wp, "end")
@@ -138,102 +147,33 @@ contains
       end do
    end subroutine test_terminal
 
-   !> t^2 passes 1/4 and 1/100 twice within one step from -1 to 1; the step's ends do not show it.
-   subroutine test_pair(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(event_table) :: table
-      type(integration_options) :: options
-      type(integration_result) :: outcome
-      integer :: i
-
-      do i = 1, size(methods)
-         options = integration_options(methods(i), first_step=2.0_wp)
-         table = event_table([1, 1], [0.25_wp, 0.01_wp], [0, 0])
-         call run(error, quadrature(1, 1.0_wp), -1.0_wp, 1.0_wp, options, outcome, watcher=table)
-         call expect(error, outcome%accepted == 1, "one step")
-         call expect(error, table%received == 4, "four events")
-         if (allocated(error)) return
-         call expect_close(error, table%time(:4)%hi, [-0.5_wp, -0.1_wp, 0.1_wp, 0.5_wp], &
-                           1.0e-13_wp, trim(methods(i)))
-         call expect(error, all(table%which(:4) == [1, 2, 2, 1]), "which")
-      end do
-   end subroutine test_pair
-
-   !> t passes seven levels in one step, given in disorder: events come in order of time. Of events
-   !> at one time, all are handed over, though one of them ends the run; later ones are not.
+   !> y = t passes 1000 levels in one step, each of 100 functions at one time: in order of time,
+   !> then of number. The square of their number would be 1e10 comparisons. Of events at one time,
+   !> all are handed over, though one of them ends the run; later ones are not.
    subroutine test_order(error)
       type(error_type), allocatable, intent(out) :: error
-      type(event_table) :: table
-      type(integration_result) :: outcome
-      real(wp), parameter :: levels(7) = [0.31_wp, 0.3_wp, 0.9_wp, 0.1_wp, 0.32_wp, 0.89_wp, 0.2_wp]
-
-      table = event_table([1, 1, 1, 1, 1, 1, 1], levels, [1, 1, 1, 1, 1, 1, 1])
-      call run(error, quadrature(0, 0.0_wp), 0.0_wp, 1.0_wp, &
-               integration_options("explicit", first_step=1.0_wp), outcome, watcher=table)
-      call expect(error, table%received == 7, "seven events")
-      if (allocated(error)) return
-      call expect(error, all(table%which(:7) == [4, 7, 2, 1, 5, 6, 3]), "their order")
-      call expect_close(error, table%time(:7)%hi, levels(table%which(:7)), 1.0e-15_wp, "times")
-      table = event_table([1, 1, 1], [0.51_wp, 0.5_wp, 0.5_wp], [1, 1, 1], &
-                          terminal=[.false., .true., .false.])
-      call run(error, quadrature(0, 0.0_wp), 0.0_wp, 1.0_wp, &
-               integration_options("explicit", first_step=1.0_wp), outcome, watcher=table)
-      call expect(error, table%received == 2, "two events")
-      call expect(error, all(table%which(:2) == [2, 3]), "which")
-   end subroutine test_order
-
-   !> t passes 1 and 2 where steps meet and 3 where the run ends: each once.
-   subroutine test_zero_at_step_end(error)
-      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: n = 100000
       type(event_table) :: table
       type(integration_options) :: options
       type(integration_result) :: outcome
       integer :: i
 
-      do i = 1, size(methods)
-         options = integration_options(methods(i), first_step=1.0_wp, longest_step=1.0_wp)
-         table = event_table([1, 1, 1], [1.0_wp, 2.0_wp, 3.0_wp], [0, 0, 0])
-         call run(error, quadrature(0, 0.0_wp), 0.0_wp, 3.0_wp, options, outcome, watcher=table)
-         call expect(error, outcome%accepted == 3, "three steps")
-         call expect(error, abs(outcome%y(1) - 3.0_wp) > 0.0_wp .or. table%received == 3, &
-                     "a zero at the very end is seen")
-         call expect_between(error, real(table%received, wp), 2.0_wp, 3.0_wp, "events")
-         if (allocated(error)) return
-         call expect_close(error, table%time(:2)%hi, [1.0_wp, 2.0_wp], 1.0e-13_wp, methods(i))
-      end do
-   end subroutine test_zero_at_step_end
-
-   !> y = t passes 1000 levels in one step, each of 100 functions at one time: in order of time,
-   !> then of number. The square of their number would be 1e10 comparisons.
-   subroutine test_thousands(error)
-      type(error_type), allocatable, intent(out) :: error
-      integer, parameter :: levels = 1000, functions = 100*levels
-      type(event_table) :: table
-      type(integration_options) :: options
-      type(integration_result) :: outcome
-      integer :: i, k, number(functions)
-
-      ! each level has the functions number(i), number(i) + levels, ...
-      number(:levels) = [(1 + modulo(617*i, levels), i=1, levels)]
-      options = at_tolerance(1.0e-6_wp)
-      options%first_step = 1.0_wp
-      table = event_table(spread(1, 1, functions), &
-                          [(position(number(:levels), 1 + modulo(i - 1, levels)) &
-                            /(levels + 1.0_wp), i=1, functions)], spread(1, 1, functions))
+      options = integration_options("explicit", first_step=1.0_wp)
+      table = event_table(spread(1, 1, n), [((1 + modulo(617*i, 1000))/1001.0_wp, i=1, n)], &
+                          spread(1, 1, n))
       call run(error, quadrature(0, 0.0_wp), 0.0_wp, 1.0_wp, options, outcome, watcher=table)
-      call expect(error, outcome%accepted == 1, "one step")
-      call expect(error, table%received == functions, text(table%received)//" events")
+      call expect(error, outcome%accepted == 1 .and. table%received == n, "all in one step")
       if (allocated(error)) return
-      number = [((number(i) + levels*k, k=0, 99), i=1, levels)]
-      call expect(error, all(table%which(:functions) == number), "in order")
-   end subroutine test_thousands
-
-   !> Where a number stands in a list, as a real number.
-   pure real(wp) function position(list, number) result(place)
-      integer, intent(in) :: list(:), number
-
-      place = findloc(list, number, dim=1)
-   end function position
+      associate (t => table%time%hi, which => table%which)
+         call expect_close(error, t(:n), table%level(which(:n)), 1.0e-14_wp, "times")
+         call expect(error, all(t(2:n) > t(:n - 1) .or. which(2:n) > which(:n - 1) &
+                                .and. t(2:n) >= t(:n - 1)), "in order")
+      end associate
+      table = event_table([1, 1, 1], [0.51_wp, 0.5_wp, 0.5_wp], [1, 1, 1], &
+                          terminal=[.false., .true., .false.])
+      call run(error, quadrature(0, 0.0_wp), 0.0_wp, 1.0_wp, options, outcome, watcher=table)
+      call expect_events(error, table, [0.5_wp, 0.5_wp], 1.0e-15_wp, "at one time", [2, 3])
+   end subroutine test_order
 
    !> A function of time that changes much faster than the solution, 1 + t: all of its
    !> zeros k pi/50 up to t = 100, looked at five times between two of them, at no further step.
@@ -250,9 +190,7 @@ contains
                   at_tolerance(1.0e-6_wp, methods(i)), unwatched)
          call run(error, quadrature(0, 1.0_wp), 0.0_wp, 100.0_wp, &
                   at_tolerance(1.0e-6_wp, methods(i)), outcome, watcher=table)
-         if (allocated(error)) return
-         call expect_close(error, table%time(:table%received)%hi, [(k*pi/50, k=1, 1591)], &
-                           1.0e-9_wp, methods(i))
+         call expect_events(error, table, [(k*pi/50, k=1, 1591)], 1.0e-9_wp, methods(i))
          call expect(error, outcome%accepted == unwatched%accepted, "as many steps")
       end do
    end subroutine test_fast
@@ -277,76 +215,12 @@ contains
                   outcome, watcher=searched)
          if (allocated(error)) return
          call expect(error, searched%received > 20, "many events")
-         call expect_close(error, table%time(:table%received)%hi, &
-                           searched%time(:searched%received)%hi, 0.0_wp, methods(i))
-         call expect(error, all(table%which(:table%received) &
-                                == searched%which(:searched%received)), "of the same functions")
+         associate (n => searched%received)
+            call expect_events(error, table, searched%time(:n)%hi, 0.0_wp, methods(i), &
+                               searched%which(:n))
+         end associate
       end do
    end subroutine test_bounds
-
-   !> Neither the location of an event nor the event itself evaluates what it does not read.
-   subroutine test_frugal(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(frugal_watcher), allocatable :: watcher
-      type(integration_result) :: outcome
-      integer :: i
-
-      do i = 1, size(methods)
-         if (allocated(watcher)) deallocate (watcher)
-         allocate (watcher)
-         watcher%direction = [0, 0]
-         watcher%terminal = [.false., .false.]
-         call run(error, swing(), 0.1_wp, 12.0_wp, at_tolerance(1.0e-10_wp, methods(i)), outcome, &
-                  watcher=watcher)
-         call expect(error, watcher%received == 7, text(watcher%received)//" events")
-         call expect(error, watcher%whole == 0, text(watcher%whole)//" of them whole")
-      end do
-   end subroutine test_frugal
-
-   !> The component of a function.
-   pure function own_component(self, which, n) result(components)
-      class(frugal_watcher), intent(in) :: self
-      integer, intent(in) :: which, n
-      integer, allocatable :: components(:)
-
-      components = [which]
-   end function own_component
-
-   !> Both components.
-   pure subroutine both_components(self, t, y, slope, g)
-      class(frugal_watcher), intent(in) :: self
-      real(wp), intent(in) :: t, y(:), slope(:)
-      real(wp), intent(out) :: g(:)
-
-      g = y
-   end subroutine both_components
-
-   !> One component; no event is found where the other is that of the same time.
-   pure real(wp) function component_alone(self, which, t, y, slope) result(value)
-      class(frugal_watcher), intent(in) :: self
-      integer, intent(in) :: which
-      real(wp), intent(in) :: t, y(:), slope(:)
-
-      value = merge(1.0_wp, y(which), are_whole(y))
-   end function component_alone
-
-   !> Count an event.
-   subroutine count_event(self, which, t, y, slope)
-      class(frugal_watcher), intent(inout) :: self
-      integer, intent(in) :: which
-      type(instant), intent(in) :: t
-      real(wp), intent(in) :: y(:), slope(:)
-
-      self%received = self%received + 1
-      if (are_whole(y) .or. abs(y(which)) > 1.0e-6_wp) self%whole = self%whole + 1
-   end subroutine count_event
-
-   !> Whether cos t and -sin t are those of one time.
-   pure logical function are_whole(y) result(value)
-      real(wp), intent(in) :: y(:)
-
-      value = abs(sum(y**2) - 1.0_wp) < 1.0e-6_wp
-   end function are_whole
 
    !> sin 50 t, no number where it is near an extreme.
    pure subroutine fast_values(self, t, y, slope, g)
@@ -375,24 +249,6 @@ contains
                         spread(1.0_wp, 1, 19), 1.0e-9_wp, "time in periods")
    end subroutine test_within_spacing
 
-   !> y' = -y(t - 1) from y = 0 with a jump to 1 at t = 0: the slope jumps from 0 to -1 at t = 1
-   !> and passes -1/2 there, and again at 5/2 on its way up from -1 to 0.
-   subroutine test_jump(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(event_table) :: table
-      type(integration_result) :: outcome
-      integer :: i
-
-      do i = 1, size(methods)
-         table = event_table([1], [-0.5_wp], [0], of_slope=[.true.])
-         call run(error, linear(past=[0.0_wp]), 0.0_wp, 2.9_wp, &
-                  at_tolerance(1.0e-10_wp, methods(i)), outcome, watcher=table)
-         call expect_close(error, table%time(:table%received)%hi, [1.0_wp, 2.5_wp], 1.0e-9_wp, &
-                           methods(i))
-         call expect_close(error, table%time(1)%hi, 1.0_wp, 0.0_wp, methods(i))
-      end do
-   end subroutine test_jump
-
    !> Zeros and extremes of cos t where runs end, and amid runs so short that rounding is all that
    !> their dense output shows: each is met once. A Newton iteration leaves rounding in its slopes
    !> at the ends, and a series what follows its last term, so that only the explicit pair is asked
@@ -410,28 +266,50 @@ contains
             table = event_table([1, 1], [0.0_wp, 0.0_wp], [0, 0], of_slope=[.false., .true.])
             continuation = continuation_type()
             do k = 1, 12
-               call go_on(error, methods(i), 0.5_wp*k*pi - little, table, continuation)
-               if (j > 0) call go_on(error, methods(i), 0.5_wp*k*pi + little, table, continuation)
+               call go_on(0.5_wp*k*pi - little)
+               if (j > 0) call go_on(0.5_wp*k*pi + little)
             end do
-            call go_on(error, methods(i), 6.2_wp*pi, table, continuation)
-            call expect(error, table%received == 12, text(table%received)//" events, "//methods(i))
-            if (allocated(error)) return
-            call expect_close(error, table%time(:12)%hi, [(0.5_wp*k*pi, k=1, 12)], 1.0e-8_wp, &
-                              methods(i))
+            call go_on(6.2_wp*pi)
+            call expect_events(error, table, [(0.5_wp*k*pi, k=1, 12)], 1.0e-8_wp, methods(i))
          end do
       end do
+
+   contains
+
+      subroutine go_on(t_end)
+         real(wp), intent(in) :: t_end
+         type(integration_result) :: outcome
+
+         call run(error, swing(), continuation%time(1), t_end, &
+                  at_tolerance(1.0e-10_wp, methods(i)), outcome, watcher=table, &
+                  continuation=continuation)
+      end subroutine go_on
    end subroutine test_zero_between
 
-   !> An oscillator goes on, watched.
-   subroutine go_on(error, method, t_end, table, continuation)
-      type(error_type), allocatable, intent(inout) :: error
-      character(len=*), intent(in) :: method
-      real(wp), intent(in) :: t_end
-      type(event_table), intent(inout) :: table
-      type(continuation_type), intent(inout) :: continuation
+   !> Each rising passage of sin t through 1/2, and each falling one of its slope, ends a run; the
+   !> next goes on and does not meet the same event again. Watchers for each take turns.
+   subroutine test_turns(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(event_table) :: tables(2)
+      type(continuation_type) :: continuation
       type(integration_result) :: outcome
+      integer, parameter :: turn(9) = [1, 2, 1, 2, 1, 2, 2, 2, 2]
+      integer, parameter :: cycle_of(9) = [0, 0, 1, 1, 2, 2, 3, 4, 5]
+      real(wp), parameter :: phase(2) = [pi/6, acos(0.3_wp)]
+      integer :: i, k
 
-      call run(error, swing(), continuation%time(1), t_end, at_tolerance(1.0e-10_wp, method), &
-               outcome, watcher=table, continuation=continuation)
-   end subroutine go_on
+      do i = 1, size(methods)
+         continuation = continuation_type()
+         tables(1) = event_table([1], [0.5_wp], [1], terminal=[.true.])
+         tables(2) = event_table([1], [0.3_wp], [-1], terminal=[.true.], of_slope=[.true.])
+         do k = 1, size(turn)
+            call run(error, sine(), continuation%time(1), 100.0_wp, &
+                     at_tolerance(1.0e-12_wp, methods(i)), outcome, watcher=tables(turn(k)), &
+                     continuation=continuation)
+            call expect(error, outcome%reason == event_met, "the reason is `event_met`")
+            call expect_close(error, outcome%t, phase(turn(k)) + 2*pi*cycle_of(k), 1.0e-9_wp, &
+                              methods(i)//", event "//text(k))
+         end do
+      end do
+   end subroutine test_turns
 end module test_dde_events

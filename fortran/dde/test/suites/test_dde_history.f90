@@ -1,30 +1,36 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The past: look-ups in a ring of polynomials of two kinds, growth, and forgetting; and runs that
-!> need more memory than there is, which end with an error.
+!> The past as it is kept and as series, and runs that need more memory than there is, which end
+!> with an error. What runs read of it is in the laws of accuracy and invariance.
 module test_dde_history
    use, intrinsic :: iso_c_binding, only: c_int, c_long
    use dde, only: integrate, integration_options, integration_result, methods, out_of_memory
-   use dde_cursor, only: cursor_type
+   use dde_delayed_series, only: delayed_series
    use dde_history, only: history_type
-   use dde_time, only: instant, later
+   use dde_step_context, only: step_context
+   use dde_time, only: instant
+   use dde_tolerance, only: tolerance_type
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_failure
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use single_step, only: new_context
    use solving, only: at_tolerance, run
-   use test_problems, only: linear, wille_baker
+   use test_problems, only: linear
    implicit none (type, external)
    private
    public :: collect_dde_history
 
-   !> Nodes of the polynomials of odd and of even steps.
-   real(wp), parameter :: odd_nodes(1) = [1.0_wp], even_nodes(3) = [0.0_wp, 1.0_wp, 0.0_wp]
-   !> Places of a step in an order that goes forth and back.
-   real(wp), parameter :: places(5) = [0.0_wp, 0.05_wp, 0.3_wp, 0.9_wp, 1.0_wp]
    !> Memory that this process may take, in bytes.
    integer(c_long), parameter :: limit = 64*1024*1024_c_long
    !> Memory that counts as growth, in kibibytes.
    integer(c_long), parameter :: growth = 4096_c_long
+
+   !> A step in powers of its length.
+   type :: past_step
+      real(wp) :: start, length, a(0:2), valid_for
+      !> What is lost of its start
+      real(wp) :: rest = 0.0_wp
+   end type past_step
 
    interface
       integer(c_long) function peak_memory() result(kibibytes) bind(c)
@@ -46,80 +52,108 @@ contains
    subroutine collect_dde_history(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("look-ups in a ring", test_ring), &
-                   new_unittest("what is forgotten", test_forget), &
-                   new_unittest("what is given back", test_recall), &
+      testsuite = [new_unittest("what is given back", test_recall), &
+                   new_unittest("series of the past", test_series), &
                    new_unittest("memory of an integration", test_memory_of_integration), &
                    new_unittest("no memory for steps", test_steps), &
                    new_unittest("no memory for the past", test_past), &
                    new_unittest("the memory of each degree", test_degree)]
    end subroutine collect_dde_history
 
-   !> Three delays of two components over 2000 steps of different lengths, of which 50 at a time
-   !> matter; the same where 600 matter, so that the ring doubles four times; where steps become
-   !> shorter on the way, so that the ring doubles when its oldest step lies anywhere; and where
-   !> both components have one delay, and are looked up together.
-   subroutine test_ring(error)
-      type(error_type), allocatable, intent(out) :: error
-
-      call expect_lookups(error, [0.05_wp, 1.45_wp, 0.9_wp], 2000)
-      call expect_lookups(error, [0.05_wp, 18.0_wp, 7.3_wp], 2000)
-      call expect_lookups(error, [0.05_wp, 1.45_wp, 0.9_wp], 2000, 500)
-      call expect_lookups(error, [0.05_wp, 1.45_wp, 1.45_wp], 2000, 500)
-   end subroutine test_ring
-
-   !> Steps that ended before the horizon are gone, those after it are there, the newest always is:
-   !> the value of each step is its number.
-   subroutine test_forget(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(cursor_type) :: cursor
-      type(history_type) :: past
-      type(wille_baker) :: problem
-      integer :: i
-
-      problem = delayed([200.0_wp], [1])
-      past = history_type(problem, instant(0.0_wp))
-      cursor = cursor_type(problem)
-      do i = 0, 199
-         call past%append(instant(real(i, wp)), 1.0_wp, [0.0_wp], &
-                          reshape([real(i, wp), 0.0_wp], [2, 1]), valid_for=1.0_wp)
-      end do
-      call expect_number(error, past, cursor, problem, 2.5_wp, 2.0_wp)
-      call past%forget(instant(100.5_wp))
-      call expect_number(error, past, cursor, problem, 2.5_wp, 100.0_wp)
-      call expect_number(error, past, cursor, problem, 100.25_wp, 100.0_wp)
-      call expect_number(error, past, cursor, problem, 101.5_wp, 101.0_wp)
-      call expect_number(error, past, cursor, problem, 199.5_wp, 199.0_wp)
-      call past%forget(instant(150.0_wp))
-      call expect_number(error, past, cursor, problem, 2.5_wp, 150.0_wp)
-      call past%forget(instant(1000.0_wp))
-      call expect_number(error, past, cursor, problem, 2.5_wp, 199.0_wp)
-   end subroutine test_forget
-
-   !> A step of low degree in a slot that had one of high degree before comes back with zeros above.
+   !> A step of low degree after one of high degree comes back with zeros above.
    subroutine test_recall(error)
       type(error_type), allocatable, intent(out) :: error
       type(history_type) :: past
       type(instant) :: start
       real(wp) :: coefficient(0:12, 1), length, nodes(12), valid_for
-      integer :: i
 
-      past = history_type(delayed([2.0_wp], [1]), instant(0.0_wp))
+      past = history_type(linear(), instant(0.0_wp))
       nodes = 0.0_wp
       coefficient = 7.0_wp
-      do i = 0, 63
-         call past%append(instant(real(i, wp)), 1.0_wp, nodes, coefficient, valid_for=1.0_wp)
-         call past%forget(instant(i + 1.0_wp))
-      end do
-      call past%append(instant(64.0_wp), 1.0_wp, odd_nodes, reshape([3.0_wp, 4.0_wp], [2, 1]), &
+      call past%append(instant(0.0_wp), 1.0_wp, nodes, coefficient, valid_for=1.0_wp)
+      call past%append(instant(1.0_wp), 1.0_wp, [1.0_wp], reshape([3.0_wp, 4.0_wp], [2, 1]), &
                        valid_for=1.5_wp)
       call past%recall(past%newest, start, length, valid_for, nodes, coefficient)
-      call expect_close(error, valid_for, 1.5_wp, 0.0_wp, "validity")
-      call expect_close(error, start%hi, 64.0_wp, 0.0_wp, "start")
-      call expect_close(error, coefficient(:, 1), [3.0_wp, 4.0_wp, (0.0_wp, i=2, 12)], 0.0_wp, &
+      call expect_close(error, [start%hi, length, valid_for], [1.0_wp, 1.0_wp, 1.5_wp], 0.0_wp, &
+                        "start, length and validity")
+      call expect_close(error, coefficient(:, 1), [3.0_wp, 4.0_wp, spread(0.0_wp, 1, 11)], 0.0_wp, &
                         "coefficients")
       call expect(error, past%degree_in_use() == 12, "the step before is kept, too")
    end subroutine test_recall
+
+   !> The past as series: 1 + t from 0 to 1, and 0.001 more from there on. If the next step begins
+   !> nearer, its series is read, unless there is a kink between them; its departure from the past
+   !> before it begins must not exceed the tolerance. A series is used beyond its step as far as it
+   !> agrees with what followed. Ten steps of 1e-5 that are 0.1 above what follows are skipped if a
+   !> step of 0.5 is expected, not if one of 1e-3 is. At t = 1 the next step begins in 1e-17: the
+   !> step before is valid until then, although its length less the time passed is 0.
+   subroutine test_series(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(past_step), allocatable :: kink(:), layer(:), rest(:), two(:)
+      integer :: i
+
+      two = [past_step(0.0_wp, 1.0_wp, [1.0_wp, 1.0_wp, 0.0_wp], 1.5_wp), &
+             past_step(1.0_wp, 1.0_wp, [2.001_wp, 1.0_wp, 0.0_wp], 2.0_wp), &
+             past_step(2.0_wp, 1.0_wp, [3.001_wp, 1.0_wp, 0.0_wp], 2.0_wp)]
+      kink = two
+      kink(1)%valid_for = 1.0_wp
+      layer = [(past_step(i*1.0e-5_wp, 1.0e-5_wp, [1.1_wp, 0.0_wp, 0.0_wp], 1.0e-4_wp), i=0, 9), &
+               (past_step(1.0e-4_wp + i, 1.0_wp, [1.0_wp, 0.0_wp, 0.0_wp], 1.0_wp), i=0, 1)]
+      rest = [past_step(0.0_wp, 1.0_wp, [1.0_wp, 1.0_wp, 0.0_wp], 1.0_wp), &
+              past_step(1.0_wp, 1.0e-15_wp, [2.0_wp, 0.0_wp, 0.0_wp], 1.0e-15_wp, rest=1.0e-17_wp)]
+      call expect_series(two, 0.75_wp, 0.5_wp, .true., [1.751_wp, 0.5_wp], &
+                         [1.0e-2_wp, 1.0e-4_wp], [0.5_wp, 0.0_wp])
+      call expect_series(two, 0.75_wp, 0.5_wp, .false., [1.75_wp, 0.5_wp])
+      call expect_series(two, 0.25_wp, 1.0_wp, .true., [1.25_wp, 1.0_wp], &
+                         [1.0e-2_wp, 1.0e-4_wp], [1.0_wp, 0.75_wp])
+      call expect_series(kink, 0.75_wp, 0.25_wp, .true., [1.75_wp, 0.25_wp])
+      call expect_series(layer, 0.0_wp, 0.5_wp, .true., [1.0_wp, 0.0_wp], &
+                         [1.0e-3_wp, 1.0e-5_wp], [0.5_wp, 0.0_wp])
+      call expect_series(layer, 0.0_wp, 1.0e-3_wp, .true., [1.1_wp, 0.0_wp])
+      call expect_series(rest, 1.0_wp, 0.5_wp, .false., [2.0_wp, 1.0e-17_wp], valid_for=1.0e-17_wp)
+
+   contains
+
+      !> The first coefficients at a time, and the length of the step for which they agree with the
+      !> past at tolerances.
+      subroutine expect_series(steps, t, unit, skipping, known, tolerances, lengths, valid_for)
+         type(past_step), intent(in) :: steps(:)
+         real(wp), intent(in) :: t, unit, known(2)
+         logical, intent(in) :: skipping
+         real(wp), intent(in), optional :: tolerances(:), lengths(:), valid_for
+         type(delayed_series) :: series
+         type(step_context) :: context
+         type(linear), target :: problem
+         real(wp) :: found_unit, h
+         integer :: k
+
+         problem = linear(lag=[2.0_wp])
+         context = new_context(problem, 0.0_wp, 0.1_wp, 0.0_wp, 1.0_wp)
+         do k = 1, size(steps)
+            call context%past%append(instant(steps(k)%start, steps(k)%rest), steps(k)%length, &
+                                     [0.0_wp, 0.0_wp], reshape(steps(k)%a, [3, 1]), &
+                                     steps(k)%valid_for)
+         end do
+         series = delayed_series(degree=2, delays=1)
+         call context%go_to(instant(t + 2.0_wp), max(0.5_wp, unit))
+         found_unit = unit
+         call series%read_past(context, skipping, found_unit)
+         call expect_close(error, series%coefficients(:, 1), [known, 0.0_wp], 1.0e-15_wp, "series")
+         call expect_close(error, found_unit, min(unit, series%valid_for), 0.0_wp, "unit")
+         if (present(valid_for)) then
+            call expect_close(error, series%valid_for, valid_for, 0.01_wp*valid_for, "validity")
+         end if
+         if (.not. present(tolerances)) return
+         do k = 1, size(tolerances)
+            context%tolerance = tolerance_type(1, 0.0_wp, tolerances(k))
+            call context%go_to(instant(t + 2.0_wp), max(0.5_wp, unit))
+            call series%read_past(context, skipping, found_unit)
+            h = unit
+            call series%confirm(context, unit, h)
+            call expect_close(error, h, lengths(k), 1.0e-15_wp, "length at "//text(tolerances(k)))
+         end do
+      end subroutine expect_series
+   end subroutine test_series
 
    !> Ten thousand steps of an integration with 40 delayed values take no more memory than the first
    !> hundred; to keep all of them would need 25 MB.
@@ -140,104 +174,6 @@ contains
       call expect(error, peak_memory() - before < growth, "memory does not grow by " &
                   //text(int(peak_memory() - before)))
    end subroutine test_memory_of_integration
-
-   !> Append steps, forget what no delay reaches, and look up all delayed values in each step. In
-   !> step i the solution is i + s, but component 3 of an even step is i + 3 s^2 - 2 s^3:
-   !> continuous, and in no step what it is in another.
-   subroutine expect_lookups(error, lag, steps, long_steps)
-      type(error_type), allocatable, intent(inout) :: error
-      real(wp), intent(in) :: lag(3)
-      integer, intent(in) :: steps
-      !> Steps after which they are 20 times shorter; none if not given
-      integer, intent(in), optional :: long_steps
-      type(cursor_type) :: cursor
-      type(history_type) :: past
-      type(instant) :: now
-      type(wille_baker) :: problem
-      real(wp) :: known, length, misfit, start(0:steps)
-      real(wp) :: z(3, size(places))
-      integer :: found, i, j, k
-
-      problem = delayed(lag, [3, 1, 3])
-      now = instant(0.0_wp)
-      past = history_type(problem, now)
-      cursor = cursor_type(problem)
-      misfit = 0.0_wp
-      found = 0
-      do i = 0, steps - 1
-         start(i) = now%hi
-         length = 0.01_wp*(1 + modulo(7*i, 5))
-         if (present(long_steps)) length = length/merge(1, 20, i < long_steps)
-         call cursor%set(problem, past, now, length)
-         ! ahead, then back to the start of the step
-         call cursor%values(problem, past, places(3:)*length, z(:, 3:))
-         call cursor%values(problem, past, places*length, z)
-         do j = 1, size(places)
-            do k = 1, size(lag)
-               ! a step that has the initial time inside is none that the solver makes
-               if (now%hi < lag(k) .and. now%hi + length > lag(k)) cycle
-               known = problem%past(problem%component(k))
-               if (now%hi >= lag(k)) then
-                  known = value_at(now%hi + places(j)*length - lag(k), start(:i), &
-                                   problem%component(k))
-                  found = found + 1
-               end if
-               misfit = max(misfit, abs(z(k, j) - known))
-            end do
-         end do
-         if (modulo(i, 2) == 1) then
-            call past%append(now, length, odd_nodes, &
-                             reshape([real(wp) :: i + 1, 1, i + 1, 1], [2, 2]), valid_for=length)
-         else
-            call past%append(now, length, even_nodes, &
-                             reshape([real(wp) :: i, 1, 0, 0, i, 1, 1, -2], [4, 2]), &
-                             valid_for=length)
-         end if
-         now = later(now, length)
-         call past%forget(later(now, -maxval(lag)))
-      end do
-      call expect_between(error, misfit, 0.0_wp, 1.0e-9_wp, "largest misfit")
-      call expect(error, found > 5*steps, "most look-ups are in the ring")
-   end subroutine expect_lookups
-
-   !> That solution at time t.
-   pure real(wp) function value_at(t, start, component) result(value)
-      real(wp), intent(in) :: t
-      !> Starts of all steps so far, the present one last
-      real(wp), intent(in) :: start(0:)
-      !> 1 or 3
-      integer, intent(in) :: component
-      real(wp) :: s
-      integer :: i
-
-      i = min(count(start <= t), ubound(start, 1)) - 1
-      s = (t - start(i))/(start(i + 1) - start(i))
-      value = i + s
-      if (component == 3 .and. modulo(i, 2) == 0) value = i + (3.0_wp - 2.0_wp*s)*s**2
-   end function value_at
-
-   !> The past reads this number at time t.
-   subroutine expect_number(error, past, cursor, problem, t, number)
-      type(error_type), allocatable, intent(inout) :: error
-      type(history_type), intent(in) :: past
-      type(cursor_type), intent(inout) :: cursor
-      type(wille_baker), intent(in) :: problem
-      real(wp), intent(in) :: t, number
-      real(wp) :: z(1, 1)
-
-      call cursor%set(problem, past, instant(t + problem%lag(1)), 0.1_wp)
-      call cursor%values(problem, past, [0.0_wp], z)
-      call expect_close(error, z(:, 1), [number], 0.0_wp, "number of the step at t = "//text(t))
-   end subroutine expect_number
-
-   !> A problem of three components with any delays.
-   pure type(wille_baker) function delayed(lag, component) result(problem)
-      real(wp), intent(in) :: lag(:)
-      integer, intent(in) :: component(:)
-
-      problem = wille_baker(n=3, lag=lag, component=component, past=[-1.0_wp, -2.0_wp, -3.0_wp], &
-                            first=[0.0_wp, 0.0_wp, 0.0_wp])
-   end function delayed
 
    !> The step of no method, with 300 000 delays, finds place in 64 MB.
    subroutine test_steps(error)

@@ -1,34 +1,27 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> When `auto` changes the method, what that costs, and how work is counted.
+!> What `auto` chooses and when it changes the method, what that costs, and how work is counted.
 module test_dde_switch
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use chain_of_blocks, only: chain
    use dde, only: dde_problem_type, integration_result
    use dde_errors, only: text
+   use dde_kinds, only: wp
    use dde_methods, only: price_of_trial
    use dde_tolerance, only: tolerance_type
-   use dde_kinds, only: wp
    use dde_work, only: work_type
    use expectations, only: expect, expect_close
-   use fast_problems, only: follower
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use piecewise_problems, only: piecewise, switching_kinds
+   use piecewise_problems, only: cells, changing_stiffness, switching_kinds
    use published_problems, only: enzyme, infection, mackey_glass
-   use single_step, only: held_back
    use solving, only: at_tolerance, run
-   use stiff_problems, only: sdisc
-   use test_problems, only: fill, sine
-   use undelayed_problems, only: swing
+   use stiff_problems, only: follower, sdisc
+   use test_problems, only: sine
    implicit none (type, external)
    private
    public :: collect_dde_switch
 
-   !> A fast component whose slow series is not found.
-   type, extends(follower) :: without_slow_series
-   contains
-      procedure :: slow_series => not_found
-   end type without_slow_series
-
-   !> Tolerances whose average counts, over one of them.
+   !> Tolerances whose average counts, over one of them, where the stiffness changes in each delay:
+   !> which trials fail there depends on rounding.
    real(wp), parameter :: neighbours(5) = [0.9_wp, 0.95_wp, 1.0_wp, 1.05_wp, 1.1_wp]
 
 contains
@@ -36,75 +29,129 @@ contains
    subroutine collect_dde_switch(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("an oscillation", test_oscillation), &
+      testsuite = [new_unittest("the choice of auto", test_choice), &
                    new_unittest("cost of changes", test_cost), &
+                   new_unittest("the cost of auto", test_cells), &
                    new_unittest("layers after each delay", test_layers), &
                    new_unittest("series that are never found", test_lost_series), &
-                   new_unittest("work of three methods in turn", test_methods), &
-                   new_unittest("work of a run", test_run)]
+                   new_unittest("work", test_work)]
    end subroutine collect_dde_switch
 
-   !> The step that the tolerance allows is not held back, a hundredth of it is.
-   subroutine test_oscillation(error)
+   !> `auto` takes series where delays are few, and where they are many below 1e-5.
+   subroutine test_choice(error)
       type(error_type), allocatable, intent(out) :: error
-      integer :: digits
 
-      do digits = 3, 13, 2
-         call expect(error, .not. held_back(swing(), 10.0_wp**(-digits), 1.0_wp), &
-                     "free at 1e-"//text(digits))
-         call expect(error, held_back(swing(), 10.0_wp**(-digits), 0.01_wp), &
-                     "held back at 1e-"//text(digits))
-      end do
-   end subroutine test_oscillation
+      call expect_method(chain(1), 1.0e-2_wp, "taylor")
+      call expect_method(mackey_glass(), 1.0e-5_wp, "bs5")
+      call expect_method(mackey_glass(), 1.0e-6_wp, "taylor")
 
-   !> On problems that jump or change their stiffness, and on published ones,
-   !> `auto` takes at most twice the work of the better method, and the work that earns a trial.
-   !> Where the stiffness changes in each delay the average of five neighbouring tolerances counts:
-   !> which trials fail there depends on rounding.
+   contains
+
+      !> As many steps and evaluations as by the method.
+      subroutine expect_method(problem, tolerance, method)
+         class(dde_problem_type), intent(in) :: problem
+         real(wp), intent(in) :: tolerance
+         character(len=*), intent(in) :: method
+         class(dde_problem_type), allocatable :: analytic
+         type(integration_result) :: known, outcome
+
+         allocate (analytic, source=problem)
+         analytic%analytic = .true.
+         call run(error, analytic, 0.0_wp, 50.0_wp, at_tolerance(tolerance, method), known)
+         call run(error, analytic, 0.0_wp, 50.0_wp, at_tolerance(tolerance, "auto"), outcome)
+         call expect(error, outcome%accepted == known%accepted &
+                     .and. outcome%evaluations == known%evaluations, method)
+      end subroutine expect_method
+   end subroutine test_choice
+
+   !> On problems that jump or change their stiffness, and on published ones, `auto` takes at most
+   !> twice the work of the better method, and the work that earns a trial.
    subroutine test_cost(error)
       type(error_type), allocatable, intent(out) :: error
-      integer :: kind, power
+      integer :: digits, kind, power
 
-      do kind = 1, switching_kinds
-         do power = 1, 4, 3
-            call compare_work(error, switch(kind, 10.0_wp**power), 30.0_wp, &
-                              "switching "//text(kind)//", k = 1e"//text(power), changing=.true.)
+      do digits = 3, 6, 3
+         do kind = 1, switching_kinds
+            do power = 1, 4, 3
+               call compare_work(error, changing_stiffness(kind, 10.0_wp**power), 30.0_wp, &
+                                 10.0_wp**(-digits)*neighbours, 2.0_wp, &
+                                 "switching "//text(kind)//", k = 1e"//text(power))
+            end do
          end do
+         call compare_work(error, infection(), 40.0_wp, [10.0_wp**(-digits)], 2.0_wp, "infection")
+         call compare_work(error, enzyme(), 160.0_wp, [10.0_wp**(-digits)], 2.0_wp, "enzyme")
+         call compare_work(error, mackey_glass(), 200.0_wp, [10.0_wp**(-digits)], 2.0_wp, "chaos")
       end do
-      call compare_work(error, infection(), 40.0_wp, "infection")
-      call compare_work(error, enzyme(), 160.0_wp, "enzyme")
-      call compare_work(error, mackey_glass(), 200.0_wp, "mackey-glass")
    end subroutine test_cost
 
+   !> Where the explicit method is better `auto` stays with it, however stiff steps may look; where
+   !> the implicit one is, it does not take much more.
+   subroutine test_cells(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: diffusion(2) = [1.0_wp, 1000.0_wp]
+      type(cells) :: problem
+      integer, parameter :: sizes(5) = [30, 300, 30, 300, 3000]
+      integer :: i, k
+
+      do k = 1, size(sizes)
+         do i = 1, size(diffusion)
+            problem = cells(sizes(k), diffusion(i), delayed=.true.)
+            if (k > 2) problem%lower = 1
+            if (k > 2) problem%upper = 1
+            call compare_work(error, problem, 3.0_wp, [1.0e-5_wp], 1.5_wp, text(sizes(k))//" cells")
+         end do
+      end do
+   end subroutine test_cells
+
+   !> The work of `auto` and of the methods that it chooses from, on the average of tolerances.
+   subroutine compare_work(error, problem, t_end, tolerances, most, name, known)
+      type(error_type), allocatable, intent(inout) :: error
+      class(dde_problem_type), intent(in) :: problem
+      real(wp), intent(in) :: t_end, tolerances(:)
+      !> Work of auto over that of the better method
+      real(wp), intent(in) :: most
+      character(len=*), intent(in) :: name
+      !> The end, if it is compared; then the explicit method is not tried
+      real(wp), intent(in), optional :: known(:)
+      type(integration_result) :: auto, explicit, implicit
+      real(wp) :: better, middle, price, work
+      integer :: i
+
+      middle = tolerances((size(tolerances) + 1)/2)
+      explicit%work = huge(1.0_wp)
+      if (.not. present(known)) then
+         call run(error, problem, 0.0_wp, t_end, at_tolerance(middle, "explicit"), explicit)
+      end if
+      work = 0.0_wp
+      better = 0.0_wp
+      price = 0.0_wp
+      do i = 1, size(tolerances)
+         call run(error, problem, 0.0_wp, t_end, at_tolerance(tolerances(i), "auto"), auto)
+         call run(error, problem, 0.0_wp, t_end, at_tolerance(tolerances(i), "radau9"), implicit)
+         if (present(known)) then
+            call expect_close(error, auto%y, known, 10*tolerances(i), name//" by auto")
+            call expect_close(error, implicit%y, known, 10*tolerances(i), name//" by radau9")
+         end if
+         work = work + auto%work
+         better = better + min(explicit%work, implicit%work)
+         price = price + price_of_trial(problem, tolerance_type(problem%n, tolerances(i), &
+                                                                tolerances(i)))
+      end do
+      call expect(error, work <= most*better + 2*price, &
+                  name//" at "//text(middle)//": "//text(work)//" by auto, " &
+                  //text(explicit%work)//" by explicit, "//text(implicit%work)//" by radau9, " &
+                  //text(auto%switches)//" changes")
+   end subroutine compare_work
+
    !> In layers both methods are equally fast; elsewhere explicit steps are out of the question.
-   !> On the average of five neighbouring tolerances `auto` takes at most twice the work of the
-   !> implicit method. Both agree with the method of order 13.
+   !> Both agree with the method of order 13.
    subroutine test_layers(error)
       type(error_type), allocatable, intent(out) :: error
-      type(integration_result) :: auto, implicit, reference
-      type(sdisc) :: problem
-      real(wp) :: better, price, tolerance, work
-      integer :: digits, i
+      type(integration_result) :: known
 
-      problem = sdisc()
-      call run(error, problem, 0.0_wp, 20.5_wp, at_tolerance(1.0e-9_wp, "radau13"), reference)
-      do digits = 3, 6, 3
-         work = 0.0_wp
-         better = 0.0_wp
-         do i = 1, size(neighbours)
-            tolerance = neighbours(i)*10.0_wp**(-digits)
-            call run(error, problem, 0.0_wp, 20.5_wp, at_tolerance(tolerance, "auto"), auto)
-            call run(error, problem, 0.0_wp, 20.5_wp, at_tolerance(tolerance, "radau9"), implicit)
-            if (allocated(error)) return
-            call expect_close(error, auto%y, reference%y, 10*tolerance, "by auto")
-            call expect_close(error, implicit%y, reference%y, 10*tolerance, "by radau9")
-            work = work + auto%work
-            better = better + implicit%work
-         end do
-         price = price_of_trial(problem, tolerance_type(1, tolerance, tolerance))
-         call expect(error, work <= 2*better + 2*price*size(neighbours), &
-                     text(work)//" by auto, "//text(better)//" by radau9")
-      end do
+      call run(error, sdisc(), 0.0_wp, 20.5_wp, at_tolerance(1.0e-9_wp, "radau13"), known)
+      call compare_work(error, sdisc(), 20.5_wp, 1.0e-3_wp*neighbours, 2.0_wp, "layers", known%y)
+      call compare_work(error, sdisc(), 20.5_wp, 1.0e-6_wp*neighbours, 2.0_wp, "layers", known%y)
    end subroutine test_layers
 
    !> The component is in balance, but its slow series is not found: all trials of the explicit
@@ -112,80 +159,24 @@ contains
    subroutine test_lost_series(error)
       type(error_type), allocatable, intent(out) :: error
       type(integration_result) :: auto, implicit
-      type(without_slow_series) :: problem
+      type(follower) :: problem
+      real(wp) :: exact(2)
 
-      problem%follower = follower(1.0e22_wp, 0.0_wp)
+      problem = follower(1.0e22_wp, 0.0_wp, wrong_by=ieee_value(1.0_wp, ieee_quiet_nan))
       call run(error, problem, 0.0_wp, 5.0_wp, at_tolerance(1.0e-8_wp, "auto"), auto)
       call run(error, problem, 0.0_wp, 5.0_wp, at_tolerance(1.0e-8_wp, "radau9"), implicit)
-      if (allocated(error)) return
       call expect(error, auto%switches > 1, "trials of the explicit method")
       call expect(error, auto%work <= 2*implicit%work, &
                   text(auto%work)//" by auto, "//text(implicit%work)//" by radau9")
-      call expect_close(error, auto%y, problem%exact(5.0_wp), 1.0e-7_wp, "by auto")
+      call problem%exact(problem%p, 5.0_wp, exact)
+      call expect_close(error, auto%y, exact, 1.0e-7_wp, "by auto")
    end subroutine test_lost_series
 
-   !> No number.
-   pure subroutine not_found(self, t, unit, degree, z, y)
-      class(without_slow_series), intent(in) :: self
-      real(wp), intent(in) :: t, unit
-      integer, intent(in) :: degree
-      real(wp), intent(in) :: z(0:degree, size(self%lag))
-      real(wp), intent(inout) :: y(0:degree, self%n)
-
-      y = ieee_value(1.0_wp, ieee_quiet_nan)
-   end subroutine not_found
-
-   !> The work of `auto` and of the methods that it chooses from.
-   subroutine compare_work(error, problem, t_end, name, changing)
-      type(error_type), allocatable, intent(inout) :: error
-      class(dde_problem_type), intent(in) :: problem
-      real(wp), intent(in) :: t_end
-      character(len=*), intent(in) :: name
-      !> Whether the average over neighbouring tolerances counts; not if not given
-      logical, intent(in), optional :: changing
-      type(integration_result) :: auto, explicit, implicit
-      real(wp), allocatable :: ratios(:)
-      real(wp) :: better, price, tolerance, work
-      integer :: digits, i
-
-      ratios = [1.0_wp]
-      if (present(changing)) ratios = neighbours
-      do digits = 3, 6, 3
-         call run(error, problem, 0.0_wp, t_end, at_tolerance(10.0_wp**(-digits), "explicit"), &
-                  explicit)
-         work = 0.0_wp
-         better = 0.0_wp
-         price = 0.0_wp
-         do i = 1, size(ratios)
-            tolerance = ratios(i)*10.0_wp**(-digits)
-            call run(error, problem, 0.0_wp, t_end, at_tolerance(tolerance, "auto"), auto)
-            call run(error, problem, 0.0_wp, t_end, at_tolerance(tolerance, "radau9"), implicit)
-            if (allocated(error)) return
-            work = work + auto%work/size(ratios)
-            better = better + min(explicit%work, implicit%work)/size(ratios)
-            price = price + price_of_trial(problem, tolerance_type(problem%n, tolerance, &
-                                                                   tolerance))/size(ratios)
-         end do
-         call expect(error, work <= 2*better + 2*price, &
-                     name//" at 1e-"//text(digits)//": "//text(work)//" by auto, " &
-                     //text(explicit%work)//" by explicit, "//text(implicit%work)//" by radau, " &
-                     //text(auto%switches)//" changes")
-      end do
-   end subroutine compare_work
-
-   !> A problem that switches.
-   type(piecewise) function switch(kind, k) result(problem)
-      integer, intent(in) :: kind
-      real(wp), intent(in) :: k
-
-      call fill(problem, 2, [0.5_wp, 0.5_wp], [0.5_wp, 0.5_wp], [1.0_wp, 1.0_wp], [1, 2])
-      problem%kind = kind
-      problem%k = k
-   end function switch
-
-   !> Evaluations have the cost of the method that made them.
-   subroutine test_methods(error)
+   !> Evaluations have the cost of the method that made them. By the explicit pair the work is their
+   !> number, by the implicit method more, and only that factorises.
+   subroutine test_work(error)
       type(error_type), allocatable, intent(out) :: error
+      type(integration_result) :: outcome
       type(work_type) :: work
 
       work = work_type(equations=3)
@@ -197,19 +188,11 @@ contains
       call work%set_cost(1.0_wp)
       work%evaluations = work%evaluations + 7
       call expect_close(error, work%total(), 10.0_wp + 4*5.0_wp + 7.0_wp, 0.0_wp, "after the third")
-   end subroutine test_methods
-
-   !> By the explicit pair the work is the number of evaluations, by the implicit method more, and
-   !> only that factorises.
-   subroutine test_run(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(integration_result) :: outcome
-
       call run(error, sine(), 0.0_wp, 20.0_wp, at_tolerance(1.0e-6_wp, "explicit"), outcome)
       call expect_close(error, outcome%work, real(outcome%evaluations, wp), 0.0_wp, "explicit")
       call expect(error, outcome%factorisations == 0, "no factorisation")
       call run(error, sine(), 0.0_wp, 20.0_wp, at_tolerance(1.0e-6_wp, "radau5"), outcome)
       call expect(error, outcome%work > 3.0_wp*outcome%evaluations, "implicit, with its systems")
       call expect(error, outcome%factorisations > 0, "factorisations")
-   end subroutine test_run
+   end subroutine test_work
 end module test_dde_switch

@@ -1,28 +1,32 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Steps by Taylor series: order and length, slow series and the balance they keep, pasts of other
-!> methods.
+!> Steps by Taylor series: their length, slow series and transients, pasts of other methods; and
+!> that series of a problem which are not those of its right-hand side or history are refused, but
+!> rounding errors and jumps are not.
 module test_dde_taylor
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use chain_of_blocks, only: chain
-   use dde, only: continuation_type, integration_result
-   use dde_errors, only: text
-   use dde_problem, only: dde_problem_type
-   use dde_slow_series, only: series_reach
-   use dde_step_context, only: step_context
-   use dde_taylor_series, only: taylor_series
-   use dde_taylor_step, only: taylor_step_type
+   use dde, only: continuation_type, integrate, integration_options, integration_result, refused, &
+                  value_not_finite
+   use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
-   use expectations, only: expect, expect_between, expect_close
-   use fast_problems, only: follower
+   use dde_slow_series, only: series_reach
+   use dde_taylor_step, only: taylor_step_type
+   use expectations, only: expect, expect_close, expect_failure
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use published_problems, only: mackey_glass
-   use single_step, only: interpolated, new_context
+   use single_step, only: take_taylor_step
    use solving, only: at_tolerance, run, solve
-   use test_problems, only: sine
-   use undelayed_problems, only: blow_up, undelayed
+   use stiff_problems, only: follower
+   use test_problems, only: constant_past, fill, sine
+   use undelayed_problems, only: swing
    implicit none (type, external)
    private
    public :: collect_dde_taylor
+
+   !> What is wrong with the series of `misprint`.
+   enum, bind(c)
+      enumerator :: nothing, no_unit, other_value, no_past_unit, no_past, later_term, &
+         later_past_term
+   end enum
 
    !> The method itself, and the one that begins with it.
    character(len=8), parameter :: both(2) = ["taylor  ", "auto    "]
@@ -32,43 +36,96 @@ contains
    subroutine collect_dde_taylor(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("order", test_order), &
-                   new_unittest("slope", test_slope), &
+      testsuite = [new_unittest("how far series reach", test_reach), &
+                   new_unittest("steps that are held back", test_held_back), &
                    new_unittest("the past of other methods", test_pasts), &
-                   new_unittest("how far series reach", test_reach), &
-                   new_unittest("a follower", test_follower), &
                    new_unittest("a transient", test_transient), &
-                   new_unittest("the choice of auto", test_choice), &
-                   new_unittest("chains", test_chains)]
+                   new_unittest("chains", test_chains), &
+                   new_unittest("wrong series", test_wrong), &
+                   new_unittest("wrong slow series", test_slow), &
+                   new_unittest("rounding errors and jumps", test_jumps)]
    end subroutine collect_dde_taylor
 
-   !> `auto` takes series where delays are few, and where they are many below 1e-5.
-   subroutine test_choice(error)
+   !> Very small terms that grow do not reach as far as the tolerance would let them: exp(4 s) - 1
+   !> in units of 1e-30, whose terms grow up to s = 2. One that vanishes, or all, are no limit.
+   subroutine test_reach(error)
       type(error_type), allocatable, intent(out) :: error
+      real(wp) :: reach, series(0:8, 1)
+      integer :: k
 
-      call expect_method(chain(1), 1.0e-2_wp, "taylor")
-      call expect_method(mackey_glass(), 1.0e-5_wp, "bs5")
-      call expect_method(mackey_glass(), 1.0e-6_wp, "taylor")
+      series(:, 1) = [(1.0e-30_wp*4.0_wp**k/gamma(k + 1.0_wp), k=0, 8)]
+      call series_reach(8, series, [1.0e-6_wp], reach)
+      call expect_close(error, reach, 0.9_wp*2.0_wp, 1.0e-14_wp, "eight over four")
+      series(7, 1) = 0.0_wp
+      call series_reach(8, series, [1.0e-6_wp], reach)
+      call expect_close(error, reach, 0.9_wp*sqrt(7*8/16.0_wp), 1.0e-14_wp, "a term vanishes")
+      series(:, 1) = 1.0_wp
+      call series_reach(8, series, [1.0e-6_wp], reach)
+      call expect_close(error, reach, 0.9_wp*1.0e-6_wp**(1.0_wp/7), 1.0e-14_wp, "all terms 1")
+      series(1:, 1) = 0.0_wp
+      call series_reach(8, series, [1.0e-6_wp], reach)
+      call expect(error, reach > 1.0e14_wp, "a constant")
+   end subroutine test_reach
 
-   contains
+   !> The step that the tolerance allows is not held back, a hundredth of it is.
+   subroutine test_held_back(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(taylor_step_type) :: step
+      real(wp) :: estimate
+      integer :: digits
 
-      !> As many steps and evaluations as by the method.
-      subroutine expect_method(problem, tolerance, method)
-         class(dde_problem_type), intent(in) :: problem
-         real(wp), intent(in) :: tolerance
-         character(len=*), intent(in) :: method
-         class(dde_problem_type), allocatable :: analytic
-         type(integration_result) :: known, outcome
+      do digits = 3, 13, 2
+         call take_taylor_step(swing(), 10.0_wp**(-digits), 1.0_wp, step, estimate, .true.)
+         call expect(error, .not. step%stiff(), "free at 1e-"//text(digits))
+         call take_taylor_step(swing(), 10.0_wp**(-digits), 0.01_wp, step, estimate, .true.)
+         call expect(error, step%stiff(), "held back at 1e-"//text(digits))
+      end do
+   end subroutine test_held_back
 
-         allocate (analytic, source=problem)
-         analytic%analytic = .true.
-         call run(error, analytic, 0.0_wp, 50.0_wp, at_tolerance(tolerance, method), known)
-         call run(error, analytic, 0.0_wp, 50.0_wp, at_tolerance(tolerance, "auto"), outcome)
+   !> y = sin t by one method after the other, each on the past that the one before has left.
+   subroutine test_pasts(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(continuation_type) :: continuation
+      type(integration_result) :: outcome
+      character(len=8), parameter :: methods(6) = ["explicit", "taylor  ", "radau9  ", "taylor  ", &
+                                                   "explicit", "taylor  "]
+      integer :: i
+
+      do i = 1, size(methods)
+         call run(error, sine(), continuation%time(1), 2.3_wp*i, &
+                  at_tolerance(1.0e-11_wp, methods(i)), outcome, continuation=continuation)
          if (allocated(error)) return
-         call expect(error, outcome%accepted == known%accepted &
-                     .and. outcome%evaluations == known%evaluations, method)
-      end subroutine expect_method
-   end subroutine test_choice
+         call expect_close(error, outcome%y, [sin(2.3_wp*i)], 1.0e-9_wp, &
+                           methods(i)//" in run "//text(i))
+         call expect_close(error, continuation%slope, [cos(2.3_wp*i)], 1.0e-8_wp, &
+                           "slope after "//methods(i))
+      end do
+   end subroutine test_pasts
+
+   !> A transient towards the balance is followed as long as it is seen; one delay later it changes
+   !> y2 by 1/rate, which is followed where it counts.
+   subroutine test_transient(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(follower) :: problem
+      real(wp), allocatable :: y(:, :)
+      real(wp) :: exact(2, 7), times(7)
+      integer :: i, j
+
+      do j = 3, 9, 2
+         problem = follower(10.0_wp**j, start=2.0_wp)
+         times = [[1.0_wp, 3.0_wp, 10.0_wp, 30.0_wp]*10.0_wp**(-j), 1.001_wp, 1.1_wp, 1.5_wp]
+         do i = 1, size(times)
+            call problem%exact(problem%p, times(i), exact(:, i))
+         end do
+         do i = 1, size(both)
+            call solve(problem, times, at_tolerance(1.0e-10_wp, both(i)), y, error)
+            if (allocated(error)) return
+            call expect_close(error, y(1, :4), exact(1, :4), 1.0e-8_wp, both(i)//" at once")
+            call expect_close(error, y(2, 5:), exact(2, 5:), 1.0e-9_wp, &
+                              both(i)//" at rate 1e"//text(j))
+         end do
+      end do
+   end subroutine test_transient
 
    !> 50 delays that differ by 1 %: the explicit method confirms the solution, and takes more steps.
    !> Without delayed values over several steps of the past series take five times as many. Blocks
@@ -96,153 +153,152 @@ contains
          analytic%analytic = .true.
          call run(error, problem, 0.0_wp, t_end, at_tolerance(tight, method), known)
          call run(error, analytic, 0.0_wp, t_end, at_tolerance(tolerance, "taylor"), outcome)
-         if (allocated(error)) return
          call expect_close(error, outcome%y, known%y, 10*tolerance, "beside "//method)
          if (present(most)) known%accepted = most
          call expect(error, outcome%accepted < known%accepted, "steps: "//text(outcome%accepted))
       end subroutine compare
    end subroutine test_chains
 
-   !> y' = y^2, y(0) = 1 has the series 1 + t + t^2 + ...: all places of a step show its first
-   !> terms, so that the error falls with the power degree + 1 of the step.
-   subroutine test_order(error)
+   !> The message names the series, the component, the time and both values. A method that does not
+   !> read series does not refuse them. A run that goes on looks again: at the series of what it
+   !> stored, too.
+   subroutine test_wrong(error)
       type(error_type), allocatable, intent(out) :: error
-      type(taylor_step_type) :: step
-      real(wp), parameter :: h = 0.25_wp
-      integer :: degree, k, place
-
-      do degree = 6, 20
-         call take_step(10.0_wp**(7 - degree), h, step)
-         call expect_close(error, real(step%constants%order, wp), real(degree, wp), 0.0_wp, &
-                           "degree")
-         call expect_close(error, step%y_new, [sum([(h**k, k=0, degree)])], 1.0e-15_wp, "end")
-         do place = 0, 4
-            associate (s => 0.25_wp*place)
-               call expect_close(error, interpolated(step, s), [sum([((s*h)**k, k=0, degree)])], &
-                                 1.0e-15_wp, "place "//text(s)//" at degree "//text(degree))
-            end associate
-         end do
-      end do
-   end subroutine test_order
-
-   !> 1 + 3 s - 2 s^2 in powers of half a unit of time; what later terms are does not matter at 0.
-   subroutine test_slope(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(taylor_series) :: series
-
-      series%degree = 3
-      series%unit = 0.5_wp
-      allocate (series%coefficients(0:3, 1))
-      series%coefficients(:, 1) = [1.0_wp, 3.0_wp, -2.0_wp, 0.0_wp]
-      call expect_close(error, [series%slope_of(1, 0.0_wp)], [6.0_wp], 1.0e-15_wp, "at the start")
-      call expect_close(error, [series%slope_of(1, 0.25_wp)], [2.0_wp], 1.0e-15_wp, "in the middle")
-      series%coefficients(3, 1) = ieee_value(1.0_wp, ieee_quiet_nan)
-      call expect_close(error, [series%slope_of(1, 0.0_wp)], [6.0_wp], 1.0e-15_wp, &
-                        "where one is no number")
-   end subroutine test_slope
-
-   !> One step of y' = y^2 from y(0) = 1.
-   subroutine take_step(tolerance, h, step)
-      real(wp), intent(in) :: tolerance, h
-      type(taylor_step_type), intent(out) :: step
-      type(undelayed), target :: problem
-      type(step_context) :: context
-      real(wp) :: estimate, lacking, length
-
-      problem = blow_up()
-      call step%set_up(problem, tolerance, lacking)
-      context = new_context(problem, 0.0_wp, 1.0_wp, 0.0_wp, tolerance)
-      length = 0.5_wp*h
-      call step%propose(context, length)
-      context%cursor%h = h
-      call step%attempt(context, estimate)
-   end subroutine take_step
-
-   !> y = sin t by one method after the other, each on the past that the one before has left.
-   subroutine test_pasts(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(continuation_type) :: continuation
+      character(len=*), parameter :: of_solution = "series: the slope of component 1 is "
+      type(continuation_type) :: good
       type(integration_result) :: outcome
-      character(len=8), parameter :: methods(6) = ["explicit", "taylor  ", "radau9  ", "taylor  ", &
-                                                   "explicit", "taylor  "]
       integer :: i
 
-      do i = 1, size(methods)
-         call run(error, sine(), continuation%time(1), 2.3_wp*i, &
-                  at_tolerance(1.0e-11_wp, methods(i)), outcome, continuation=continuation)
-         call expect_close(error, outcome%y, [sin(2.3_wp*i)], 1.0e-9_wp, &
-                           methods(i)//" in run "//text(i))
-         call expect_close(error, continuation%slope, [cos(2.3_wp*i)], 1.0e-8_wp, &
-                           "slope after "//methods(i))
+      call run(error, misprint(nothing), 0.0_wp, 1.5_wp, at_tolerance(1.0e-9_wp, "taylor"), &
+               outcome, continuation=good)
+      call run(error, misprint(no_unit), 0.0_wp, 3.0_wp, at_tolerance(1.0e-9_wp, "radau9"), outcome)
+      do i = 1, size(both)
+         call refuse(no_unit, both(i), of_solution)
+         call refuse(no_unit, both(i), "(wrong from about coefficient 1 on)")
+         call refuse(later_term, both(i), "(wrong from about coefficient 3 on)")
+         call refuse(other_value, both(i), "past_series: component 1 is ")
+         call refuse(other_value, both(i), ", history gives ")
+         call refuse(no_past_unit, both(i), "past_series: component 1 is ")
+         call refuse(later_past_term, both(i), "past_series: component 1 is ")
       end do
-   end subroutine test_pasts
+      call refuse(no_past, "taylor", "not finite", reason=value_not_finite)
+      call refuse(later_term, "taylor", of_solution, good)
 
-   !> Very small terms that grow do not reach as far as the tolerance would let them; one that
-   !> vanishes, or all, are no limit.
-   subroutine test_reach(error)
+   contains
+
+      subroutine refuse(wrong, method, words, continuation, reason)
+         integer, intent(in) :: wrong
+         character(len=*), intent(in) :: method, words
+         type(continuation_type), intent(inout), optional :: continuation
+         !> `refused` if not given
+         integer, intent(in), optional :: reason
+         type(failure_type), allocatable :: failure
+         real(wp) :: t_start
+         integer :: known
+
+         t_start = 0.0_wp
+         if (present(continuation)) t_start = continuation%time(1)
+         known = refused
+         if (present(reason)) known = reason
+         call integrate(misprint(wrong), t_start, 3.0_wp, at_tolerance(1.0e-9_wp, method), &
+                        outcome, failure, continuation=continuation)
+         call expect_failure(error, failure, words)
+         call expect(error, outcome%reason == known, "the reason")
+      end subroutine refuse
+   end subroutine test_wrong
+
+   !> A slow series that is not that of the equations is not used: the run is as that by Radau.
+   subroutine test_slow(error)
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: reach, series(0:8, 1)
+      type(integration_result) :: outcome, reference
+
+      call run(error, follower(1.0e6_wp, 0.0_wp, wrong_by=1.0e-3_wp), 0.0_wp, 3.0_wp, &
+               at_tolerance(1.0e-9_wp, "auto"), outcome)
+      call run(error, follower(1.0e6_wp, 0.0_wp), 0.0_wp, 3.0_wp, &
+               at_tolerance(1.0e-11_wp, "radau9"), reference)
+      call expect_close(error, outcome%y, reference%y, 1.0e-8_wp, "a wrong slow series")
+   end subroutine test_slow
+
+   !> With rate 1e12 the right-hand side of 0.3 and 0.1 + 0.2 is a rounding error: the series has
+   !> another one. A jump shortly after the first delayed time, which the series does not have: the
+   !> run lands on it where it is declared, and is refused where not.
+   subroutine test_jumps(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_options) :: options
+      type(integration_result) :: outcome
+      type(constant_past) :: problem
+      real(wp) :: tenth
+      integer :: digits
+
+      problem = misprint(nothing)
+      tenth = 0.1_wp
+      problem%first = [0.3_wp]
+      problem%p(:3) = [1.0e12_wp, tenth + 0.2_wp, 0.0_wp]
+      call run(error, problem, 0.0_wp, 0.5_wp, at_tolerance(1.0e-9_wp, "auto"), outcome)
+      problem = misprint(nothing)
+      options = at_tolerance(1.0e-9_wp, "taylor")
+      do digits = 1, 10
+         problem%p(4) = -1.0_wp + 10.0_wp**(-digits)
+         options%break_at = [problem%p(4)]
+         call run(error, problem, 0.0_wp, 0.5_wp, options, outcome)
+      end do
+      call integrate(problem, 0.0_wp, 0.5_wp, at_tolerance(1.0e-9_wp, "taylor"), outcome, failure)
+      call expect_failure(error, failure, "the same expected, or a jump in break_at")
+   end subroutine test_jumps
+
+   !> y' = -rate (y - z) with delay 1, from y = 2, z = 3; y = past exp(growth t) for t < 0, and 1
+   !> more from a time on. Parameters: rate, past, growth, time of the jump, and what is wrong.
+   type(constant_past) function misprint(wrong) result(problem)
+      integer, intent(in) :: wrong
+
+      call fill(problem, 1, first=[2.0_wp], lag=[1.0_wp], component=[1], &
+                p=[1.0_wp, 3.0_wp*exp(1.0_wp), 1.0_wp, huge(1.0_wp), real(wrong, wp)])
+      problem%f => relax
+      problem%terms => series_of_relaxation
+      problem%exact => exponential
+      problem%past_terms => series_of_exponential
+      problem%analytic = .true.
+   end function misprint
+
+   pure subroutine exponential(p, t, y)
+      real(wp), intent(in) :: p(:), t
+      real(wp), intent(out) :: y(:)
+
+      y = p(2)*exp(p(3)*t) + merge(1.0_wp, 0.0_wp, t >= p(4))
+   end subroutine exponential
+
+   pure subroutine series_of_exponential(p, t, unit, y)
+      real(wp), intent(in) :: p(:), t, unit
+      real(wp), intent(out) :: y(0:)
       integer :: k
 
-      ! exp(4 s) - 1 in units of 1e-30: terms grow up to s = 2 and beyond fall
-      series(:, 1) = [(1.0e-30_wp*4.0_wp**k/gamma(k + 1.0_wp), k=0, 8)]
-      call series_reach(8, series, [1.0e-6_wp], reach)
-      call expect_close(error, reach, 0.9_wp*2.0_wp, 1.0e-14_wp, "eight over four")
-      series(7, 1) = 0.0_wp
-      call series_reach(8, series, [1.0e-6_wp], reach)
-      call expect_close(error, reach, 0.9_wp*sqrt(7*8/16.0_wp), 1.0e-14_wp, "a term vanishes")
-      series(:, 1) = 1.0_wp
-      call series_reach(8, series, [1.0e-6_wp], reach)
-      call expect_close(error, reach, 0.9_wp*1.0e-6_wp**(1.0_wp/7), 1.0e-14_wp, "all terms 1")
-      series(1:, 1) = 0.0_wp
-      call series_reach(8, series, [1.0e-6_wp], reach)
-      call expect(error, reach > 1.0e14_wp, "a constant")
-   end subroutine test_reach
-
-   !> The exact solution within ten tolerances, whatever the rate, in few steps.
-   subroutine test_follower(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(follower) :: problem
-      type(integration_result) :: outcome
-      real(wp), parameter :: rate(5) = [1.0e2_wp, 1.0e4_wp, 1.0e6_wp, 1.0e9_wp, 1.0e12_wp]
-      integer :: i, j, k
-
-      do i = 1, size(rate)
-         problem = follower(rate(i), start=2.0_wp)
-         do j = 4, 12, 2
-            do k = 1, 2
-               call run(error, problem, 0.0_wp, 20.0_wp, at_tolerance(10.0_wp**(-j), both(k)), &
-                        outcome)
-               call expect_close(error, outcome%y, problem%exact(20.0_wp), 10*10.0_wp**(-j), &
-                                 trim(both(k))//" at rate "//text(rate(i))//", 1e-"//text(j))
-               call expect_between(error, real(outcome%accepted, wp), 20.0_wp, 400.0_wp, &
-                                   "steps at rate "//text(rate(i))//", 1e-"//text(j))
-            end do
-         end do
+      y(0) = p(2)*exp(p(3)*t)
+      if (nint(p(5)) == other_value) y(0) = 2*y(0)
+      if (nint(p(5)) == no_past) y(0) = ieee_value(1.0_wp, ieee_quiet_nan)
+      do k = 1, ubound(y, 1)
+         y(k) = merge(1.0_wp, unit, nint(p(5)) == no_past_unit)*p(3)/k*y(k - 1)
       end do
-   end subroutine test_follower
+      if (t >= p(4)) y(0) = y(0) + 1.0_wp
+      if (nint(p(5)) == later_past_term) y(2) = 1.1_wp*y(2)
+   end subroutine series_of_exponential
 
-   !> A transient towards the balance is followed as long as it is seen; one delay later it changes
-   !> y2 by 1/rate, which is followed where it counts.
-   subroutine test_transient(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(follower) :: problem
-      real(wp), allocatable :: y(:, :)
-      real(wp) :: exact(2, 7), times(7)
-      integer :: i, j
+   pure subroutine relax(p, t, y, z, f)
+      real(wp), intent(in) :: p(:), t, y(:), z(:)
+      real(wp), intent(out) :: f(:)
 
-      do j = 3, 9, 2
-         problem = follower(10.0_wp**j, start=2.0_wp)
-         times = [[1.0_wp, 3.0_wp, 10.0_wp, 30.0_wp]/problem%rate, 1.001_wp, 1.1_wp, 1.5_wp]
-         do i = 1, size(times)
-            exact(:, i) = problem%exact(times(i))
-         end do
-         do i = 1, size(both)
-            call solve(problem, times, at_tolerance(1.0e-10_wp, both(i)), y, error)
-            call expect_close(error, y(1, :4), exact(1, :4), 1.0e-8_wp, both(i)//" at once")
-            call expect_close(error, y(2, 5:), exact(2, 5:), 1.0e-9_wp, &
-                              both(i)//" at rate 1e"//text(j))
-         end do
+      f = -p(1)*(y - z)
+   end subroutine relax
+
+   pure subroutine series_of_relaxation(p, t, unit, z, y)
+      real(wp), intent(in) :: p(:), t, unit, z(0:, :)
+      real(wp), intent(inout) :: y(0:, :)
+      integer :: k
+
+      do k = 0, ubound(y, 1) - 1
+         y(k + 1, 1) = merge(1.0_wp, unit, nint(p(5)) == no_unit)/(k + 1) &
+                       *(p(1)*z(k, 1) - p(1)*y(k, 1))
+         if (nint(p(5)) == later_term .and. k == 2) y(3, 1) = 1.1_wp*y(3, 1)
       end do
-   end subroutine test_transient
+   end subroutine series_of_relaxation
 end module test_dde_taylor

@@ -14,7 +14,7 @@ module single_step
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: held_back, interpolated, new_context, take_step
+   public :: interpolated, new_context, take_step, take_taylor_step
 
 contains
 
@@ -56,25 +56,25 @@ contains
       call step%attempt(context, estimate)
    end subroutine take_step
 
-   !> Whether a step from the start is held back.
-   function held_back(problem, tolerance, share) result(value)
+   !> Take one Taylor step of length `h`, or of `h` times that which the series allows.
+   subroutine take_taylor_step(problem, tolerance, h, step, estimate, in_shares)
       class(dde_problem_type), intent(in), target :: problem
-      real(wp), intent(in) :: tolerance
-      !> Its length over that which the series allows
-      real(wp), intent(in) :: share
-      logical :: value
+      real(wp), intent(in) :: tolerance, h
+      type(taylor_step_type), intent(out) :: step
+      real(wp), intent(out) :: estimate
+      !> Whether h is such a share; not if not given
+      logical, intent(in), optional :: in_shares
       type(step_context) :: context
-      type(taylor_step_type) :: step
-      real(wp) :: estimate, lacking, length
+      real(wp) :: lacking, length
 
       call step%set_up(problem, tolerance, lacking)
       context = new_context(problem, 0.0_wp, 1.0e3_wp, 0.0_wp, tolerance)
       length = 1.0e-6_wp
       call step%propose(context, length)
-      context%cursor%h = share*length
+      context%cursor%h = h
+      if (present(in_shares)) context%cursor%h = h*length
       call step%attempt(context, estimate)
-      value = step%stiff()
-   end function held_back
+   end subroutine take_taylor_step
 
    !> Dense output of all components at place s of the step, 0..1.
    pure function interpolated(step, s) result(y)

@@ -6,111 +6,100 @@ module undelayed_problems
    use test_problems, only: constant_past, fill
    implicit none (type, external)
    private
-   public :: blow_up, decay, falls_out, quadrature, swing, undelayed
-
-   !> The problems.
-   enum, bind(c)
-      enumerator :: power_of_time, decaying, turning, infinite, ending
-   end enum
-
-   !> One of them.
-   type, extends(constant_past) :: undelayed
-      !> Which one, and its power of t
-      integer :: kind = decaying, power = 0
-   contains
-      procedure :: rhs => undelayed_rhs
-      procedure :: series => undelayed_series
-   end type undelayed
+   public :: blow_up, falls_out, quadrature, swing
 
 contains
 
-   !> y' = (power + 1) t^power, from a first state.
-   pure type(undelayed) function quadrature(power, first) result(problem)
+   !> y' = (power + 1) t^power, power 0 or 1, from a first state.
+   type(constant_past) function quadrature(power, first) result(problem)
       integer, intent(in) :: power
       real(wp), intent(in) :: first
 
-      call fill(problem, 1, [first], [first])
+      call fill(problem, 1, [first], [first], p=[real(power, wp)])
+      problem%f => power_of_time
+      problem%terms => binomials
       problem%analytic = .true.
-      problem%kind = power_of_time
-      problem%power = power
    end function quadrature
 
-   !> y' = -rate y, from 1.
-   pure type(undelayed) function decay(rate) result(problem)
-      real(wp), intent(in) :: rate
-
-      call fill(problem, 1, [1.0_wp], [1.0_wp])
-      problem%kind = decaying
-      problem%rate = rate
-   end function decay
-
    !> y1 = cos(rate t), y2 = -sin(rate t); rate 1 if not given.
-   pure type(undelayed) function swing(rate) result(problem)
+   type(constant_past) function swing(rate) result(problem)
       real(wp), intent(in), optional :: rate
 
-      call fill(problem, 2, [1.0_wp, 0.0_wp], [1.0_wp, 0.0_wp])
+      call fill(problem, 2, [1.0_wp, 0.0_wp], [1.0_wp, 0.0_wp], p=[1.0_wp])
+      if (present(rate)) problem%p = rate
+      problem%f => turn
+      problem%exact => cosine_and_sine
       problem%analytic = .true.
-      problem%kind = turning
-      if (present(rate)) problem%rate = rate
    end function swing
 
-   !> y' = y^2 from 1: infinite at t = 1.
-   pure type(undelayed) function blow_up() result(problem)
+   !> y' = y^2 from 1: 1/(1 - t), infinite at t = 1.
+   type(constant_past) function blow_up() result(problem)
       call fill(problem, 1, [1.0_wp], [1.0_wp])
+      problem%f => square
+      problem%terms => squares
       problem%analytic = .true.
-      problem%kind = infinite
    end function blow_up
 
    !> y' = 1 where t < 1, no number after; from a first state.
-   pure type(undelayed) function falls_out(first) result(problem)
+   type(constant_past) function falls_out(first) result(problem)
       real(wp), intent(in) :: first
 
       call fill(problem, 1, [first], [first])
-      problem%kind = ending
+      problem%f => ending
    end function falls_out
 
-   pure subroutine undelayed_rhs(self, t, y, z, dydt)
-      class(undelayed), intent(in) :: self
-      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
-      real(wp), intent(out) :: dydt(self%n)
+   pure subroutine power_of_time(p, t, y, z, f)
+      real(wp), intent(in) :: p(:), t, y(:), z(:)
+      real(wp), intent(out) :: f(:)
 
-      select case (self%kind)
-      case (power_of_time)
-         dydt = (self%power + 1)*t**self%power
-      case (decaying)
-         dydt = -self%rate*y
-      case (turning)
-         dydt = self%rate*[y(2), -y(1)]
-      case (infinite)
-         dydt = y**2
-      case default
-         dydt = 1.0_wp
-         if (t >= 1.0_wp) dydt = ieee_value(t, ieee_quiet_nan)
-      end select
-   end subroutine undelayed_rhs
+      f = (p(1) + 1.0_wp)*t**nint(p(1))
+   end subroutine power_of_time
 
-   !> Binomials of (t + unit s)**(power + 1); each coefficient from the one before; the square as a
-   !> sum of products. The other problems give no series.
-   pure subroutine undelayed_series(self, t, unit, degree, z, y)
-      class(undelayed), intent(in) :: self
-      real(wp), intent(in) :: t, unit
-      integer, intent(in) :: degree
-      real(wp), intent(in) :: z(0:degree, size(self%lag))
-      real(wp), intent(inout) :: y(0:degree, self%n)
-      integer :: j, k
+   !> Of powers 0 and 1.
+   pure subroutine binomials(p, t, unit, z, y)
+      real(wp), intent(in) :: p(:), t, unit, z(0:, :)
+      real(wp), intent(inout) :: y(0:, :)
 
       y(1:, :) = 0.0_wp
-      do k = 1, degree
-         select case (self%kind)
-         case (power_of_time)
-            if (k > self%power + 1) exit
-            y(k, 1) = unit**k*t**(self%power + 1 - k) &
-                      *product([(self%power + 2.0_wp - j, j=1, k)])/gamma(k + 1.0_wp)
-         case (turning)
-            y(k, :) = self%rate*unit/k*[y(k - 1, 2), -y(k - 1, 1)]
-         case default
-            y(k, 1) = unit/k*sum(y(0:k - 1, 1)*y(k - 1:0:-1, 1))
-         end select
+      y(1, 1) = unit*(p(1) + 1.0_wp)*t**nint(p(1))
+      y(2, 1) = unit**2*p(1)
+   end subroutine binomials
+
+   pure subroutine turn(p, t, y, z, f)
+      real(wp), intent(in) :: p(:), t, y(:), z(:)
+      real(wp), intent(out) :: f(:)
+
+      f = p(1)*[y(2), -y(1)]
+   end subroutine turn
+
+   pure subroutine cosine_and_sine(p, t, y)
+      real(wp), intent(in) :: p(:), t
+      real(wp), intent(out) :: y(:)
+
+      y = [cos(p(1)*t), -sin(p(1)*t)]
+   end subroutine cosine_and_sine
+
+   pure subroutine square(p, t, y, z, f)
+      real(wp), intent(in) :: p(:), t, y(:), z(:)
+      real(wp), intent(out) :: f(:)
+
+      f = y**2
+   end subroutine square
+
+   pure subroutine squares(p, t, unit, z, y)
+      real(wp), intent(in) :: p(:), t, unit, z(0:, :)
+      real(wp), intent(inout) :: y(0:, :)
+      integer :: k
+
+      do k = 1, ubound(y, 1)
+         y(k, 1) = unit/k*sum(y(0:k - 1, 1)*y(k - 1:0:-1, 1))
       end do
-   end subroutine undelayed_series
+   end subroutine squares
+
+   pure subroutine ending(p, t, y, z, f)
+      real(wp), intent(in) :: p(:), t, y(:), z(:)
+      real(wp), intent(out) :: f(:)
+
+      f = merge(1.0_wp, ieee_value(t, ieee_quiet_nan), t < 1.0_wp)
+   end subroutine ending
 end module undelayed_problems

@@ -4,7 +4,7 @@
 module floquet_multipliers
    use dde_errors, only: error_type
    use dde_kinds, only: wp
-   use linear_map, only: leading_eigenvalues, linear_map_type
+   use orbit_map, only: leading_eigenvalues, linear_map_type
    use orbit_passes, only: orbit_passes_type
    implicit none (type, external)
    private

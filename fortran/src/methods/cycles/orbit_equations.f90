@@ -5,7 +5,7 @@ module orbit_equations
    use dde, only: stop_requested
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use linear_map, only: linear_map_type, solve_by_gmres
+   use orbit_map, only: linear_map_type, solve_by_gmres
    use model_family, only: family_type
    use orbit_change, only: difference_of, inner_product, orbit_change_type, phase_condition, &
                            weights_of

@@ -8,11 +8,11 @@ module orbit_start
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use floquet_multipliers, only: find_multipliers, multipliers_type
-   use lapack, only: null_vectors
+   use lapack_algebra, only: null_vectors
    use linear_system, only: linear_part, linear_system_type
    use model_family, only: family_type
    use model_problem, only: model_type
-   use normal_form, only: first_lyapunov_coefficient
+   use hopf_normal_form, only: first_lyapunov_coefficient
    use orbit_change, only: orbit_change_type
    use orbit_linearisation, only: linearise_orbit
    use orbit_mesh, only: adapted_mesh, uniform_mesh

@@ -14,7 +14,7 @@ module torus_normal_form
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use floquet_multipliers, only: find_multipliers, multipliers_type
-   use linear_map, only: linear_map_type, solve_by_gmres
+   use orbit_map, only: linear_map_type, solve_by_gmres
    use model_family, only: family_type
    use orbit_change, only: orbit_change_type, phase_condition, weights_of
    use orbit_linearisation, only: linearise_orbit

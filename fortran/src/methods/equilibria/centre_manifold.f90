@@ -15,10 +15,10 @@
 module centre_manifold
    use dde_errors, only: error_type
    use dde_kinds, only: wp
-   use lapack, only: solve
+   use lapack_algebra, only: solve
    use linear_system, only: linear_part, linear_system_type
    use model_problem, only: model_type
-   use normal_form, only: critical_vectors
+   use hopf_normal_form, only: critical_vectors
    implicit none (type, external)
    private
    public :: normal_form_coefficient

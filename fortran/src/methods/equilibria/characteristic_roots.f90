@@ -6,7 +6,7 @@ module characteristic_roots
    use dde, only: stop_requested
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use lapack, only: eigenvalues, solve
+   use lapack_algebra, only: eigenvalues, solve
    use linear_system, only: linear_system_type
    implicit none (type, external)
    private

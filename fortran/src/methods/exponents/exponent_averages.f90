@@ -32,8 +32,8 @@ module exponent_averages
       real(wp) :: value = 0.0_wp
       !> Standard error
       real(wp) :: error = 0.0_wp
-      !> Value of each block
-      real(wp), allocatable :: blocks(:)
+      !> Value of each batch
+      real(wp), allocatable :: batches(:)
    end type exponent_type
 
 contains
@@ -48,34 +48,34 @@ contains
    !> by the lowest frequencies above 0: slow variations make it large, fast ones do not count.
    !> Student's distribution enlarges the error, so that three of it cover as much as three standard
    !> errors that are known.
-   pure function average_growth(growth, length, blocks, flow) result(exponents)
+   pure function average_growth(growth, length, batches, flow) result(exponents)
       !> Logarithm of the growth of each vector in each interval, shape (vectors, intervals)
       real(wp), intent(in) :: growth(:, :)
       !> Length of each interval, shape (intervals)
       real(wp), intent(in) :: length(:)
-      !> Number of blocks, a divisor of the number of intervals
-      integer, intent(in) :: blocks
+      !> Number of batches, a divisor of the number of intervals
+      integer, intent(in) :: batches
       !> Whether the exponent of the flow, which is 0, is to be added
       logical, intent(in) :: flow
       type(exponent_type), allocatable :: exponents(:)
       type(exponent_type) :: moving
-      real(wp) :: of_block(size(length)/blocks, blocks), weight(size(length))
-      integer :: block, first(blocks), i, j, last(blocks)
+      real(wp) :: of_batch(size(length)/batches, batches), weight(size(length))
+      integer :: batch, first(batches), i, j, last(batches)
 
-      last = [(block*size(of_block, 1), block=1, blocks)]
-      first = last - size(of_block, 1) + 1
-      do block = 1, blocks
-         of_block(:, block) = weights_over(length(first(block):last(block)))
+      last = [(batch*size(of_batch, 1), batch=1, batches)]
+      first = last - size(of_batch, 1) + 1
+      do batch = 1, batches
+         of_batch(:, batch) = weights_over(length(first(batch):last(batch)))
       end do
       weight = weights_over(length)
       allocate (exponents(size(growth, 1) + merge(1, 0, flow)))
       do j = 1, size(exponents)
-         moving = exponent_type(blocks=[(0.0_wp, block=1, blocks)])
+         moving = exponent_type(batches=[(0.0_wp, batch=1, batches)])
          if (j <= size(growth, 1)) then
             moving%value = sum(weight*growth(j, :))
             moving%error = error_of_mean(weight, length, growth(j, :) - moving%value*length)
-            moving%blocks = [(sum(of_block(:, block)*growth(j, first(block):last(block))), &
-                              block=1, blocks)]
+            moving%batches = [(sum(of_batch(:, batch)*growth(j, first(batch):last(batch))), &
+                               batch=1, batches)]
          end if
          i = j - 1
          do while (i >= 1)
@@ -188,7 +188,7 @@ contains
 
    !> Dimension of Kaplan and Yorke, k + (lambda_1 + ... + lambda_k)/|lambda_(k+1)|, k the most
    !> exponents whose sum is not negative; those without sign count as 0. Not a number where more
-   !> exponents would be needed. The error follows from leaving out one block at a time.
+   !> exponents would be needed. The error follows from leaving out one batch at a time.
    pure subroutine dimension_of(exponents, zero_level, dimension, error)
       !> Exponents, descending
       type(exponent_type), intent(in) :: exponents(:)
@@ -196,20 +196,20 @@ contains
       real(wp), intent(in) :: zero_level
       !> The dimension, standard error of the dimension
       real(wp), intent(out) :: dimension, error
-      real(wp) :: others(size(exponents(1)%blocks)), values(size(exponents))
+      real(wp) :: others(size(exponents(1)%batches)), values(size(exponents))
       logical :: zero(size(exponents))
-      integer :: block, j
+      integer :: batch, j
 
       zero = without_sign(exponents, zero_level)
       dimension = kaplan_yorke(merge(0.0_wp, exponents%value, zero))
-      associate (blocks => size(others))
-         do block = 1, blocks
+      associate (batches => size(others))
+         do batch = 1, batches
             do j = 1, size(exponents)
-               values(j) = (blocks*exponents(j)%value - exponents(j)%blocks(block))/(blocks - 1)
+               values(j) = (batches*exponents(j)%value - exponents(j)%batches(batch))/(batches - 1)
             end do
-            others(block) = kaplan_yorke(merge(0.0_wp, values, zero))
+            others(batch) = kaplan_yorke(merge(0.0_wp, values, zero))
          end do
-         error = sqrt((blocks - 1.0_wp)/blocks*sum((others - sum(others)/blocks)**2))
+         error = sqrt((batches - 1.0_wp)/batches*sum((others - sum(others)/batches)**2))
       end associate
    end subroutine dimension_of
 

@@ -37,7 +37,7 @@ module lyapunov_spectrum
       !> Longest mean time between two orthonormalisations
       real(wp) :: interval = 0.0_wp
       !> The number of intervals is a multiple of this
-      integer :: blocks = 2
+      integer :: batches = 2
       !> Whether a vector lost to noise gives a bound: what is left of it, noise and all, is its
       !> growth, and it goes on from there. Otherwise that is an error.
       logical :: bounds = .false.
@@ -172,9 +172,9 @@ contains
                           measured%continuation, norm, share, options)
       ! no solution of the variational equations yet: a kink
       measured%continuation%rate = [approach%rate, (0.0_wp, i=1, tangent%n - problem%n)]
-      ! as many in each block
-      associate (blocks => settings%blocks, time => settings%t_end - measured%t_begin)
-         intervals = blocks*max(1, ceiling(time/(blocks*settings%interval)*(1.0_wp - 1.0e-12_wp)))
+      ! as many in each batch
+      associate (batches => settings%batches, time => settings%t_end - measured%t_begin)
+         intervals = batches*max(1, ceiling(time/(batches*settings%interval)*(1.0_wp - 1.0e-12_wp)))
       end associate
       turning = ceiling((measured%t_begin - start)/settings%interval)
       do i = 1, turning
@@ -347,8 +347,8 @@ contains
          call raise(error, "exponents: "//text(settings%exponents)//" asked for of " &
                     //text(problem%n)//" equations without delay; at most "//text(problem%n) &
                     //" expected")
-      else if (settings%blocks < 2) then
-         call raise(error, "exponents: "//text(settings%blocks)//" blocks; at least 2 expected")
+      else if (settings%batches < 2) then
+         call raise(error, "exponents: "//text(settings%batches)//" batches; at least 2 expected")
       else if (.not. settings%interval > 0.0_wp) then
          call raise(error, "exponents: interval = "//text(settings%interval)//"; > 0 expected")
       end if

@@ -1,1 +1,0 @@
-"""The configuration as namelists of the Fortran programs."""

@@ -1,0 +1,1 @@
+"""What the program is asked, by the configuration: groups of namelists."""
