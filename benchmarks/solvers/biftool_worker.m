@@ -80,13 +80,21 @@ function row = locate(problem, branch, i, kind, set_up, settings)
   end
 end
 
+% A line of standard input. fgetl waits for the first letter of the line after it.
+function line = read_line()
+  line = '';
+  while ! isempty(letter = fread(stdin, 1, 'char=>char')) && letter != "\n"
+    line(end+1) = letter;
+  end
+end
+
 warning('off', 'all');
 sigterm_dumps_octave_core(false);  % an interrupted run leaves no file
 given = argv();
 for folder = {'ddebiftool', 'ddebiftool_extra_psol', 'ddebiftool_extra_nmfm', 'ddebiftool_utilities'}
   addpath(fullfile(given{1}, folder{1}));
 end
-task = str2num(fgetl(stdin));
+task = str2num(read_line());
 settings.parameter = str2double(given{2});
 settings.window = task(1:2);
 settings.intervals = task(3);
@@ -100,7 +108,7 @@ problem = set_funcs('sys_rhs', @(x, p) rate(x, p, 0*x, 0*p, 0), 'sys_tau', @() 1
                                     @(x, p, dx, dp) rate(x, p, dx, dp, 2)}, 'x_vectorized', true);
 printf('answer: %s\n', version);
 fflush(stdout);
-while ischar(line = fgetl(stdin))
+while ! isempty(line = read_line())
   path = strsplit(line, ' '){3};
   steady = SetupStst(problem, 'x', [0; 0; 0], 'parameter', parameters, 'contpar', settings.parameter, ...
                      settings.bounds{:}, 'max_step', [settings.parameter, diff(settings.window)/80], ...
