@@ -121,7 +121,7 @@ def test_everything_that_the_file_adds_is_made(made):
     """Figures, tables with rows of these names alone, the verdict on its claim, captions, page."""
     results = made.folder / "results" / "mine"
     figures = {path.relative_to(results / "figures") for path in results.glob("figures/*/*")}
-    endings = ("pdf", "png", "svg", "rst")
+    endings = ("pdf", "png", "svg", "rst", "json")
     assert figures == {Path(f"{name}.{end}") for name in FIGURES for end in endings}
     tables = {
         "attractors": ("scene", "my_scene", "my_fault", "glass"),
