@@ -3,6 +3,7 @@
 Ranges of keys are tests of the configuration. Programs refuse what would break the equations.
 """
 
+import copy
 import os
 import re
 import shutil
@@ -11,6 +12,7 @@ import subprocess
 import netCDF4
 import pytest
 import xarray as xr
+from namelist_groups import in_groups
 
 from conftest import COMMANDS, Programs
 from generator.module import interface_digest
@@ -209,15 +211,24 @@ def test_spectrum_of_a_bad_trajectory_is_refused(programs, good_groups, change, 
     assert words in line
 
 
-def test_help_lists_commands_and_keys(programs):
-    """The keys are those of the types that the command reads."""
-    program, _ = programs.command("hopf")
-    listed = subprocess.run([program, "--help"], capture_output=True, text=True, check=True).stdout
-    assert set(COMMANDS) - {"reference"} <= set(listed.split())
-    keys = programs.run("hopf", "--help")
-    assert (keys.returncode, keys.stderr) == (0, "")
-    assert "hopf_curves%windows= must be given" in keys.stdout
-    assert programs.left_behind() == []
+@pytest.mark.parametrize("program", COMMANDS)
+def test_key_that_must_be_given_is_missed(programs, good_groups, program):
+    """Each that the help lists, where the namelist leaves it out."""
+    binary, _ = programs.command(program)
+    said = subprocess.run([binary, "--help"], capture_output=True, text=True, check=True).stdout
+    assert program in said.split()
+    listed = programs.run(program, "--help").stdout
+    keys = re.findall(r"^ ([\w%()]+)= must be given$", listed, re.MULTILINE)
+    assert keys
+    for key in keys:
+        groups = in_groups(copy.deepcopy(good_groups[program]))
+        *path, last = key.replace("(1)", "%0").split("%")
+        section = groups
+        for step in path:
+            section = section[int(step) if step.isdecimal() else step]
+        del section[last]
+        line = refusal(programs, programs.run_groups(program, groups))
+        assert re.search(rf"\b{last} (= NaN|is missing); expected ", line), line
 
 
 def other_interface(content: bytes) -> bytes:
