@@ -78,12 +78,12 @@ contains
       namelist /settings/ hopf_curves
 
       read (given%lines, nml=settings, iostat=given%status, iomsg=given%reason)
-      do i = 1, 2
-         call hopf_curves%model%put(trim(hopf_curves%along(i)), hopf_curves%windows(1, i))
-      end do
       write (given%copy, nml=settings, delim="quote")
       call given%check(error)
       if (allocated(error)) return
+      do i = 1, 2
+         call hopf_curves%model%put(trim(hopf_curves%along(i)), hopf_curves%windows(1, i))
+      end do
       call hopf_curves%model%open(given%place, plane%model, error, keep_delays=.true., &
                                   at_rest=.true., opened=given%model)
       call check_count(error, given%place, "cells", hopf_curves%cells, at_least=2, at_most=2000)
