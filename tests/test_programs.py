@@ -34,6 +34,7 @@ REFUSED = [
     ("slip_events", "scene", {"xi": -1.0}, f"scene 'torus': xi = -1.0; {NUMBER} 0"),
     ("exponents", "exponents", {"batches": 1}, f"exponents%batches = 1; {WHOLE} 2"),
     ("synchrony", "synchrony", {"count": 1}, f"synchrony%count = 1; {WHOLE} 2"),
+    ("synchrony", "scene", {"kappa": None}, "the equations of the model have no second_difference"),
     ("measure", "measure", {"repeats": -1}, f"repeats = -1; {WHOLE} 0"),
     # more samples than can be counted: their file would fill the disk
     ("trajectory", "scene", {"t_end": 1e12}, f"scene 'torus': sample_interval = 0.25; {NUMBER}= "),
