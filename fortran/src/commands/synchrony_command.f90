@@ -103,7 +103,8 @@ contains
       call check_count(error, given%place, "synchrony%batches", synchrony%batches, at_least=2)
       if (allocated(error)) return
       if (.not. opened%problem%is_chain()) then
-         call raise(error, given%place//"the equations of the model have no second_difference; expected a chain")
+         call raise(error, given%place//"the equations of the model have no second_difference; " &
+                    //"expected a chain")
       else if (scene%model%blocks > 1) then
          call raise(error, given%place//"blocks = "//text(scene%model%blocks) &
                     //"; expected a chain of 1 block: chains that move as one block are tried")
