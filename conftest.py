@@ -54,8 +54,6 @@ GROUPS = {
     "slip_events": "scene",
 }
 """Namelist group of each command that reads one alone, as tests name it."""
-DEAR = {"visited", "made", "installed", "planned"}
-"""Fixtures that one of the processes of `./test` makes for all tests that use them."""
 collect_ignore = (
     [] if (studies.FOLDER / "work_precision").exists() else ["tests/test_benchmarks.py"]
 )
@@ -121,16 +119,19 @@ def unfinished(path: Path) -> set[Path]:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Tests with a copy of the project run Snakemake; they come last, but for one that makes the
-    smoke run: while it waits for Snakemake, the other process of `./test` has tests to run."""
+    """Tests with a copy of the project run Snakemake; files with such tests come last, but for one
+    that makes the smoke run: while it waits for Snakemake, the other process of `./test` has tests
+    to run. The longest file comes first of them. A process takes whole files, so that what is dear
+    is made once."""
     for item in items:
         if {"smoke_run", "project", "fresh"} & set(item.fixturenames):
             item.add_marker("workflow")
-        for name in DEAR & set(item.fixturenames):
-            item.add_marker(pytest.mark.xdist_group(name))
-    items.sort(key=lambda item: item.get_closest_marker("workflow") is not None)
-    smoke = [item for item in items if "smoke_run" in item.fixturenames]
-    items.sort(key=lambda item: item not in smoke[:1])
+    workflow = {item.path for item in items if item.get_closest_marker("workflow")}
+    first = [item.path for item in items if "smoke_run" in item.fixturenames][:1]
+    longest = ROOT / "tests" / "test_user_files.py"
+    items.sort(
+        key=lambda item: (item.path not in first, item.path in workflow, item.path != longest)
+    )
 
 
 def wait_for(done: Callable[[], bool]) -> None:
