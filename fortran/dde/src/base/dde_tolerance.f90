@@ -96,7 +96,7 @@ contains
       end if
       norm = 0.0_wp
       do i = 1, n
-         if (abs(x(i))/hopeless > scale(i)) then
+         if (abs(x(i))*(1.0_wp/hopeless) > scale(i)) then
             norm = huge(1.0_wp)
          else
             norm = max(norm, abs(x(i))/scale(i))

@@ -20,6 +20,9 @@ module dde_bogacki_shampine
    real(wp), parameter :: &
       c2 = 1.0_wp/6.0_wp, c3 = 2.0_wp/9.0_wp, c4 = 3.0_wp/7.0_wp, c5 = 2.0_wp/3.0_wp, c6 = 0.75_wp
 
+   !> Places of delayed values
+   real(wp), parameter :: places(6) = [c2, c3, c4, c5, c6, 1.0_wp]
+
    !> Weights of the stages 2 to 7, row by row
    real(wp), parameter :: &
       a21 = 1.0_wp/6.0_wp, &
@@ -57,7 +60,7 @@ module dde_bogacki_shampine
    !> The pair. Slope 8 is that at the end.
    type, extends(explicit_pair) :: bogacki_shampine
    contains
-      procedure :: set_up, take_stages, find_error, find_coefficients
+      procedure :: set_up, take_step, find_coefficients
    end type bogacki_shampine
 
 contains
@@ -70,96 +73,71 @@ contains
       self%order = 5
       self%stages = 7
       self%limited_by_stability = 1.75_wp
-      self%places = [c2, c3, c4, c5, c6, 1.0_wp]
-      allocate (self%dense_places(0))
+      self%places = size(places)
       nodes = real([0, 1, 0, 1], wp)
    end subroutine set_up
 
-   !> Stages 2 to 7, state and slope at the end of the step. A loop over a slope prepares the next
-   !> stage: runs take 6 to 8 % fewer instructions than with `evaluate`.
-   pure subroutine take_stages(self, context, n, h, y, z, k, slope, stage, y_new, finite)
+   !> A step: constant numbers of equations are compiled apart.
+   pure subroutine take_step(self, context, n, h, y, z, k, slope, stage, aside, y_new, scale, &
+                             embedded, finite, error)
       class(bogacki_shampine), intent(in) :: self
       type(step_context), intent(inout) :: context
       integer, intent(in) :: n
-      real(wp), intent(in) :: h, y(n), z(size(context%problem%lag), size(self%places))
-      real(wp), intent(inout) :: k(slope_count, n), slope(n), stage(n), y_new(n)
-      logical, intent(inout) :: finite
-      real(wp) :: t, t_end, total
-      integer :: i
+      real(wp), intent(in) :: h, y(n)
+      real(wp), intent(inout) :: z(size(context%problem%lag), self%places)
+      real(wp), intent(inout), dimension(n) :: slope, stage, aside, y_new, scale
+      real(wp), intent(inout) :: k(slope_count, n), embedded(n, 2)
+      logical, intent(out) :: finite
+      real(wp), intent(out) :: error
 
-      t = context%cursor%inside(context%cursor%t)
-      t_end = context%cursor%inside(context%cursor%t + h)
-      finite = .false.
-      total = 0.0_wp
-      stage = y + h*a21*k(1, :)
-      call context%evaluate(t + c2*h, stage, z(:, 1), slope)
-      do i = 1, n
-         total = total + abs(slope(i))
-         k(2, i) = slope(i)
-         stage(i) = y(i) + h*(a31*k(1, i)) + h*a32*slope(i)
-      end do
-      if (.not. ieee_is_finite(total)) return
-      call context%evaluate(t + c3*h, stage, z(:, 2), slope)
-      do i = 1, n
-         total = total + abs(slope(i))
-         k(3, i) = slope(i)
-         stage(i) = y(i) + h*(a41*k(1, i) + a42*k(2, i)) + h*a43*slope(i)
-      end do
-      if (.not. ieee_is_finite(total)) return
-      call context%evaluate(t + c4*h, stage, z(:, 3), slope)
-      do i = 1, n
-         total = total + abs(slope(i))
-         k(4, i) = slope(i)
-         stage(i) = y(i) + h*(a51*k(1, i) + a52*k(2, i) + a53*k(3, i)) + h*a54*slope(i)
-      end do
-      if (.not. ieee_is_finite(total)) return
-      call context%evaluate(t + c5*h, stage, z(:, 4), slope)
-      do i = 1, n
-         total = total + abs(slope(i))
-         k(5, i) = slope(i)
-         stage(i) = y(i) + h*(a61*k(1, i) + a62*k(2, i) + a63*k(3, i) + a64*k(4, i)) &
-                    + h*a65*slope(i)
-      end do
-      if (.not. ieee_is_finite(total)) return
-      call context%evaluate(t + c6*h, stage, z(:, 5), slope)
-      do i = 1, n
-         total = total + abs(slope(i))
-         k(6, i) = slope(i)
-         stage(i) = y(i) + h*(a71*k(1, i) + a72*k(2, i) + a73*k(3, i) + a74*k(4, i) &
-                              + a75*k(5, i)) + h*a76*slope(i)
-      end do
-      if (.not. ieee_is_finite(total)) return
-      call context%evaluate(t_end, stage, z(:, 6), slope)
-      do i = 1, n
-         total = total + abs(slope(i))
-         k(7, i) = slope(i)
-         y_new(i) = y(i) + h*(b1*k(1, i) + b3*k(3, i) + b4*k(4, i) + b5*k(5, i) + b6*k(6, i) &
-                              + b7*slope(i))
-         total = total + abs(y_new(i))
-      end do
-      if (.not. ieee_is_finite(total)) return
-      call context%evaluate(t_end, y_new, z(:, 6), slope)
-      do i = 1, n
-         total = total + abs(slope(i))
-         k(8, i) = slope(i)
-      end do
-      finite = ieee_is_finite(total)
-   end subroutine take_stages
+      select case (n)
+      case (1)
+         call step_1(context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, finite, &
+                     error)
+      case (2)
+         call step_2(context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, finite, &
+                     error)
+      case (3)
+         call step_3(context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, finite, &
+                     error)
+      case (4)
+         call step_4(context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, finite, &
+                     error)
+      case default
+         call step_any(n, context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, &
+                       finite, error)
+      end select
+   end subroutine take_step
 
-   !> The sum of both embedded errors, the largest of all components. In steps far too long each of
-   !> them alone can be small by chance.
-   pure subroutine find_error(self, n, k, h, scale, tolerance, embedded, error)
-      class(bogacki_shampine), intent(in) :: self
+   pure subroutine step_1(context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, &
+                          finite, error)
+      integer, parameter :: n = 1
+      include "bogacki_shampine_step.inc"
+   end subroutine step_1
+
+   pure subroutine step_2(context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, &
+                          finite, error)
+      integer, parameter :: n = 2
+      include "bogacki_shampine_step.inc"
+   end subroutine step_2
+
+   pure subroutine step_3(context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, &
+                          finite, error)
+      integer, parameter :: n = 3
+      include "bogacki_shampine_step.inc"
+   end subroutine step_3
+
+   pure subroutine step_4(context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, &
+                          finite, error)
+      integer, parameter :: n = 4
+      include "bogacki_shampine_step.inc"
+   end subroutine step_4
+
+   pure subroutine step_any(n, context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, &
+                            finite, error)
       integer, intent(in) :: n
-      real(wp), intent(in) :: k(slope_count, n), h, scale(n), tolerance
-      real(wp), intent(out) :: embedded(n, 2), error
-
-      embedded(:, 1) = strictness*h*(abs(e1*k(1, :) + e3*k(3, :) + e4*k(4, :) + e5*k(5, :) &
-                                         + e6*k(6, :)) &
-                                     + abs(f1*k(1, :) + f3*k(3, :) + f4*k(4, :) + f5*k(5, :) &
-                                           + f6*k(6, :) + f7*k(7, :) + f8*k(8, :)))
-      error = scaled_norm(n, embedded, scale)
-   end subroutine find_error
+      include "bogacki_shampine_step.inc"
+   end subroutine step_any
 
    !> Newton coefficients of one component's dense output over the nodes 0, 1, 0, 1.
    pure subroutine find_coefficients(self, k, h, y, y_new, a)

@@ -15,16 +15,15 @@ module dde_explicit_step
    private
    public :: explicit_step_type
 
-   !> Columns of the work array: the newest slope, the argument of the last stage, and that of a
-   !> stage of the dense output.
-   integer, parameter :: newest = 1, stage = 2, dense_stage = 3
-
    !> Stages of the current step.
    type, extends(step_type) :: explicit_step_type
       !> The pair
       class(explicit_pair), allocatable :: pair
-      !> Slopes of the step and its dense output, shape (slopes, n), and work, shape (n, columns)
-      real(wp), allocatable :: k(:, :), work(:, :)
+      !> Slopes of the step and its dense output, shape (slopes, n)
+      real(wp), allocatable :: k(:, :)
+      !> The newest slope, and the arguments of the last stage and of one of the dense output, shape
+      !> (n)
+      real(wp), allocatable, dimension(:) :: newest, stage, aside
       !> Errors of the embedded methods, shape (n, methods)
       real(wp), allocatable :: embedded(:, :)
       !> Delayed values at the places of the step or of its dense output, shape (delayed values,
@@ -55,9 +54,11 @@ contains
       call self%pair%set_up(self%nodes)
       self%constants = method_constants(order=self%pair%order, error_order=self%pair%order)
       call self%allocate_state(problem)
-      allocate (self%k(slope_count, problem%n), self%work(problem%n, dense_stage), source=0.0_wp)
-      allocate (self%embedded(problem%n, 2))
-      allocate (self%delayed(size(problem%lag), size(self%pair%places)))
+      associate (n => problem%n)
+         allocate (self%k(slope_count, n), source=0.0_wp)
+         allocate (self%newest(n), self%stage(n), self%aside(n), self%embedded(n, 2))
+      end associate
+      allocate (self%delayed(size(problem%lag), self%pair%places))
    end subroutine set_up
 
    !> Take up the first slope.
@@ -74,39 +75,16 @@ contains
       class(explicit_step_type), intent(inout) :: self
       type(step_context), intent(inout) :: context
       real(wp), intent(out) :: error
-      real(wp) :: error_between, times(slope_count)
       logical :: finite
-      integer :: i, last
 
       self%t = context%cursor%t
       self%h = context%cursor%h
       finite = self%finite
-      associate (n => context%problem%n, h => self%h, pair => self%pair, &
-                 tolerance => context%tolerance)
-         if (finite) then
-            last = size(pair%places)
-            do i = 1, last
-               times(i) = h*pair%places(i)
-            end do
-            call context%delayed_values(times(:last), self%delayed)
-            call pair%take_stages(context, n, h, self%y, self%delayed, self%k, &
-                                  self%work(:, newest), self%work(:, stage), self%y_new, finite)
-         end if
-         if (finite) then
-            do i = 1, n
-               self%scale(i) = tolerance%of_component(i, max(abs(self%y(i)), abs(self%y_new(i))))
-            end do
-            call pair%find_error(n, self%k, h, self%scale, tolerance%level, self%embedded, error)
-            last = size(pair%dense_places)
-            if (error > 1.0_wp .or. last == 0 .or. .not. context%between) return
-            times(:last) = h*pair%dense_places
-            call context%delayed_values(times(:last), self%delayed(:, :last))
-            call pair%take_dense_stages(context, n, h, self%scale, self%y, self%delayed, self%k, &
-                                        self%work(:, newest), self%work(:, dense_stage), finite, &
-                                        error_between)
-            error = max(error, error_between)
-         end if
-      end associate
+      if (finite) then
+         call self%pair%take_step(context, context%problem%n, self%h, self%y, self%delayed, &
+                                  self%k, self%newest, self%stage, self%aside, self%y_new, &
+                                  self%scale, self%embedded, finite, error)
+      end if
       if (.not. finite) error = ieee_value(1.0_wp, ieee_quiet_nan)
    end subroutine attempt
 
@@ -123,7 +101,7 @@ contains
       associate (last => self%pair%stages)
          do i = 1, size(self%scale)
             rise = max(rise, abs(self%k(last + 1, i) - self%k(last, i))/self%scale(i))
-            distance = max(distance, abs(self%y_new(i) - self%work(i, stage))/self%scale(i))
+            distance = max(distance, abs(self%y_new(i) - self%stage(i))/self%scale(i))
          end do
       end associate
       value = self%h*rise > self%pair%limited_by_stability*distance

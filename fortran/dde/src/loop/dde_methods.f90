@@ -4,7 +4,7 @@
 module dde_methods
    use dde_bogacki_shampine, only: bogacki_shampine
    use dde_dop853, only: dop853
-   use dde_errors, only: error_type, raise, text
+   use dde_errors, only: error_type, raise
    use dde_explicit_step, only: explicit_step_type
    use dde_implicit_step, only: implicit_cost, implicit_step_type
    use dde_problem, only: dde_problem_type
@@ -64,7 +64,7 @@ contains
       type(explicit_step_type), allocatable :: explicit
       type(implicit_step_type), allocatable :: implicit
       type(taylor_step_type), allocatable :: taylor
-      integer :: i, order
+      integer :: i
 
       lacking = 0.0_wp
       name = method
@@ -87,8 +87,7 @@ contains
          call taylor%set_up(problem, tolerance%level, lacking)
       case ("radau5", "radau9", "radau13")
          allocate (implicit)
-         read (name(len("radau") + 1:), *) order
-         call implicit%set_up(problem, (order + 1)/2, tolerance%level, lacking)
+         call implicit%set_up(problem, stages_of(name), tolerance%level, lacking)
       case default
          names = trim(methods(1))
          do i = 2, size(methods)
@@ -120,7 +119,7 @@ contains
 
       method = explicit_method(tolerance%level)
       if (implicit) then
-         method = "radau"//text(2*radau_stages(tolerance%level) - 1)
+         method = implicit_method(tolerance%level)
       else if (problem%analytic) then
          if (2*size(problem%lag) >= problem%n .and. tolerance%level >= least_of_many) then
             allocate (y(problem%n))
@@ -140,15 +139,24 @@ contains
       name = merge("bs5     ", "dop853  ", tolerance >= least_of_bs5)
    end function explicit_method
 
-   !> Stages of Radau IIA for a tolerance.
-   pure integer function radau_stages(tolerance) result(stages)
+   !> The Radau IIA method of a tolerance.
+   pure function implicit_method(tolerance) result(name)
       !> Level of the tolerance
       real(wp), intent(in) :: tolerance
+      character(len=8) :: name
 
-      stages = 5
-      if (tolerance >= least_of_radau5) stages = 3
-      if (tolerance < least_of_radau9) stages = 7
-   end function radau_stages
+      name = "radau9"
+      if (tolerance >= least_of_radau5) name = "radau5"
+      if (tolerance < least_of_radau9) name = "radau13"
+   end function implicit_method
+
+   !> Stages of a Radau IIA method.
+   pure integer function stages_of(name) result(stages)
+      character(len=8), intent(in) :: name
+
+      stages = findloc([character(len=8) :: "radau5", "radau9", "radau13"], name, dim=1)
+      stages = 1 + 2*stages
+   end function stages_of
 
    !> Work of a short trial of the implicit method without its linear systems, in evaluations of the
    !> explicit pair: one Jacobian by differences, and the steps.
@@ -161,7 +169,8 @@ contains
 
       columns = problem%n
       if (problem%lower >= 0) columns = min(problem%n, 1 + problem%lower + problem%upper)
-      price = implicit_cost*(columns &
-                             + least_trial*(usual_iterations*radau_stages(tolerance%level) + 2))
+      associate (stages => stages_of(implicit_method(tolerance%level)))
+         price = implicit_cost*(columns + least_trial*(usual_iterations*stages + 2))
+      end associate
    end function price_of_trial
 end module dde_methods

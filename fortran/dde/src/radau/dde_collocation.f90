@@ -4,12 +4,7 @@ module dde_collocation
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: add_up, combine, difference_weights, in_lanes, lagrange_factors, lagrange_weights
-   public :: shape_bump, stage_lanes
-
-   !> Rows of matrices over stages. Those above the number of stages are 0. The number is known to
-   !> the compiler, which therefore makes vector instructions.
-   integer, parameter :: stage_lanes = 8
+   public :: difference_weights, lagrange_factors, lagrange_weights, shape_bump
 
 contains
 
@@ -42,84 +37,6 @@ contains
       call divide_differences(x, newton(0:s))
       newton(s + 1) = 1.0_wp/(s + 1)
    end subroutine shape_bump
-
-   !> Combinations of the stages' vectors: sum over j of matrix(i, j) times vector j, for each i.
-   !> Written out for 3, 5 and 7 stages: a loop over them costs four times as many instructions.
-   pure subroutine combine(n, stages, matrix, vectors, sums)
-      !> Number of equations
-      integer, intent(in) :: n
-      !> Number of stages: 3, 5 or 7
-      integer, intent(in) :: stages
-      !> Weights, rows filled up with zeros
-      real(wp), intent(in) :: matrix(stage_lanes, stages)
-      !> One vector a stage
-      real(wp), intent(in) :: vectors(n, stages)
-      !> One combination a stage
-      real(wp), intent(out) :: sums(n, stages)
-      real(wp) :: total(stage_lanes)
-      integer :: k
-
-      select case (stages)
-      case (3)
-         do k = 1, n
-            total(:3) = vectors(k, :)
-            sums(k, 1) = matrix(1, 1)*total(1) + matrix(1, 2)*total(2) + matrix(1, 3)*total(3)
-            sums(k, 2) = matrix(2, 1)*total(1) + matrix(2, 2)*total(2) + matrix(2, 3)*total(3)
-            sums(k, 3) = matrix(3, 1)*total(1) + matrix(3, 2)*total(2) + matrix(3, 3)*total(3)
-         end do
-      case (5)
-         do k = 1, n
-            total(:6) = matrix(:6, 1)*vectors(k, 1) + matrix(:6, 2)*vectors(k, 2) &
-                        + matrix(:6, 3)*vectors(k, 3) + matrix(:6, 4)*vectors(k, 4) &
-                        + matrix(:6, 5)*vectors(k, 5)
-            sums(k, :) = total(:5)
-         end do
-      case default
-         do k = 1, n
-            total = matrix(:, 1)*vectors(k, 1) + matrix(:, 2)*vectors(k, 2) &
-                    + matrix(:, 3)*vectors(k, 3) + matrix(:, 4)*vectors(k, 4) &
-                    + matrix(:, 5)*vectors(k, 5) + matrix(:, 6)*vectors(k, 6) &
-                    + matrix(:, 7)*vectors(k, 7)
-            sums(k, :) = total(:7)
-         end do
-      end select
-   end subroutine combine
-
-   !> A matrix over stages, its rows filled up with zeros.
-   pure function in_lanes(matrix) result(filled)
-      !> The matrix, shape (stages, stages)
-      real(wp), intent(in) :: matrix(:, :)
-      real(wp) :: filled(stage_lanes, size(matrix, 2))
-
-      filled = 0.0_wp
-      filled(:size(matrix, 1), :) = matrix
-   end function in_lanes
-
-   !> Sum over j of weight(j) times vector j, over a divisor, in this order. `matmul` would use
-   !> fused multiply-adds where the processor has them, and give other last bits.
-   pure subroutine add_up(n, stages, weights, vectors, divisor, total)
-      !> Number of equations, and of stages
-      integer, intent(in) :: n, stages
-      !> Weights
-      real(wp), intent(in) :: weights(stages)
-      !> One vector a weight
-      real(wp), intent(in) :: vectors(n, stages)
-      !> Divisor of the sum
-      real(wp), intent(in) :: divisor
-      !> The sum
-      real(wp), intent(out) :: total(n)
-      integer :: j, k
-
-      do k = 1, n
-         total(k) = weights(1)*vectors(k, 1)
-      end do
-      do j = 2, stages
-         do k = 1, n
-            total(k) = total(k) + weights(j)*vectors(k, j)
-         end do
-      end do
-      total = total/divisor
-   end subroutine add_up
 
    !> Replace values at x by their divided differences.
    pure subroutine divide_differences(x, values)

@@ -71,11 +71,15 @@ contains
       real(wp), intent(in) :: longest
       logical, intent(out) :: finite
 
-      call self%prepare(problem, merge(alike, 0.0_wp, size(z) > few))
+      if (.not. allocated(self%by_y)) then
+         call self%prepare(problem, merge(alike, 0.0_wp, size(z) > few))
+      end if
       if (self%given) then
          call problem%jacobian(t, y, z, self%by_y, self%by_z)
-         self%given = .not. all(self%by_y <= not_given)
-         if (.not. self%given) self%by_z = 0.0_wp
+         if (self%by_y(1, 1) <= not_given) then
+            self%given = .not. all(self%by_y <= not_given)
+            if (.not. self%given) self%by_z = 0.0_wp
+         end if
       end if
       self%known_to = merge(huge(1.0_wp), longest, self%given)
       if (.not. self%given) then
@@ -199,7 +203,6 @@ contains
       real(wp), intent(in) :: ratio
       integer :: most_rows
 
-      if (allocated(self%by_y)) return
       associate (n => problem%n, delays => size(problem%lag))
          self%banded = problem%lower >= 0 .and. 1 + problem%lower + problem%upper < n
          self%lower = merge(problem%lower, n - 1, self%banded)
@@ -270,6 +273,10 @@ contains
       class(jacobian_type), intent(inout) :: self
       integer :: first, i, j, last, shift
 
+      if (.not. self%banded) then
+         call sum_of_rows(size(self%row_sums), self%by_y, self%row_sums)
+         return
+      end if
       self%row_sums(:) = 0.0_wp
       do j = 1, size(self%row_sums)
          call self%find_rows(j, first, last, shift)
@@ -278,4 +285,17 @@ contains
          end do
       end do
    end subroutine sum_rows
+
+   !> Sums of the absolute values in each row of a full matrix.
+   pure subroutine sum_of_rows(n, a, sums)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: a(n, n)
+      real(wp), intent(out) :: sums(n)
+      integer :: j
+
+      sums = 0.0_wp
+      do j = 1, n
+         sums = sums + abs(a(:, j))
+      end do
+   end subroutine sum_of_rows
 end module dde_jacobian

@@ -8,25 +8,28 @@ module dde_radau_tableau
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: radau_tableau, radau_iia
+   public :: blocks_of, inverse_of_a, most_stages, radau_tableau, radau_iia
 
-   !> One method.
+   !> The most stages of a method. What a method with fewer does not use is 0.
+   integer, parameter :: most_stages = 7
+
+   !> One method. Its shape is the same for all numbers of stages: the compiler knows the places.
    type :: radau_tableau
       !> Number of stages
       integer :: stages = 0
       !> Nodes c, the last one 1
-      real(wp), allocatable :: c(:)
+      real(wp) :: c(most_stages) = 0.0_wp
       !> T, each eigenvector scaled to 1 at the last stage
-      real(wp), allocatable :: t(:, :)
+      real(wp) :: t(most_stages, most_stages) = 0.0_wp
       !> Inverse of T
-      real(wp), allocatable :: t_inverse(:, :)
+      real(wp) :: t_inverse(most_stages, most_stages) = 0.0_wp
       !> Real eigenvalue of inverse(A)
       real(wp) :: real_eigenvalue = 0.0_wp
       !> Complex eigenvalues alpha + i beta of inverse(A), beta > 0
-      complex(wp), allocatable :: complex_eigenvalues(:)
+      complex(wp) :: complex_eigenvalues((most_stages - 1)/2) = 0.0_wp
       !> Weights of the stage increments in the embedded error estimate, times the real eigenvalue
-      real(wp), allocatable :: e(:)
-      !> About the largest value in the step of the product of x and all x - c but the last
+      real(wp) :: e(most_stages) = 0.0_wp
+      !> The product of x and all x - c but the last at x = 1, about its largest value in the step
       real(wp) :: bulge = 0.0_wp
    end type radau_tableau
 
@@ -37,7 +40,6 @@ contains
       !> Number of stages
       integer, intent(in) :: stages
       type(radau_tableau) :: method
-      real(wp) :: inside(32)
       integer :: i
 
       select case (stages)
@@ -48,40 +50,83 @@ contains
       case default
          method = seven_stages()
       end select
-      associate (x => [(i/32.0_wp, i=1, 32)], c => method%c(:stages - 1))
-         inside = x
-         do i = 1, size(c)
-            inside = inside*abs(x - c(i))
-         end do
-         method%bulge = maxval(inside)
-      end associate
+      method%bulge = 1.0_wp
+      do i = 1, stages - 1
+         method%bulge = method%bulge*(1.0_wp - method%c(i))
+      end do
    end function radau_iia
+
+   !> L, the real eigenvalue and a block for each complex pair.
+   pure function blocks_of(method) result(blocks)
+      type(radau_tableau), intent(in) :: method
+      real(wp) :: blocks(method%stages, method%stages)
+      integer :: i, pair
+
+      blocks = 0.0_wp
+      blocks(1, 1) = method%real_eigenvalue
+      do pair = 1, method%stages/2
+         i = 2*pair
+         associate (alpha => real(method%complex_eigenvalues(pair)), &
+                    beta => aimag(method%complex_eigenvalues(pair)))
+            blocks(i:i + 1, i) = [alpha, beta]
+            blocks(i:i + 1, i + 1) = [-beta, alpha]
+         end associate
+      end do
+   end function blocks_of
+
+   !> inverse(A) = T L inverse(T).
+   pure function inverse_of_a(method) result(a_inverse)
+      type(radau_tableau), intent(in) :: method
+      real(wp) :: a_inverse(method%stages, method%stages)
+
+      associate (s => method%stages)
+         a_inverse = product_of(method%t(:s, :s), &
+                                product_of(blocks_of(method), method%t_inverse(:s, :s)))
+      end associate
+   end function inverse_of_a
+
+   !> Product of two square matrices. `matmul` would use fused multiply-adds where the processor has
+   !> them, and give other last bits.
+   pure function product_of(a, b) result(product)
+      real(wp), intent(in) :: a(:, :), b(:, :)
+      real(wp) :: product(size(a, 1), size(a, 1))
+      integer :: i, j, k
+
+      do k = 1, size(a, 1)
+         do i = 1, size(a, 1)
+            product(i, k) = a(i, 1)*b(1, k)
+            do j = 2, size(a, 1)
+               product(i, k) = product(i, k) + a(i, j)*b(j, k)
+            end do
+         end do
+      end do
+   end function product_of
 
    !> Order 5.
    pure function three_stages() result(method)
       type(radau_tableau) :: method
 
       method%stages = 3
-      method%c = [ &
+      method%c(:3) = [ &
          0.155051025721682190180271592529410861_wp, 0.644948974278317809819728407470589139_wp, &
          1.00000000000000000000000000000000000_wp]
-      method%t = reshape([ &
+      method%t(:3, :3) = reshape([ &
          0.0944387624889752414874900795064165863_wp, 0.250213122965333311376509067512501684_wp, &
          1.00000000000000000000000000000000000_wp, -0.141255295020954208427990383807797309_wp, &
          0.204129352293799931995990810298338174_wp, 1.00000000000000000000000000000000000_wp, &
          -0.0300291941051474244918611170890538667_wp, 0.382942112757261937795438233599873210_wp, &
          0.0_wp], [3, 3])
-      method%t_inverse = reshape([ &
+      method%t_inverse(:3, :3) = reshape([ &
          4.17871859155190472734646265851205623_wp, -4.17871859155190472734646265851205623_wp, &
          -0.502872634945786875951247343139544293_wp, 0.327682820761062387082533272429616234_wp, &
          -0.327682820761062387082533272429616234_wp, 2.57192694985560542918678535360167505_wp, &
          0.523376445499449548039930915908987502_wp, 0.476623554500550451960069084091012498_wp, &
          -0.596039204828224924968821911099302403_wp], [3, 3])
       method%real_eigenvalue = 3.63783425274449573220841851357777580_wp
-      method%complex_eigenvalues = [ &
+      method%complex_eigenvalues(:1) = [ &
          (2.68108287362775213389579074321111210_wp, &
           3.05043019924741056942637762478756790_wp)]
-      method%e = [ &
+      method%e(:3) = [ &
          -10.0488093998274155624603295076470799_wp, 1.38214273316074889579366284098041325_wp, &
          -0.333333333333333333333333333333333333_wp]
    end function three_stages
@@ -91,11 +136,11 @@ contains
       type(radau_tableau) :: method
 
       method%stages = 5
-      method%c = [ &
+      method%c(:5) = [ &
          0.0571041961145176821931211925541156212_wp, 0.276843013638123827680045997685625141_wp, &
          0.583590432368916820056697668662917249_wp, 0.860240135656219447847912918875119767_wp, &
          1.00000000000000000000000000000000000_wp]
-      method%t = reshape([ &
+      method%t(:5, :5) = reshape([ &
          0.0135768673449479432476639081702199980_wp, 0.00161790040171908747643862453187242501_wp, &
          0.0791578533474472076448983875615039396_wp, 0.412256082680461451978718545345271706_wp, &
          1.00000000000000000000000000000000000_wp, -0.0114785152552295147079415554121555049_wp, &
@@ -109,7 +154,7 @@ contains
          0.0476738772902957238631839478592069783_wp, -0.0943318191816114369806569003363724472_wp, &
          0.102703045380125899792210456947141185_wp, 0.466744130332494359289559582964906703_wp, &
          0.0_wp], [5, 5])
-      method%t_inverse = reshape([ &
+      method%t_inverse(:5, :5) = reshape([ &
          27.6976937756840884091661366385135904_wp, -33.0418802135190000080614469426109508_wp, &
          -8.61144397987529197770008251257034852_wp, 5.34418643783491159889531030409736034_wp, &
          3.74805980743980486005103450189256984_wp, 12.7833379113044060150009061077221482_wp, &
@@ -124,12 +169,12 @@ contains
          -1.04746348793533741869443299921173602_wp, -0.272778611864296270538614649997366805_wp, &
          -0.449917770156780368898811918314095436_wp], [5, 5])
       method%real_eigenvalue = 6.28670475172927664517315334186940905_wp
-      method%complex_eigenvalues = [ &
+      method%complex_eigenvalues(:2) = [ &
          (5.70095329867178941917021536896986162_wp, &
           3.21026560030854988842501065297211721_wp), &
          (3.65569432546357225824320796009543385_wp, &
           6.54373689936007729402107150939368632_wp)]
-      method%e = [ &
+      method%e(:5) = [ &
          -27.7809339440646373047872078172168799_wp, 3.64147849804921315271165508774289723_wp, &
          -1.25254772116911872049065249430114915_wp, 0.592003167184542872566205223775131812_wp, &
          -0.200000000000000000000000000000000000_wp]
@@ -140,12 +185,12 @@ contains
       type(radau_tableau) :: method
 
       method%stages = 7
-      method%c = [ &
+      method%c(:7) = [ &
          0.0293164271597848919720502769131649104_wp, 0.148078599668484291849976852495979212_wp, &
          0.336984690281154299097052972080775705_wp, 0.558671518771550132081393341805521940_wp, &
          0.769233862030054500916883360115645452_wp, 0.926945671319741114851873965819682011_wp, &
          1.00000000000000000000000000000000000_wp]
-      method%t = reshape([ &
+      method%t(:7, :7) = reshape([ &
          0.00244358430487061154071187353620284853_wp, &
          -0.00181533964831931716053317519639199004_wp, &
          0.00460533933116187480421539948899137472_wp, 0.0178700233428530690584906825790382486_wp, &
@@ -177,7 +222,7 @@ contains
          0.0588505292084267910561208969865829736_wp, -0.165736811272943851241241116255535219_wp, &
          0.273563305798662321213236935135336593_wp, 0.486322836617572894056685295353340203_wp, &
          0.0_wp], [7, 7])
-      method%t_inverse = reshape([ &
+      method%t_inverse(:7, :7) = reshape([ &
          227.515305962680689038839301150645722_wp, -299.186248028252096678636425239447281_wp, &
          -93.0765028974353059115719452637373839_wp, 74.6783322350226997715286176267232500_wp, &
          58.3565288519065772423731088606544343_wp, -3.00739016945129213173149353792169083_wp, &
@@ -204,14 +249,14 @@ contains
          -0.971648639383148228217233127548943147_wp, -0.414699045943303531993049422295928527_wp, &
          0.0919854913278655415440864884207305664_wp], [7, 7])
       method%real_eigenvalue = 8.93683278840521633730209691330107970_wp
-      method%complex_eigenvalues = [ &
+      method%complex_eigenvalues(:3) = [ &
          (8.51183482510294572305062092494533081_wp, &
           3.28101362432505883003594252703939158_wp), &
          (7.14105521918764010577498142571556804_wp, &
           6.62304592263927597062055811591186110_wp), &
          (4.37869356150680600252334919268856129_wp, &
           10.1696932837950116273183544188477299_wp)]
-      method%e = [ &
+      method%e(:7) = [ &
          -54.3744368941286145145837103696832215_wp, 7.00002400425918651204068363735192308_wp, &
          -2.35566109198755719225604586775720723_wp, 1.13228906610613438638449290827978319_wp, &
          -0.646891326767358711867345222439989070_wp, 0.387533385375352377424782057105854424_wp, &

@@ -3,9 +3,8 @@
 !> one real and some complex systems of size n (Hairer and Wanner 1996, sec. IV.8). Delayed values
 !> that lie in the step itself couple these systems. Then there is one system for all stages.
 module dde_stage_systems
-   use dde_collocation, only: combine, in_lanes, stage_lanes
    use dde_jacobian, only: jacobian_type
-   use dde_radau_tableau, only: radau_tableau
+   use dde_radau_tableau, only: blocks_of, most_stages, radau_tableau
    use dde_systems, only: complex_system, real_system
    use dde_work, only: work_type
    use dde_kinds, only: int64, wp
@@ -19,12 +18,10 @@ module dde_stage_systems
       real(wp) :: h = 0.0_wp
       !> Whether delayed values lie in the step
       logical :: coupled = .false.
-      !> T of the method, its inverse, and inverse(A), shape (stage_lanes, stages)
-      real(wp), allocatable, dimension(:, :) :: t, t_inverse, a_inverse
       !> The real system
-      type(real_system), private :: of_real
+      type(real_system) :: of_real
       !> The complex systems, shape (pairs)
-      type(complex_system), allocatable, private :: of_pairs(:)
+      type(complex_system), allocatable :: of_pairs(:)
       !> Right-hand side of one of them, shape (n)
       complex(wp), allocatable, private :: pair_side(:)
       !> The system of all stages if they are coupled: (j - 1) stages + i is the transform i of
@@ -33,8 +30,8 @@ module dde_stage_systems
       !> Its right-hand side, shape (stages, n)
       real(wp), allocatable, private :: all_sides(:, :)
    contains
-      procedure :: prepare, correct, filter
-      procedure, private :: add_delayed, couple, solve_stages
+      procedure :: prepare, solve
+      procedure, private :: add_delayed, couple
    end type stage_systems
 
    interface stage_systems
@@ -51,42 +48,8 @@ contains
 
       associate (s => method%stages)
          allocate (systems%of_pairs(s/2), systems%pair_side(n))
-         systems%t = in_lanes(method%t)
-         systems%t_inverse = in_lanes(method%t_inverse)
-         systems%a_inverse = inverse_of_a(method)
       end associate
    end function new_systems
-
-   !> L, the real eigenvalue and a block for each complex pair.
-   pure function blocks_of(method) result(blocks)
-      type(radau_tableau), intent(in) :: method
-      real(wp) :: blocks(method%stages, method%stages)
-      integer :: i, pair
-
-      blocks = 0.0_wp
-      blocks(1, 1) = method%real_eigenvalue
-      do pair = 1, size(method%complex_eigenvalues)
-         i = 2*pair
-         associate (alpha => real(method%complex_eigenvalues(pair)), &
-                    beta => aimag(method%complex_eigenvalues(pair)))
-            blocks(i:i + 1, i) = [alpha, beta]
-            blocks(i:i + 1, i + 1) = [-beta, alpha]
-         end associate
-      end do
-   end function blocks_of
-
-   !> inverse(A) = T L inverse(T).
-   pure function inverse_of_a(method) result(a_inverse)
-      type(radau_tableau), intent(in) :: method
-      real(wp) :: a_inverse(stage_lanes, method%stages)
-      real(wp), dimension(method%stages, method%stages) :: first, second
-
-      associate (s => method%stages)
-         call combine(s, s, in_lanes(blocks_of(method)), transpose(method%t_inverse), first)
-         call combine(s, s, in_lanes(method%t), first, second)
-         a_inverse = in_lanes(transpose(second))
-      end associate
-   end function inverse_of_a
 
    !> Factorise the systems of a step of length `h`.
    pure subroutine prepare(self, method, h, jacobian, component, own_place, own_weights, work, &
@@ -208,7 +171,7 @@ contains
       !> Place in the step at each stage, and weights of the increments there, one row an increment
       real(wp), intent(in) :: place(:), weights(:, :)
       !> W T, where row i of W has the weights at stage i; then a column of inverse(T) W T
-      real(wp) :: by_stages(stage_lanes, stage_lanes), transforms(stage_lanes)
+      real(wp) :: by_stages(most_stages, most_stages), transforms(most_stages)
       integer(int64) :: at
       integer :: i, j, m
 
@@ -218,14 +181,14 @@ contains
             if (.not. place(i) > 0.0_wp) cycle
             do j = 1, s
                do m = 1, s
-                  by_stages(i, j) = by_stages(i, j) + weights(m, i)*self%t(m, j)
+                  by_stages(i, j) = by_stages(i, j) + weights(m, i)*method%t(m, j)
                end do
             end do
          end do
          do j = 1, s
             transforms = 0.0_wp
             do m = 1, s
-               transforms = transforms + self%t_inverse(:, m)*by_stages(m, j)
+               transforms = transforms + method%t_inverse(:, m)*by_stages(m, j)
             end do
             at = self%of_all%column((component - 1)*s + j)
             do i = first, last
@@ -237,14 +200,21 @@ contains
       end associate
    end subroutine add_delayed
 
-   !> Solution of the real and the complex systems, for transformed stages.
-   pure subroutine solve_stages(self, x, work)
+   !> Solution of the systems of all stages.
+   pure subroutine solve(self, x, work)
       class(stage_systems), intent(inout) :: self
-      !> Right-hand sides, replaced by the solutions, shape (n, stages)
+      !> Right-hand sides of the transforms, replaced by the solutions, shape (n, stages)
       real(wp), contiguous, intent(inout) :: x(:, :)
       type(work_type), intent(inout) :: work
       integer :: i, pair
 
+      if (self%coupled) then
+         self%all_sides = transpose(x)
+         call self%of_all%solve(self%all_sides)
+         work%operations = work%operations + self%of_all%solve_operations
+         x = transpose(self%all_sides)
+         return
+      end if
       call self%of_real%solve(x(:, 1))
       work%operations = work%operations + self%of_real%solve_operations
       do pair = 1, size(self%of_pairs)
@@ -255,62 +225,5 @@ contains
          x(:, i) = real(self%pair_side)
          x(:, i + 1) = aimag(self%pair_side)
       end do
-   end subroutine solve_stages
-
-   !> Newton correction of the transforms inverse(T) Z of the increments Z.
-   pure subroutine correct(self, method, slopes, transforms, work, change)
-      class(stage_systems), intent(inout) :: self
-      type(radau_tableau), intent(in) :: method
-      !> Slopes at the stages, shape (n, stages)
-      real(wp), contiguous, intent(in) :: slopes(:, :)
-      !> Transforms of the increments, shape (n, stages)
-      real(wp), contiguous, intent(in) :: transforms(:, :)
-      type(work_type), intent(inout) :: work
-      !> The correction, shape (n, stages)
-      real(wp), contiguous, intent(out) :: change(:, :)
-
-      call combine(size(slopes, 1), method%stages, self%t_inverse, slopes, change)
-      call subtract_blocks(size(slopes, 1), method, self%h, transforms, change)
-      if (self%coupled) then
-         self%all_sides = transpose(change)
-         call self%of_all%solve(self%all_sides)
-         work%operations = work%operations + self%of_all%solve_operations
-         change = transpose(self%all_sides)
-      else
-         call self%solve_stages(change, work)
-      end if
-   end subroutine correct
-
-   !> Subtract L/h times the transforms.
-   pure subroutine subtract_blocks(n, method, h, transforms, change)
-      integer, intent(in) :: n
-      type(radau_tableau), intent(in) :: method
-      real(wp), intent(in) :: h, transforms(n, method%stages)
-      real(wp), intent(inout) :: change(n, method%stages)
-      real(wp) :: alpha, beta
-      integer :: i, k
-
-      alpha = method%real_eigenvalue/h
-      do k = 1, n
-         change(k, 1) = change(k, 1) - alpha*transforms(k, 1)
-      end do
-      do i = 2, method%stages, 2
-         alpha = real(method%complex_eigenvalues(i/2))/h
-         beta = aimag(method%complex_eigenvalues(i/2))/h
-         do k = 1, n
-            change(k, i) = change(k, i) - (alpha*transforms(k, i) - beta*transforms(k, i + 1))
-            change(k, i + 1) = change(k, i + 1) - (alpha*transforms(k, i + 1) &
-                                                   + beta*transforms(k, i))
-         end do
-      end do
-   end subroutine subtract_blocks
-
-   !> Replace a vector by the solution of the real system. Only its stiff components shrink.
-   pure subroutine filter(self, vector)
-      class(stage_systems), intent(inout) :: self
-      !> Right-hand side, replaced by the solution, shape (n)
-      real(wp), contiguous, intent(inout) :: vector(:)
-
-      call self%of_real%solve(vector)
-   end subroutine filter
+   end subroutine solve
 end module dde_stage_systems

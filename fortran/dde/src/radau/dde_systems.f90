@@ -10,7 +10,7 @@ module dde_systems
    use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: complex_system, real_system
+   public :: complex_system, real_system, size_of
 
    !> Where the elements of a matrix and of its factors are. Exchanges of rows move the first
    !> element of a column up by at most `lower` rows.
@@ -52,9 +52,9 @@ module dde_systems
    !> A system with a complex shift.
    type, extends(linear_system) :: complex_system
       !> Elements, then those of the factors
-      complex(wp), allocatable, private :: a(:)
+      complex(wp), allocatable :: a(:)
    contains
-      procedure, private, non_overridable :: reshape => reshape_complex
+      procedure, non_overridable :: reshape => reshape_complex
       procedure, non_overridable :: fill => fill_complex
       procedure, non_overridable :: factorise => factorise_complex
       procedure, non_overridable :: solve => solve_complex

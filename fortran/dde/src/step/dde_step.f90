@@ -52,7 +52,7 @@ module dde_step
       !> Attempt the step on which the cursor stands. `error` is the estimate in units of the
       !> tolerance: the step is accepted if it is at most 1. It is huge if an iteration failed and
       !> not finite if an evaluation was not.
-      pure subroutine attempt_step(self, context, error)
+      subroutine attempt_step(self, context, error)
          import :: step_context, step_type, wp
          implicit none (type, external)
          class(step_type), intent(inout) :: self

@@ -14,7 +14,7 @@ module test_dde_invariance
    use published_problems, only: enzyme, infection, mackey_glass, published_infection
    use renamed_problems, only: renamed
    use solving, only: at_tolerance, run
-   use stiff_problems, only: follower, prothero_robinson
+   use stiff_problems, only: exponential_decay, follower, prothero_robinson
    use test_problems, only: constant_past, sine, wille_baker
    use undelayed_problems, only: swing
    implicit none (type, external)
@@ -39,7 +39,8 @@ contains
                    new_unittest("a run equals its parts", test_parts), &
                    new_unittest("threads", test_threads), &
                    new_unittest("components beside and copies", test_copies), &
-                   new_unittest("one loose component", test_loose)]
+                   new_unittest("one loose component", test_loose), &
+                   new_unittest("few equations", test_few)]
    end subroutine collect_dde_invariance
 
    !> With state, time and absolute tolerance in units that are powers of two the bits are the same.
@@ -315,4 +316,50 @@ contains
                              methods(i))
       end do
    end subroutine test_loose
+
+   !> Radau IIA is compiled for one to four equations. A problem with a band as wide as its matrix
+   !> takes what is compiled for any number: each bit and each count is the same, with delays inside
+   !> and outside of the step.
+   subroutine test_few(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer :: digits, i
+
+      do i = 1, size(methods)
+         if (index(methods(i), "radau") == 0) cycle
+         do digits = 2, 10, 4
+            call compare(prothero_robinson(-1.0e3_wp), 1, 3.0_wp)
+            call compare(exponential_decay(0.01_wp), 1, 0.5_wp)
+            call compare(swing(), 2, 10.0_wp)
+            call compare(follower(1.0e4_wp, 1.0_wp, 0.1_wp), 2, 3.0_wp)
+            call compare(infection(), 3, 20.0_wp)
+            call compare(enzyme(), 4, 30.0_wp)
+         end do
+      end do
+
+   contains
+
+      subroutine compare(problem, equations, t_end)
+         class(dde_problem_type), intent(in) :: problem
+         integer, intent(in) :: equations
+         real(wp), intent(in) :: t_end
+         class(dde_problem_type), allocatable :: banded
+         type(integration_options) :: options
+         type(integration_result) :: any, few
+
+         if (allocated(error)) return
+         call expect(error, problem%n == equations, "the number of equations")
+         allocate (banded, source=problem)
+         banded%lower = problem%n - 1
+         banded%upper = problem%n - 1
+         banded%rows = spread([1, problem%n], 2, size(problem%lag))
+         options = at_tolerance(10.0_wp**(-digits), methods(i))
+         call run(error, problem, 0.0_wp, t_end, options, few)
+         call run(error, banded, 0.0_wp, t_end, options, any)
+         if (allocated(error)) return
+         call expect_close(error, few%y, any%y, 0.0_wp, methods(i)//": "//text(equations))
+         call expect(error, few%accepted == any%accepted .and. few%rejected == any%rejected &
+                     .and. few%evaluations == any%evaluations, "counts")
+         call expect_close(error, few%work, any%work, 0.0_wp, "work of "//methods(i))
+      end subroutine compare
+   end subroutine test_few
 end module test_dde_invariance

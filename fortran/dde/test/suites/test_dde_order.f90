@@ -13,8 +13,7 @@ module test_dde_order
    use dde_implicit_step, only: implicit_step_type
    use dde_kinds, only: wp
    use dde_problem, only: dde_problem_type
-   use dde_radau_tableau, only: radau_iia, radau_tableau
-   use dde_stage_systems, only: stage_systems
+   use dde_radau_tableau, only: inverse_of_a, radau_iia, radau_tableau
    use dde_taylor_step, only: taylor_step_type
    use expectations, only: expect, expect_between, expect_close
    use layer_problems, only: relaxation, solved
@@ -170,16 +169,14 @@ contains
    !> row is b: so b A^-1 is (0, .., 0, 1).
    subroutine test_radau_conditions(error)
       type(error_type), allocatable, intent(out) :: error
-      type(stage_systems) :: systems
       type(radau_tableau) :: method
       real(wp), allocatable :: a_inverse(:, :), b(:)
       integer :: i, q
 
       do i = 1, size(stages)
          method = radau_iia(stages(i))
-         systems = stage_systems(method, 1)
-         associate (c => method%c, s => stages(i))
-            a_inverse = systems%a_inverse(:s, :)
+         a_inverse = inverse_of_a(method)
+         associate (c => method%c(:stages(i)), s => stages(i))
             b = radau_weights(c)
             call expect_close(error, matmul(b, a_inverse), [spread(0.0_wp, 1, s - 1), 1.0_wp], &
                               1.0e-12_wp, "the last row of A")
