@@ -62,9 +62,10 @@ module dde_implicit_state
       logical :: jacobian_is_good = .false.
       !> Factors of the systems of all stages
       type(stage_systems) :: systems
-      !> The Jacobian at the end of the step, and its real system
-      type(jacobian_type) :: jacobian_at_end
-      type(real_system) :: system_at_end
+      !> The Jacobian at the end of the step, and its real system; allocatable, since gfortran 12 and
+      !> 14 free but one of two components of a type
+      type(jacobian_type), allocatable :: jacobian_at_end
+      type(real_system), allocatable :: system_at_end
       !> Increments Y - y at the stages of the last attempt and of the last accepted step, shape (n,
       !> stages)
       real(wp), allocatable :: increments(:, :), last_increments(:, :)
@@ -114,6 +115,7 @@ contains
       call self%allocate_state(problem)
       associate (n => problem%n, delays => size(problem%lag), s => stages)
          allocate (self%error_vector(n), self%end_slope(n))
+         allocate (self%jacobian_at_end, self%system_at_end)
          allocate (self%increments(n, s), self%last_increments(n, s))
          allocate (self%delayed(delays, s))
          allocate (self%own_place(delays, s), source=0.0_wp)
