@@ -78,30 +78,35 @@ contains
       end select
    end subroutine take_step
 
+   !> One equation.
    pure subroutine step_1(context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, &
                           finite, error)
       integer, parameter :: n = 1
       include "dop853_step.inc"
    end subroutine step_1
 
+   !> Two equations.
    pure subroutine step_2(context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, &
                           finite, error)
       integer, parameter :: n = 2
       include "dop853_step.inc"
    end subroutine step_2
 
+   !> Three equations.
    pure subroutine step_3(context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, &
                           finite, error)
       integer, parameter :: n = 3
       include "dop853_step.inc"
    end subroutine step_3
 
+   !> Four equations.
    pure subroutine step_4(context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, &
                           finite, error)
       integer, parameter :: n = 4
       include "dop853_step.inc"
    end subroutine step_4
 
+   !> Any number of equations.
    pure subroutine step_any(n, context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, &
                             finite, error)
       integer, intent(in) :: n

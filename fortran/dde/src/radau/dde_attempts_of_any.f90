@@ -17,16 +17,19 @@ module dde_attempts_of_any
 
 contains
 
+   !> Three stages.
    subroutine attempt_any_3(self, context, error, n)
       integer, parameter :: s = 3
       include "attempt_of_any.inc"
    end subroutine attempt_any_3
 
+   !> Five stages.
    subroutine attempt_any_5(self, context, error, n)
       integer, parameter :: s = 5
       include "attempt_of_any.inc"
    end subroutine attempt_any_5
 
+   !> Seven stages.
    subroutine attempt_any_7(self, context, error, n)
       integer, parameter :: s = 7
       include "attempt_of_any.inc"

@@ -18,61 +18,73 @@ module dde_attempts_of_few
 
 contains
 
+   !> One equation, three stages.
    subroutine attempt_1_3(self, context, error)
       integer, parameter :: n = 1, s = 3
       include "attempt_of_few.inc"
    end subroutine attempt_1_3
 
+   !> One equation, five stages.
    subroutine attempt_1_5(self, context, error)
       integer, parameter :: n = 1, s = 5
       include "attempt_of_few.inc"
    end subroutine attempt_1_5
 
+   !> One equation, seven stages.
    subroutine attempt_1_7(self, context, error)
       integer, parameter :: n = 1, s = 7
       include "attempt_of_few.inc"
    end subroutine attempt_1_7
 
+   !> Two equations, three stages.
    subroutine attempt_2_3(self, context, error)
       integer, parameter :: n = 2, s = 3
       include "attempt_of_few.inc"
    end subroutine attempt_2_3
 
+   !> Two equations, five stages.
    subroutine attempt_2_5(self, context, error)
       integer, parameter :: n = 2, s = 5
       include "attempt_of_few.inc"
    end subroutine attempt_2_5
 
+   !> Two equations, seven stages.
    subroutine attempt_2_7(self, context, error)
       integer, parameter :: n = 2, s = 7
       include "attempt_of_few.inc"
    end subroutine attempt_2_7
 
+   !> Three equations, three stages.
    subroutine attempt_3_3(self, context, error)
       integer, parameter :: n = 3, s = 3
       include "attempt_of_few.inc"
    end subroutine attempt_3_3
 
+   !> Three equations, five stages.
    subroutine attempt_3_5(self, context, error)
       integer, parameter :: n = 3, s = 5
       include "attempt_of_few.inc"
    end subroutine attempt_3_5
 
+   !> Three equations, seven stages.
    subroutine attempt_3_7(self, context, error)
       integer, parameter :: n = 3, s = 7
       include "attempt_of_few.inc"
    end subroutine attempt_3_7
 
+   !> Four equations, three stages.
    subroutine attempt_4_3(self, context, error)
       integer, parameter :: n = 4, s = 3
       include "attempt_of_few.inc"
    end subroutine attempt_4_3
 
+   !> Four equations, five stages.
    subroutine attempt_4_5(self, context, error)
       integer, parameter :: n = 4, s = 5
       include "attempt_of_few.inc"
    end subroutine attempt_4_5
 
+   !> Four equations, seven stages.
    subroutine attempt_4_7(self, context, error)
       integer, parameter :: n = 4, s = 7
       include "attempt_of_few.inc"
