@@ -62,8 +62,8 @@ module dde_implicit_state
       logical :: jacobian_is_good = .false.
       !> Factors of the systems of all stages
       type(stage_systems) :: systems
-      !> The Jacobian at the end of the step, and its real system; allocatable, since gfortran 12 and
-      !> 14 free but one of two components of a type
+      !> The Jacobian at the end of the step, and its real system; allocatable, since gfortran 12
+      !> and 14 free but one of two components of a type
       type(jacobian_type), allocatable :: jacobian_at_end
       type(real_system), allocatable :: system_at_end
       !> Increments Y - y at the stages of the last attempt and of the last accepted step, shape (n,
