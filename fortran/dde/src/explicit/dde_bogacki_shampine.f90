@@ -77,7 +77,7 @@ contains
       nodes = real([0, 1, 0, 1], wp)
    end subroutine set_up
 
-   !> A step: constant numbers of equations are compiled apart.
+   !> A step, compiled for one to four equations and for any number.
    pure subroutine take_step(self, context, n, h, y, z, k, slope, stage, aside, y_new, scale, &
                              embedded, finite, error)
       class(bogacki_shampine), intent(in) :: self
@@ -89,60 +89,36 @@ contains
       real(wp), intent(inout) :: k(slope_count, n), embedded(n, 2)
       logical, intent(out) :: finite
       real(wp), intent(out) :: error
+      real(wp) :: t, t_end, times(size(places)), total
+      integer :: i
 
       select case (n)
       case (1)
-         call step_1(context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, finite, &
-                     error)
+         block
+            integer, parameter :: m = 1
+            include "bogacki_shampine_step.inc"
+         end block
       case (2)
-         call step_2(context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, finite, &
-                     error)
+         block
+            integer, parameter :: m = 2
+            include "bogacki_shampine_step.inc"
+         end block
       case (3)
-         call step_3(context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, finite, &
-                     error)
+         block
+            integer, parameter :: m = 3
+            include "bogacki_shampine_step.inc"
+         end block
       case (4)
-         call step_4(context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, finite, &
-                     error)
+         block
+            integer, parameter :: m = 4
+            include "bogacki_shampine_step.inc"
+         end block
       case default
-         call step_any(n, context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, &
-                       finite, error)
+         associate (m => n)
+            include "bogacki_shampine_step.inc"
+         end associate
       end select
    end subroutine take_step
-
-   !> One equation.
-   pure subroutine step_1(context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, &
-                          finite, error)
-      integer, parameter :: n = 1
-      include "bogacki_shampine_step.inc"
-   end subroutine step_1
-
-   !> Two equations.
-   pure subroutine step_2(context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, &
-                          finite, error)
-      integer, parameter :: n = 2
-      include "bogacki_shampine_step.inc"
-   end subroutine step_2
-
-   !> Three equations.
-   pure subroutine step_3(context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, &
-                          finite, error)
-      integer, parameter :: n = 3
-      include "bogacki_shampine_step.inc"
-   end subroutine step_3
-
-   !> Four equations.
-   pure subroutine step_4(context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, &
-                          finite, error)
-      integer, parameter :: n = 4
-      include "bogacki_shampine_step.inc"
-   end subroutine step_4
-
-   !> Any number of equations.
-   pure subroutine step_any(n, context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, &
-                            finite, error)
-      integer, intent(in) :: n
-      include "bogacki_shampine_step.inc"
-   end subroutine step_any
 
    !> Newton coefficients of one component's dense output over the nodes 0, 1, 0, 1.
    pure subroutine find_coefficients(self, k, h, y, y_new, a)

@@ -46,7 +46,7 @@ contains
       nodes = real([0, 1, 0, 1, 0, 1, 0], wp)
    end subroutine set_up
 
-   !> A step: constant numbers of equations are compiled apart.
+   !> A step, compiled for one to four equations and for any number.
    pure subroutine take_step(self, context, n, h, y, z, k, slope, stage, aside, y_new, scale, &
                              embedded, finite, error)
       class(dop853), intent(in) :: self
@@ -58,60 +58,60 @@ contains
       real(wp), intent(inout) :: k(slope_count, n), embedded(n, 2)
       logical, intent(out) :: finite
       real(wp), intent(out) :: error
+      real(wp) :: norm3, norm5, of_3, of_5, root, t, t_end, times(size(places))
+      integer :: i
 
       select case (n)
       case (1)
-         call step_1(context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, finite, &
-                     error)
+         block
+            integer, parameter :: m = 1
+            include "dop853_step.inc"
+         end block
       case (2)
-         call step_2(context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, finite, &
-                     error)
+         block
+            integer, parameter :: m = 2
+            include "dop853_step.inc"
+         end block
       case (3)
-         call step_3(context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, finite, &
-                     error)
+         block
+            integer, parameter :: m = 3
+            include "dop853_step.inc"
+         end block
       case (4)
-         call step_4(context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, finite, &
-                     error)
+         block
+            integer, parameter :: m = 4
+            include "dop853_step.inc"
+         end block
       case default
-         call step_any(n, context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, &
-                       finite, error)
+         associate (m => n)
+            include "dop853_step.inc"
+         end associate
       end select
    end subroutine take_step
 
-   !> One equation.
-   pure subroutine step_1(context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, &
-                          finite, error)
-      integer, parameter :: n = 1
-      include "dop853_step.inc"
-   end subroutine step_1
-
-   !> Two equations.
-   pure subroutine step_2(context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, &
-                          finite, error)
-      integer, parameter :: n = 2
-      include "dop853_step.inc"
-   end subroutine step_2
-
-   !> Three equations.
-   pure subroutine step_3(context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, &
-                          finite, error)
-      integer, parameter :: n = 3
-      include "dop853_step.inc"
-   end subroutine step_3
-
-   !> Four equations.
-   pure subroutine step_4(context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, &
-                          finite, error)
-      integer, parameter :: n = 4
-      include "dop853_step.inc"
-   end subroutine step_4
-
-   !> Any number of equations.
-   pure subroutine step_any(n, context, h, y, z, k, slope, stage, aside, y_new, scale, embedded, &
-                            finite, error)
+   !> Slope number `j` at time `t` in state `y`, unless an earlier slope of the step was not finite.
+   pure subroutine evaluate(n, context, t, z, j, y, k, slope, finite)
       integer, intent(in) :: n
-      include "dop853_step.inc"
-   end subroutine step_any
+      type(step_context), intent(inout) :: context
+      !> Time, delayed values and state
+      real(wp), intent(in) :: t, z(size(context%problem%lag)), y(n)
+      integer, intent(in) :: j
+      !> All slopes, and this one, which is computed in one piece
+      real(wp), intent(inout) :: k(slope_count, n), slope(n)
+      !> Whether all slopes so far are finite
+      logical, intent(inout) :: finite
+      real(wp) :: total
+      integer :: i
+
+      if (.not. finite) return
+      call context%evaluate(t, y, z, slope)
+      total = 0.0_wp
+      do i = 1, n
+         k(j, i) = slope(i)
+         total = total + abs(slope(i))
+      end do
+      finite = ieee_is_finite(total)
+   end subroutine evaluate
 
    !> Newton coefficients of one component's dense output over the nodes 0, 1, 0, 1, 0, 1, 0.
    pure subroutine find_coefficients(self, k, h, y, y_new, a)

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> One step of a Radau IIA method as method of steps. An attempt is written once, in attempt.inc and
 !> attempt_parts.inc, and compiled for one to four equations and for any number, with each number of
-!> stages: loops of unknown length cost three times as much.
+!> stages. Of three equations the latter takes 1.6 to 1.8 times the instructions.
 module dde_implicit_step
    use dde_attempts_of_any, only: attempt_any_3, attempt_any_5, attempt_any_7
    use dde_attempts_of_few, only: attempt_1_3, attempt_1_5, attempt_1_7, attempt_2_3, attempt_2_5, &
