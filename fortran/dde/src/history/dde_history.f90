@@ -66,16 +66,14 @@ module dde_history
       integer(int64), private :: spare = 0
       !> Number of polynomials allocated
       integer, private :: used = 0
-      !> Place of the polynomials of the next step
-      integer, private :: place = 0
       !> Number of slots less 1, a mask of the bits of their numbers
       integer(int64), private :: mask = 0
       !> The ring, and the polynomials of its steps
       type(slot_type), allocatable, private :: slots(:)
-      type(polynomials), allocatable, private :: stored(:)
+      type(polynomials), allocatable :: stored(:)
    contains
       procedure, non_overridable :: start_of, length_of, validity_of, value, values, series
-      procedure, non_overridable :: append, open_step, fill, make_room, recall, forget
+      procedure, non_overridable :: append, open_step, has_room, make_room, recall, forget
       procedure, non_overridable :: degree_in_use
    end type history_type
 
@@ -239,60 +237,61 @@ contains
       !> Time from `start` for which they are valid; the length if that is longer
       real(wp), intent(in) :: valid_for
       real(wp) :: lacking
-      integer :: i
+      integer :: place
 
       call self%make_room(size(nodes), lacking)
-      call self%open_step(start, length, nodes, .not. any(abs(nodes) > 0.0_wp), valid_for)
-      do i = 1, size(coefficients, 2)
-         call self%fill(i, coefficients(:, i))
-      end do
+      call self%open_step(start, length, nodes, .not. any(abs(nodes) > 0.0_wp), valid_for, place)
+      self%stored(place)%a(:size(nodes), :) = coefficients
    end subroutine append
 
-   !> Make room for a step, if there is memory for it within the bound.
+   !> Whether there is room for a step in place of a dropped one, if one is left.
+   pure logical function has_room(self, degree) result(value)
+      class(history_type), intent(in) :: self
+      !> Degree of the polynomials of the step
+      integer, intent(in) :: degree
+
+      value = .false.
+      if (self%spare < self%oldest) value = self%slots(slot_of(self, self%spare))%degree == degree
+   end function has_room
+
+   !> Place of the polynomials of the next step.
+   pure integer function next_place(self) result(place)
+      class(history_type), intent(in) :: self
+
+      place = self%used + 1
+      if (self%spare < self%oldest) place = self%slots(slot_of(self, self%spare))%place
+   end function next_place
+
+   !> Make room for a step, if there is memory for it within the bound. A full ring gets twice the
+   !> slots: each step is in its old slot and, a copy, in the same slot of the second half.
    subroutine make_room(self, degree, lacking)
       class(history_type), intent(inout) :: self
       !> Degree of the polynomials of the step
       integer, intent(in) :: degree
       !> Bytes that could not be allocated, more than the bound where that forbids them, or 0
       real(wp), intent(out) :: lacking
-      integer :: slot
-
-      lacking = 0.0_wp
-      ! in place of a dropped step, if one is left
-      self%place = self%used + 1
-      if (self%spare < self%oldest) then
-         slot = slot_of(self, self%spare)
-         self%place = self%slots(slot)%place
-         if (self%slots(slot)%degree == degree) return
-      end if
-      call grow(self, degree, lacking)
-   end subroutine make_room
-
-   !> Allocate the polynomials of the next step. A full ring gets twice the slots: each step is in
-   !> its old slot and, a copy, in the same slot of the second half.
-   subroutine grow(self, degree, lacking)
-      class(history_type), intent(inout) :: self
-      integer, intent(in) :: degree
-      real(wp), intent(out) :: lacking
       type(slot_type), allocatable :: slots(:)
       type(polynomials), allocatable :: stored(:)
       real(wp) :: ahead, reals, ring
-      integer :: i, n, status
+      integer :: i, n, place, status
 
+      lacking = 0.0_wp
+      if (self%has_room(degree)) return
+      place = next_place(self)
       n = size(self%slots)
       reals = real(size(self%kept), wp)*(1 + stored_degree(degree))
-      ring = merge(3.0_wp, 1.0_wp, self%place > n)*slot_size*n
-      lacking = bytes_of_real*(self%place*reals + ring)
+      ring = merge(3.0_wp, 1.0_wp, place > n)*slot_size*n
+      lacking = bytes_of_real*(place*reals + ring)
       if (lacking > self%most_bytes) return
       ! small ones are asked for together
       ahead = reals
-      if (self%place > n) ahead = ring + merge(n*reals, reals, reals <= small)
-      if (self%is_copied .and. ahead > small) ahead = ahead + self%place*reals
+      if (place > n) ahead = ring + merge(n*reals, reals, reals <= small)
+      if (self%is_copied .and. ahead > small) ahead = ahead + place*reals
       lacking = find_lacking(ahead)
       if (lacking > 0.0_wp) return
       lacking = bytes_of_real*ahead
-      if (self%place <= n) then
-         if (allocated(self%stored(self%place)%a)) deallocate (self%stored(self%place)%a)
+      if (place <= n) then
+         if (allocated(self%stored(place)%a)) deallocate (self%stored(place)%a)
       else
          allocate (slots(2*n), stat=status)
          if (status == 0) allocate (stored(2*n), stat=status)
@@ -306,13 +305,13 @@ contains
          call move_alloc(slots, self%slots)
          self%mask = 2*n - 1
       end if
-      allocate (self%stored(self%place)%a(0:stored_degree(degree), size(self%kept)), &
+      allocate (self%stored(place)%a(0:stored_degree(degree), size(self%kept)), &
                 source=0.0_wp, stat=status)
       if (status == 0) lacking = 0.0_wp
-   end subroutine grow
+   end subroutine make_room
 
-   !> Store the step from `start`, `length` long. The caller made room, and fills in coefficients.
-   pure subroutine open_step(self, start, length, nodes, powers, valid_for)
+   !> Store the step from `start`, `length` long. The caller made room, and stores the coefficients.
+   pure subroutine open_step(self, start, length, nodes, powers, valid_for, place)
       class(history_type), intent(inout) :: self
       type(instant), intent(in) :: start
       real(wp), intent(in) :: length
@@ -320,12 +319,15 @@ contains
       !> Whether all of them are 0
       logical, intent(in) :: powers
       real(wp), intent(in) :: valid_for
+      !> Place of its polynomials
+      integer, intent(out) :: place
 
+      place = next_place(self)
       if (self%spare < self%oldest) self%spare = self%spare + 1
-      self%used = max(self%used, self%place)
+      self%used = max(self%used, place)
       self%newest = self%newest + 1
       associate (slot => self%slots(slot_of(self, self%newest)))
-         slot%place = self%place
+         slot%place = place
          slot%start = start
          slot%length = length
          slot%valid_for = max(length, valid_for)
@@ -335,19 +337,6 @@ contains
          slot%nodes(size(nodes) + 1:usual_degree) = 0.0_wp
       end associate
    end subroutine open_step
-
-   !> Fill in one polynomial of the newest step.
-   pure subroutine fill(self, i, coefficients)
-      class(history_type), intent(inout) :: self
-      !> Number of the component among those kept
-      integer, intent(in) :: i
-      !> Newton coefficients, shape (0:degree)
-      real(wp), contiguous, intent(in) :: coefficients(0:)
-
-      associate (place => self%slots(slot_of(self, self%newest))%place)
-         self%stored(place)%a(:ubound(coefficients, 1), i) = coefficients
-      end associate
-   end subroutine fill
 
    !> Step number `step`, oldest..newest, as it was stored.
    pure subroutine recall(self, step, start, length, valid_for, nodes, coefficients)
@@ -381,7 +370,10 @@ contains
       type(instant), intent(in) :: horizon
 
       do while (self%oldest < self%newest)
-         if (elapsed(self%start_of(self%oldest + 1), horizon) < 0.0_wp) exit
+         associate (start => self%slots(slot_of(self, self%oldest + 1))%start)
+            if (start%hi > horizon%hi) exit
+            if (elapsed(start, horizon) < 0.0_wp) exit
+         end associate
          self%oldest = self%oldest + 1
       end do
    end subroutine forget

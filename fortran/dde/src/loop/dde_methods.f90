@@ -7,7 +7,8 @@ module dde_methods
    use dde_errors, only: error_type, raise
    use dde_explicit_step, only: explicit_step_type
    use dde_implicit_step, only: implicit_cost, implicit_step_type
-   use dde_problem, only: dde_problem_type
+   use dde_memory, only: small
+   use dde_problem, only: dde_problem_type, not_given
    use dde_slow_series, only: least_balance
    use dde_step, only: step_type
    use dde_switch, only: least_trial
@@ -38,12 +39,16 @@ module dde_methods
    real(wp), parameter :: least_of_many = 1.0e-5_wp
    !> Least tolerances of Radau IIA of order 5 and 9; below them the order is 13.
    real(wp), parameter :: least_of_radau5 = 3.0e-5_wp, least_of_radau9 = 1.0e-11_wp
+   !> Least number of times in which a component would decay, of those in the shortest delay, with
+   !> which `auto` begins by the implicit method. If that is the wrong one, it costs 200 evaluations
+   !> or so; an explicit one takes 900 or more then up to the first delay.
+   real(wp), parameter :: least_decays = 500.0_wp
    !> Iterations of a usual implicit step.
    integer, parameter :: usual_iterations = 3
 
 contains
 
-   !> A step of the chosen method; `auto` begins with an explicit one.
+   !> A step of the chosen method.
    subroutine choose_method(problem, method, tolerance, origin, step, lacking, error)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
@@ -68,7 +73,7 @@ contains
 
       lacking = 0.0_wp
       name = method
-      if (name == "auto") name = matching_method(problem, tolerance, origin, implicit=.false.)
+      if (name == "auto") name = first_method(problem, tolerance, origin)
       if (name == "explicit") name = explicit_method(tolerance%level)
       if (any(methods == name .and. read_by_methods == "series") .and. .not. problem%analytic) then
          call raise(error, "integrate: method = '"//trim(name)//"' for a problem that gives no " &
@@ -102,6 +107,39 @@ contains
       if (allocated(taylor)) call move_alloc(taylor, step)
       step%constants%name = name
    end subroutine choose_method
+
+   !> The method with which `auto` begins: the implicit one if the problem gives a Jacobian that says
+   !> so and is not large, in place of an explicit pair.
+   pure function first_method(problem, tolerance, origin) result(method)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Tolerance of each component
+      type(tolerance_type), intent(in) :: tolerance
+      !> Initial time
+      real(wp), intent(in) :: origin
+      character(len=8) :: method
+      real(wp), allocatable :: by_y(:, :), by_z(:, :), y(:), z(:)
+      integer :: height, j, k, main
+
+      method = matching_method(problem, tolerance, origin, implicit=.false.)
+      associate (n => problem%n, lag => problem%lag)
+         height = n
+         if (problem%lower >= 0) height = min(n, 1 + problem%lower + problem%upper)
+         if (method == "taylor" .or. real(n, wp)*(height + size(lag)) > small) return
+         allocate (by_y(height, n), by_z(n, size(lag)), y(n), z(size(lag)))
+         call problem%initial(y)
+         z = [(problem%history(origin - lag(k), problem%component(k)), k=1, size(lag))]
+         call problem%jacobian(origin, y, z, by_y, by_z)
+         if (all(by_y <= not_given)) return
+         ! elements of the diagonal do not depend on units of the components
+         do j = 1, n
+            main = merge(j, 1 + problem%upper, height == n)
+            if (-by_y(main, j)*minval(lag) < least_decays) cycle
+            method = implicit_method(tolerance%level)
+            return
+         end do
+      end associate
+   end function first_method
 
    !> The explicit or the implicit method of `auto`. Where the series of many delays do not pay,
    !> that of a slow solution may, if it may hold in steps up to the shortest delay.

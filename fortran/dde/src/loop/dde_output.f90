@@ -97,21 +97,22 @@ contains
       real(wp), intent(in) :: smooth
       !> Share of the step that belongs to the run, > 0
       real(wp), intent(in) :: share
-      real(wp) :: a(0:highest_degree)
-      integer :: degree, i, j
+      integer :: degree, i, j, place
 
       degree = size(step%nodes)
       if (share < 1.0_wp) then
          ! the same polynomial over a shorter step
-         call past%open_step(start, share*step%h, step%nodes/share, step%powers, 0.0_wp)
+         call past%open_step(start, share*step%h, step%nodes/share, step%powers, 0.0_wp, place)
       else
-         call past%open_step(start, step%h, step%nodes, step%powers, min(step%valid_for, smooth))
+         call past%open_step(start, step%h, step%nodes, step%powers, min(step%valid_for, smooth), &
+                             place)
       end if
-      do i = 1, size(past%kept)
-         call step%interpolant(past%kept(i), a(:degree))
-         if (share < 1.0_wp) a(1:degree) = [(share**j*a(j), j=1, degree)]
-         call past%fill(i, a(:degree))
-      end do
+      associate (a => past%stored(place)%a)
+         do i = 1, size(past%kept)
+            call step%interpolant(past%kept(i), a(:degree, i))
+            if (share < 1.0_wp) a(1:degree, i) = [(share**j*a(j, i), j=1, degree)]
+         end do
+      end associate
    end subroutine remember
 
    !> The samples that lie in an accepted step.

@@ -26,12 +26,12 @@ module dde_stage_systems
       complex(wp), allocatable, private :: pair_side(:)
       !> The system of all stages if they are coupled: (j - 1) stages + i is the transform i of
       !> equation j
-      type(real_system), allocatable, private :: of_all
+      type(real_system), allocatable :: of_all
       !> Its right-hand side, shape (stages, n)
       real(wp), allocatable, private :: all_sides(:, :)
    contains
-      procedure :: prepare, solve
-      procedure, private :: add_delayed, couple
+      procedure :: couple, prepare, solve
+      procedure, private :: add_delayed
    end type stage_systems
 
    interface stage_systems
@@ -70,12 +70,13 @@ contains
 
       self%h = h
       self%coupled = any(own_place > 0.0_wp)
-      call fill_end(self%of_real, method, h, jacobian, component, own_place)
       if (self%coupled) then
          call self%couple(method, jacobian, component, own_place, own_weights)
          call self%of_all%factorise(singular)
          call work%count_factors(self%of_all%factor_operations)
          if (singular) return
+      else
+         call fill_end(self%of_real, method, h, jacobian, component, own_place)
       end if
       call self%of_real%factorise(singular)
       call work%count_factors(self%of_real%factor_operations)
@@ -123,7 +124,7 @@ contains
       end do
    end subroutine fill_end
 
-   !> The system of all stages.
+   !> Fill the real system and that of all stages, for a step of length `h`.
    pure subroutine couple(self, method, jacobian, component, own_place, own_weights)
       class(stage_systems), intent(inout) :: self
       type(radau_tableau), intent(in) :: method
@@ -134,6 +135,7 @@ contains
       integer(int64) :: at
       integer :: first, i, j, k, last, shift
 
+      call fill_end(self%of_real, method, self%h, jacobian, component, own_place)
       blocks = blocks_of(method)/self%h
       associate (n => size(jacobian%by_y, 2), s => method%stages)
          if (.not. allocated(self%of_all)) allocate (self%of_all, self%all_sides(s, n))
@@ -185,10 +187,13 @@ contains
                end do
             end do
          end do
+         transforms = 0.0_wp
          do j = 1, s
-            transforms = 0.0_wp
-            do m = 1, s
-               transforms = transforms + method%t_inverse(:, m)*by_stages(m, j)
+            do i = 1, s
+               transforms(i) = method%t_inverse(i, 1)*by_stages(1, j)
+               do m = 2, s
+                  transforms(i) = transforms(i) + method%t_inverse(i, m)*by_stages(m, j)
+               end do
             end do
             at = self%of_all%column((component - 1)*s + j)
             do i = first, last
