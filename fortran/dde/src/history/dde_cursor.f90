@@ -34,7 +34,8 @@ module dde_cursor
       real(wp), allocatable :: offset(:)
       !> Whether the delayed value lies before the initial time, at the start of the step at least
       logical, allocatable :: before_origin(:)
-      !> Time since the start of the step at which it passes the initial time; huge if it does not
+      !> Time since the start of the step at which it passes the initial time; huge if it does not,
+      !> at most 0 for ever once it has passed
       real(wp), allocatable :: passes_origin(:)
    contains
       procedure, non_overridable :: set, inside, values, values_of, time_before
@@ -55,7 +56,7 @@ contains
       associate (terms => size(problem%lag))
          allocate (cursor%step(terms), source=0_int64)
          allocate (cursor%delayed_start(terms), cursor%offset(terms), cursor%before_origin(terms))
-         allocate (cursor%passes_origin(terms))
+         allocate (cursor%passes_origin(terms), source=huge(1.0_wp))
       end associate
    end function new_cursor
 
@@ -76,9 +77,11 @@ contains
          k = last + 1
          last = past%last_alike(k)
          self%delayed_start(k) = later(start, -problem%lag(k))
-         ahead = elapsed(self%delayed_start(k), past%origin)
-         self%before_origin(k) = ahead > beside*length
-         self%passes_origin(k) = merge(ahead, huge(1.0_wp), ahead < (1.0_wp - beside)*length)
+         if (self%passes_origin(k) > 0.0_wp) then
+            ahead = elapsed(self%delayed_start(k), past%origin)
+            self%before_origin(k) = ahead > beside*length
+            self%passes_origin(k) = merge(ahead, huge(1.0_wp), ahead < (1.0_wp - beside)*length)
+         end if
          if (.not. self%before_origin(k)) then
             call self%read_from(past, k, max(self%step(k), past%oldest))
          end if
@@ -119,7 +122,8 @@ contains
       end do
    end subroutine values
 
-   !> Delayed values that are alike, at places of the step, each place after the one before.
+   !> Delayed values that are alike, at places of the step, each place after the one before: step by
+   !> step of the past, each up to its end and a margin.
    pure subroutine values_of(self, problem, past, k, last, places, ahead, row, rows, z)
       class(cursor_type), intent(inout) :: self
       class(dde_problem_type), intent(in) :: problem
@@ -131,7 +135,7 @@ contains
       !> The row of z that the first fills, and all rows
       integer, intent(in) :: row, rows
       real(wp), intent(inout) :: z(rows, places)
-      real(wp) :: margin
+      real(wp) :: limit, margin
       integer :: first, i
 
       first = 1
@@ -149,8 +153,14 @@ contains
       end if
       margin = overlap*self%h
       call self%walk_to(past, k, max(ahead(first), margin))
-      call past%values(k, last, self%delayed_start(k), margin, places, ahead, first, row, rows, &
-                       self%step(k), self%offset(k), z)
+      do
+         limit = huge(1.0_wp)
+         if (self%step(k) < past%newest) limit = past%length_of(self%step(k)) + margin
+         call past%values(self%step(k), k, last, self%offset(k), limit, places, ahead, first, row, &
+                          rows, z)
+         if (first > places) exit
+         call self%read_from(past, k, self%step(k) + 1)
+      end do
    end subroutine values_of
 
    !> A time in the problem's history. Where that may jump it lies between those of the step's ends.

@@ -163,45 +163,36 @@ contains
       z = values(1)
    end function value
 
-   !> Delayed values number k to `last`, which are alike, at ascending times from number `from` on:
-   !> step by step of the past, each up to its end and a margin.
-   pure subroutine values(self, k, last, start, margin, places, ahead, from, row, rows, step, &
-                          offset, z)
+   !> Delayed values number k to `last`, which are alike, by the polynomials of one step, at ascending
+   !> times from number `first` up to a limit.
+   pure subroutine values(self, step, k, last, offset, limit, places, ahead, first, row, rows, z)
       class(history_type), intent(in) :: self
-      integer, intent(in) :: k, last, places, from
-      !> The origin of `ahead`
-      type(instant), intent(in) :: start
-      real(wp), intent(in) :: margin, ahead(places)
+      integer(int64), intent(in) :: step
+      integer, intent(in) :: k, last
+      !> Time from the start of the step to the origin of `ahead`, and the time since its start up to
+      !> which it is read
+      real(wp), intent(in) :: offset, limit
+      integer, intent(in) :: places
+      real(wp), intent(in) :: ahead(places)
+      !> First time to read; on return the first beyond the limit
+      integer, intent(inout) :: first
       !> The row of z that the values of number k fill, and all rows
       integer, intent(in) :: row, rows
-      !> Step that is read, and time from its start to the origin of `ahead`: first, then last
-      integer(int64), intent(inout) :: step
-      real(wp), intent(inout) :: offset, z(rows, places)
-      integer :: first
-      real(wp) :: limit
+      real(wp), intent(inout) :: z(rows, places)
 
-      first = from
-      do
-         associate (slot => self%slots(slot_of(self, step)))
-            limit = huge(1.0_wp)
-            if (step < self%newest) limit = slot%length + margin
-            if (k == last) then
-               call newton_values(slot%degree, slot%nodes, &
-                                  self%stored(slot%place)%a(:, self%row(k)), offset, slot%length, &
-                                  limit, places, ahead, first, row, rows, z)
-            else
-               do first = first, places
-                  if (offset + ahead(first) > limit) exit
-                  call newton_row(slot%degree, slot%nodes, &
-                                  self%stored(slot%place)%a(:, self%row(k):self%row(last)), &
-                                  (offset + ahead(first))/slot%length, z(row, first))
-               end do
-            end if
-         end associate
-         if (first > places) exit
-         step = step + 1
-         offset = elapsed(self%start_of(step), start)
-      end do
+      associate (slot => self%slots(slot_of(self, step)))
+         if (k == last) then
+            call newton_values(slot%degree, slot%nodes, self%stored(slot%place)%a(:, self%row(k)), &
+                               offset, slot%length, limit, places, ahead, first, row, rows, z)
+            return
+         end if
+         do first = first, places
+            if (offset + ahead(first) > limit) exit
+            call newton_row(slot%degree, slot%nodes, &
+                            self%stored(slot%place)%a(:, self%row(k):self%row(last)), &
+                            (offset + ahead(first))/slot%length, z(row, first))
+         end do
+      end associate
    end subroutine values
 
    !> Delayed value number k as a series in powers of a unit of time, by the polynomial of a step.
