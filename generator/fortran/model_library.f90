@@ -105,6 +105,8 @@ contains
       about = model%describe()
       model%sizes = about%sizes
       model%names = about%parameters%name
+      model%above = about%parameters%above
+      model%at_least = about%parameters%at_least
    end subroutine open_object
 
    !> Names of the models that there are with a beginning, without this.

@@ -21,9 +21,10 @@ module model_problem
       type(code_type) :: code
       !> Sizes of the definition
       type(sizes_type) :: sizes
-      !> Parameters in the order of the definition: names and values
+      !> Parameters in the order of the definition: names, values, and bounds: values are above the
+      !> first, and at least the second
       character(len=word_length), allocatable :: names(:)
-      real(wp), allocatable :: numbers(:)
+      real(wp), allocatable :: numbers(:), above(:), at_least(:)
       !> These, and the sides of the switches
       real(wp), allocatable, private :: given(:)
       !> States up to the initial time, shape (n)

@@ -4,7 +4,7 @@ module model_settings
    use model_chain, only: chain_ends, find_neighbours
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use model_description, only: description_type, unbounded, word_length
+   use model_description, only: unbounded, word_length
    use model_library, only: list_models, open_model, path_of_model
    use model_problem, only: model_type
    use value_checks, only: absent, check_choice, check_count, check_number
@@ -116,19 +116,17 @@ contains
       real(wp), intent(in) :: numbers(:)
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
-      type(description_type) :: about
       real(wp) :: lag(model%sizes%delayed)
       integer :: i
 
-      about = model%describe()
       do i = 1, size(numbers)
-         associate (one => about%parameters(i))
-            if (one%at_least > unbounded) then
-               call check_number(error, place, trim(one%name), numbers(i), at_least=one%at_least)
-            else if (one%above > unbounded) then
-               call check_number(error, place, trim(one%name), numbers(i), above=one%above)
+         associate (name => model%names(i), above => model%above(i), at_least => model%at_least(i))
+            if (at_least > unbounded) then
+               call check_number(error, place, trim(name), numbers(i), at_least=at_least)
+            else if (above > unbounded) then
+               call check_number(error, place, trim(name), numbers(i), above=above)
             else
-               call check_number(error, place, trim(one%name), numbers(i))
+               call check_number(error, place, trim(name), numbers(i))
             end if
          end associate
       end do

@@ -36,16 +36,12 @@ contains
       if (allocated(error)) return
       fine = ieee_is_finite(value)
       if (fine) fine = abs(value) < absent
-      range = "a finite number"
-      if (present(above)) then
-         range = range//" > "//text(above)
-         if (fine) fine = value > above
-      end if
-      if (present(at_least)) then
-         range = range//" >= "//text(at_least)
-         if (fine) fine = value >= at_least
-      end if
+      if (fine .and. present(above)) fine = value > above
+      if (fine .and. present(at_least)) fine = value >= at_least
       if (fine) return
+      range = "a finite number"
+      if (present(above)) range = range//" > "//text(above)
+      if (present(at_least)) range = range//" >= "//text(at_least)
       if (ieee_is_nan(value)) range = range//" (NaN: missing, or not a number)"
       if (value == absent) then
          call raise(error, place//key//" is missing; expected "//range)
