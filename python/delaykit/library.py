@@ -110,11 +110,10 @@ class Results:
     def values(self, name: str, kind=np.float64) -> np.ndarray:
         """A variable as a row of numbers; empty if there is none of this name."""
         length = ctypes.c_int()
-        address = LIBRARY.dk_values(self.handle, name.encode(), ctypes.byref(length))
-        if not address:
-            return np.empty(0, kind)
-        values = np.empty(length.value, kind)
-        ctypes.memmove(values.ctypes.data, address, values.nbytes)
+        held = LIBRARY.dk_values(self.handle, name.encode(), ctypes.byref(length))
+        values = np.empty(length.value if held else 0, kind)
+        if held:
+            ctypes.memmove(address(values), held, values.nbytes)
         return values
 
     def description(self) -> list[list[str]]:

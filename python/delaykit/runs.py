@@ -19,7 +19,7 @@ METHODS = {name: EXTENTS[reads] for name, reads in lines_of(LIBRARY.dk_methods)}
 """The solver's methods, with what is compiled for them."""
 COUNTS = (
     *("status", "steps_accepted", "steps_rejected", "steps_implicit", "evaluations"),
-    *("factorisations", "breaking_points"),
+    *("factorisations", "breaking_points", "switches"),
 )
 """Names of the numbers in `counts` of the library"""
 MOST_SAMPLES = 10**4
@@ -137,7 +137,7 @@ def integrate(
         times = own.times(t_eval, past.end[0], t_end)
         request.times, request.time_count = address(times), len(times)
     events = [Event.read(one) for one in ([events] if isinstance(events, str | Event) else events)]
-    watched = own.events(events)
+    watched = own.events(events) if events else {}
     for name, array in watched.items():
         setattr(request, f"event_{name}", address(array))
     request.event_count = len(events)
@@ -174,25 +174,34 @@ def solution_of(own: Arguments, found: Results, events: list[Event], before) -> 
     model, t = own.model, found.values("t")
     y = found.values("y").reshape(len(t), own.n).T
     counts = dict(zip(COUNTS, found.values("counts").astype(int).tolist(), strict=False))
-    which = found.values("event_which", np.int32)
-    times = found.values("event_time")
-    states = found.values("event_y").reshape(len(times), own.n)
+    t_events, y_events = [], []
+    if events:
+        which = found.values("event_which", np.int32)
+        times = found.values("event_time")
+        states = found.values("event_y").reshape(len(times), own.n)
+        t_events = [times[which == 1 + i] for i in range(len(events))]
+        y_events = [states[which == 1 + i] for i in range(len(events))]
     return Solution(
         model=model,
         numbers=own.numbers,
         t=t,
         y=y,
-        t_events=[times[which == 1 + i] for i in range(len(events))],
-        y_events=[states[which == 1 + i] for i in range(len(events))],
+        t_events=t_events,
+        y_events=y_events,
         status=counts.pop("status", -1),
         counts=counts,
-        switches={
-            words[4]: int(words[5])
-            for words in found.description()
-            if words[::2][:2] == ["attribute", "switched"]
-        },
+        switches=switches_of(found) if counts.pop("switches", 0) else {},
         pieces=pieces_of(own, found, before),
     )
+
+
+def switches_of(found: Results) -> dict[str, int]:
+    """How often each term that is not smooth switched."""
+    return {
+        words[4]: int(words[5])
+        for words in found.description()
+        if words[::2][:2] == ["attribute", "switched"]
+    }
 
 
 def pieces_of(own: Arguments, found: Results, before: np.ndarray | None) -> Pieces | None:

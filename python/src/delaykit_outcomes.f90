@@ -39,17 +39,19 @@ contains
    end subroutine put_events
 
    !> What the solver did, and where it ended.
-   subroutine put_outcome(data, outcome, now)
+   subroutine put_outcome(data, outcome, now, switches)
       type(results_type), intent(inout) :: data
       type(integration_result), intent(in) :: outcome
       type(continuation_type), intent(in) :: now
+      !> Number of terms that are not smooth
+      integer, intent(in) :: switches
 
-      call data%column(data%dimension("count", 7), "counts", &
+      call data%column(data%dimension("count", 8), "counts", &
                        [real(wp) :: outcome%reason, outcome%accepted, outcome%rejected, &
                         outcome%implicit_steps, outcome%evaluations, outcome%factorisations, &
-                        outcome%breaking_points], &
+                        outcome%breaking_points, switches], &
                        "1 where an event ended the run, steps accepted, rejected and implicit, " &
-                       //"evaluations, factorisations, breaking points")
+                       //"evaluations, factorisations, breaking points, terms that are not smooth")
       call data%attribute("method_at_end", trim(now%method))
    end subroutine put_outcome
 

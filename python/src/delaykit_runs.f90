@@ -245,7 +245,7 @@ contains
       end if
       if (watcher%received > 0) watcher%y(at, :) = watcher%y
       call put_events(data, watcher)
-      call put_outcome(data, total, now)
+      call put_outcome(data, total, now, model%switches)
       call put_switched(data, model, total)
       if (request%keep_all /= 0 .and. allocated(now%step_length)) then
          now%y(at) = now%y
