@@ -16,6 +16,10 @@ module dde_dop853
    !> tolerance**(1/2) and tolerance**(3/4). They are a few times the values of accurate steps.
    real(wp), parameter :: largest_e3 = 50.0_wp, largest_e5 = 3.0_wp
 
+   !> Embedded error of order 3 over the length of the step and its slopes from which on the step is
+   !> far too long: 0.03 where h times the rate of a decay is 4, 0.1 at 5.66, where e5 vanishes.
+   real(wp), parameter :: far_too_long = 0.06_wp
+
    !> Error of the dense output over the last term of its polynomial and tolerance**(1/8), the ratio
    !> of terms that follow each other where the pair's error is the tolerance. The term is at most
    !> (4/7)**4 (3/7)**3 = 0.0084 times its coefficient.
@@ -58,7 +62,7 @@ contains
       real(wp), intent(inout) :: k(slope_count, n), embedded(n, 2)
       logical, intent(out) :: finite
       real(wp), intent(out) :: error
-      real(wp) :: norm3, norm5, of_3, of_5, root, t, t_end, times(size(places))
+      real(wp) :: norm3, norm5, of_3, of_5, root, slopes, t, t_end, times(size(places))
       integer :: i
 
       select case (n)

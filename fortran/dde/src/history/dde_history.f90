@@ -163,14 +163,13 @@ contains
       z = values(1)
    end function value
 
-   !> Delayed values number k to `last`, which are alike, by the polynomials of one step, at ascending
-   !> times from number `first` up to a limit.
+   !> Delayed values number k to `last`, which are alike, by the polynomials of one step, at
+   !> ascending times from number `first` up to a limit.
    pure subroutine values(self, step, k, last, offset, limit, places, ahead, first, row, rows, z)
       class(history_type), intent(in) :: self
       integer(int64), intent(in) :: step
       integer, intent(in) :: k, last
-      !> Time from the start of the step to the origin of `ahead`, and the time since its start up to
-      !> which it is read
+      !> Time from the start of the step to the origin of `ahead`, and up to where it is read
       real(wp), intent(in) :: offset, limit
       integer, intent(in) :: places
       real(wp), intent(in) :: ahead(places)

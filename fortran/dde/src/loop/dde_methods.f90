@@ -108,8 +108,8 @@ contains
       step%constants%name = name
    end subroutine choose_method
 
-   !> The method with which `auto` begins: the implicit one if the problem gives a Jacobian that says
-   !> so and is not large, in place of an explicit pair.
+   !> The method with which `auto` begins: the implicit one in place of an explicit pair, if the
+   !> problem gives a Jacobian that says so and is not large.
    pure function first_method(problem, tolerance, origin) result(method)
       !> The problem
       class(dde_problem_type), intent(in) :: problem

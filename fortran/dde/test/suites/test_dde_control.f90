@@ -12,8 +12,8 @@ module test_dde_control
    use expectations, only: expect, expect_between, expect_close
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use solving, only: at_tolerance, run
-   use test_problems, only: linear
-   use undelayed_problems, only: swing
+   use test_problems, only: constant_past, linear
+   use undelayed_problems, only: fall_to, swing
    implicit none (type, external)
    private
    public :: collect_dde_control
@@ -34,6 +34,7 @@ contains
                    new_unittest("a near-jump", test_jump), &
                    new_unittest("closed loop", test_closed_loop), &
                    new_unittest("first and longest step", test_steps), &
+                   new_unittest("estimates by accident", test_accidents), &
                    new_unittest("samples", test_samples), &
                    new_unittest("work", test_work), &
                    new_unittest("sums of small steps", test_sums)]
@@ -152,6 +153,41 @@ contains
          call expect_between(error, rates(i)*outcome%t, 1.0e-3_wp, 1.0_wp, "first step")
       end do
    end subroutine test_steps
+
+   !> No step passes because its estimate vanishes by accident, however small what decays is beside
+   !> the rest. With dop853 that was 5000 tolerances where h times the rate is 5.659.
+   subroutine test_accidents(error)
+      type(error_type), allocatable, intent(out) :: error
+      character(len=8), parameter :: pairs(5) = [character(len=8) :: "bs5", "dop853", "radau5", &
+                                                 "radau9", "radau13"]
+      type(constant_past) :: problem
+      real(wp) :: h, tolerance, y(1)
+      type(integration_options) :: options
+      type(integration_result) :: outcome
+      integer :: digits, i, j, k
+
+      do i = 1, size(pairs)
+         do digits = 2, 10, 2
+            tolerance = 10.0_wp**(-digits)
+            do k = 0, 6, 2
+               do j = 0, 180
+                  h = merge(5.659_wp, 0.2_wp*10.0_wp**(j/90.0_wp), j == 180)
+                  options = at_tolerance(tolerance, pairs(i))
+                  options%first_step = h
+                  problem = fall_to(10.0_wp**k)
+                  call run(error, problem, 0.0_wp, h, options, outcome)
+                  if (allocated(error)) return
+                  if (outcome%rejected > 0) cycle
+                  call problem%exact(problem%p, h, y)
+                  call expect_close(error, outcome%y(1), y(1), 10.0_wp*tolerance*(1.0_wp + y(1)), &
+                                    pairs(i)//" at "//text(tolerance)//", step "//text(h) &
+                                    //" towards 1e"//text(k))
+                  if (allocated(error)) return
+               end do
+            end do
+         end do
+      end do
+   end subroutine test_accidents
 
    !> Samples are the wanted components, in their order, at the times wanted: the start, the end,
    !> one time twice, some a hundredth of a step apart. Those after the end are not taken.

@@ -236,7 +236,7 @@ contains
       integer, parameter :: n = 10000
       type(history_type) :: past
       real(wp) :: lacking
-      integer :: degree, i
+      integer :: degree, i, place
 
       past = history_type(many_delays(n), instant(0.0_wp))
       if (limit_memory(115*1000*1000_c_long) == 0) return
@@ -245,7 +245,7 @@ contains
             call past%make_room(degree, lacking)
             if (lacking > 0.0_wp) exit
             call past%open_step(instant(real(i, wp)), 1.0_wp, spread(0.0_wp, 1, degree), .true., &
-                                1.0_wp)
+                                1.0_wp, place)
             if (degree == 12) call past%forget(past%start_of(past%oldest + 1))
          end do
          call expect_close(error, lacking, 0.0_wp, 0.0_wp, "bytes lacking at "//text(degree))

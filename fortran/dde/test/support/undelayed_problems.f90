@@ -6,7 +6,7 @@ module undelayed_problems
    use test_problems, only: constant_past, fill
    implicit none (type, external)
    private
-   public :: blow_up, falls_out, quadrature, swing
+   public :: blow_up, fall_to, falls_out, quadrature, swing
 
 contains
 
@@ -40,6 +40,15 @@ contains
       problem%analytic = .true.
    end function blow_up
 
+   !> y' = level - y, from 2 above the level: level + 2 exp(-t).
+   type(constant_past) function fall_to(level) result(problem)
+      real(wp), intent(in) :: level
+
+      call fill(problem, 1, [level + 2.0_wp], [level + 2.0_wp], p=[level])
+      problem%f => distance
+      problem%exact => falling
+   end function fall_to
+
    !> y' = 1 where t < 1, no number after; from a first state.
    type(constant_past) function falls_out(first) result(problem)
       real(wp), intent(in) :: first
@@ -47,6 +56,20 @@ contains
       call fill(problem, 1, [first], [first])
       problem%f => ending
    end function falls_out
+
+   pure subroutine distance(p, t, y, z, f)
+      real(wp), intent(in) :: p(:), t, y(:), z(:)
+      real(wp), intent(out) :: f(:)
+
+      f = p - y
+   end subroutine distance
+
+   pure subroutine falling(p, t, y)
+      real(wp), intent(in) :: p(:), t
+      real(wp), intent(out) :: y(:)
+
+      y = p + 2.0_wp*exp(-t)
+   end subroutine falling
 
    pure subroutine power_of_time(p, t, y, z, f)
       real(wp), intent(in) :: p(:), t, y(:), z(:)
