@@ -21,7 +21,7 @@ module model_problem
       type(code_type) :: code
       !> Sizes of the definition
       type(sizes_type) :: sizes
-      !> Parameters in the order of the definition: names, values, and two lower bounds of values
+      !> Parameters in the order of the definition: names, values, and bounds of values
       character(len=word_length), allocatable :: names(:)
       real(wp), allocatable :: numbers(:), above(:), at_least(:)
       !> These, and the sides of the switches

@@ -73,7 +73,7 @@ module dde_history
       type(polynomials), allocatable :: stored(:)
    contains
       procedure, non_overridable :: start_of, length_of, validity_of, value, values, series
-      procedure, non_overridable :: append, open_step, has_room, make_room, recall, forget
+      procedure, non_overridable :: append, open_step, make_room, recall, forget
       procedure, non_overridable :: degree_in_use
    end type history_type
 
@@ -234,17 +234,7 @@ contains
       self%stored(place)%a(:size(nodes), :) = coefficients
    end subroutine append
 
-   !> Whether there is room for a step in place of a dropped one, if one is left.
-   pure logical function has_room(self, degree) result(value)
-      class(history_type), intent(in) :: self
-      !> Degree of the polynomials of the step
-      integer, intent(in) :: degree
-
-      value = .false.
-      if (self%spare < self%oldest) value = self%slots(slot_of(self, self%spare))%degree == degree
-   end function has_room
-
-   !> Place of the polynomials of the next step.
+   !> Place of the polynomials of the next step: that of a dropped one, if one is left.
    pure integer function next_place(self) result(place)
       class(history_type), intent(in) :: self
 
@@ -266,7 +256,9 @@ contains
       integer :: i, n, place, status
 
       lacking = 0.0_wp
-      if (self%has_room(degree)) return
+      if (self%spare < self%oldest) then
+         if (self%slots(slot_of(self, self%spare))%degree == degree) return
+      end if
       place = next_place(self)
       n = size(self%slots)
       reals = real(size(self%kept), wp)*(1 + stored_degree(degree))
@@ -360,10 +352,7 @@ contains
       type(instant), intent(in) :: horizon
 
       do while (self%oldest < self%newest)
-         associate (start => self%slots(slot_of(self, self%oldest + 1))%start)
-            if (start%hi > horizon%hi) exit
-            if (elapsed(start, horizon) < 0.0_wp) exit
-         end associate
+         if (elapsed(self%start_of(self%oldest + 1), horizon) < 0.0_wp) exit
          self%oldest = self%oldest + 1
       end do
    end subroutine forget

@@ -109,7 +109,7 @@ contains
    end subroutine choose_method
 
    !> The method with which `auto` begins: the implicit one in place of an explicit pair, if the
-   !> problem gives a Jacobian that says so and is not large.
+   !> problem has delays and gives a Jacobian that says so and is not large.
    pure function first_method(problem, tolerance, origin) result(method)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
@@ -125,7 +125,8 @@ contains
       associate (n => problem%n, lag => problem%lag)
          height = n
          if (problem%lower >= 0) height = min(n, 1 + problem%lower + problem%upper)
-         if (method == "taylor" .or. real(n, wp)*(height + size(lag)) > small) return
+         if (method == "taylor" .or. size(lag) == 0) return
+         if (real(n, wp)*(height + size(lag)) > small) return
          allocate (by_y(height, n), by_z(n, size(lag)), y(n), z(size(lag)))
          call problem%initial(y)
          z = [(problem%history(origin - lag(k), problem%component(k)), k=1, size(lag))]

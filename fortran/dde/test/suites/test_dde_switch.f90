@@ -97,13 +97,18 @@ contains
       call run(error, oscillating, 0.0_wp, 1500.0_wp, at_tolerance(1.0e-4_wp, "auto"), auto)
       call expect(error, auto%implicit_steps > 0, "the wrong one first")
       call expect(error, auto%work < 1.2_wp*explicit%work, "work "//text(auto%work/explicit%work))
+      oscillating = tracking()
+      call fill(oscillating, 1, [0.0_wp], [0.0_wp])
+      oscillating%f => track
+      call run(error, oscillating, 0.0_wp, 50.0_wp, at_tolerance(1.0e-4_wp, "auto"), auto)
+      call expect(error, auto%implicit_steps == 0, "explicit without a delay")
    end subroutine test_beginning
 
    pure subroutine track(p, t, y, z, f)
       real(wp), intent(in) :: p(:), t, y(:), z(:)
       real(wp), intent(out) :: f(:)
 
-      f = cos(3.0_wp*t) - y + 0.1_wp*z
+      f = cos(3.0_wp*t) - y + 0.1_wp*sum(z)
    end subroutine track
 
    pure subroutine derivatives(self, t, y, z, by_y, by_z)
