@@ -5,7 +5,7 @@
 !>
 !> Extend `dde_problem_type`, fill `n`, `lag` and `component`, and write the three deferred
 !> procedures. Without delays `lag` and `component` have size zero or are not allocated, and no past
-!> is kept.
+!> is kept. Delays may depend on t and y(t), by `moving_lags`, with their number in `moving`.
 !>
 !> Optional are - for implicit methods: `jacobian`, `lower` and `upper` of a banded one, and `rows`
 !> of delayed values, - for the method `taylor`: `series` and `past_series`, with `analytic` true, -
@@ -27,10 +27,13 @@ module dde_problem
    type, abstract :: dde_problem_type
       !> Number of equations
       integer :: n = 0
-      !> Delay of each delayed value z(k), > 0
+      !> Delay of each delayed value z(k), > 0; the longest that a delay becomes that moves, huge if
+      !> no bound is known: all of the past is then kept
       real(wp), allocatable :: lag(:)
       !> Number of the component of y that each delayed value z(k) is, 1..n
       integer, allocatable :: component(:)
+      !> Number of delays that depend on time or state: those of the last delayed values
+      integer :: moving = 0
       !> Diagonals of a banded Jacobian by y below and above the main one
       integer :: lower = -1, upper = -1
       !> First and last equation that contains each delayed value, shape (2, size(lag)); all
@@ -53,6 +56,10 @@ module dde_problem
       procedure(initial_state), deferred :: initial
       !> One component before the initial time
       procedure(past_value), deferred :: history
+      !> Delays that depend on time or state
+      procedure :: moving_lags => no_moving_lags
+      !> The shortest constant delay
+      procedure, non_overridable :: shortest_lag
       !> Right-hand side f(t, y, z)
       procedure(right_hand_side), deferred :: rhs
       !> Derivatives of f by y and z; by differences unless the extension gives them
@@ -127,6 +134,25 @@ module dde_problem
    end type problem_with_tangents
 
 contains
+
+   !> Delays of the last delayed values, which depend on time or state. Not a number unless the
+   !> extension gives them.
+   pure subroutine no_moving_lags(self, t, y, lag)
+      class(dde_problem_type), intent(in) :: self
+      !> Time, and state there, shape (n)
+      real(wp), intent(in) :: t, y(self%n)
+      !> The delays, >= 0 and at most those of `lag`, shape (moving)
+      real(wp), intent(out) :: lag(self%moving)
+
+      lag = ieee_value(1.0_wp, ieee_quiet_nan)
+   end subroutine no_moving_lags
+
+   !> The shortest constant delay; huge if there is none.
+   pure real(wp) function shortest_lag(self) result(shortest)
+      class(dde_problem_type), intent(in) :: self
+
+      shortest = minval(self%lag(:size(self%lag) - self%moving))
+   end function shortest_lag
 
    !> Derivatives of the right-hand side by y and z: `not_given` unless the extension gives them.
    pure subroutine no_jacobian(self, t, y, z, by_y, by_z)

@@ -92,29 +92,34 @@ contains
       real(wp) :: t, t_end, times(size(places)), total
       integer :: i
 
-      select case (n)
+      ! few equations with constant delays, or any problem
+      select case (merge(n, 0, context%problem%moving == 0))
       case (1)
          block
             integer, parameter :: m = 1
+            logical, parameter :: moves = .false.
             include "bogacki_shampine_step.inc"
          end block
       case (2)
          block
             integer, parameter :: m = 2
+            logical, parameter :: moves = .false.
             include "bogacki_shampine_step.inc"
          end block
       case (3)
          block
             integer, parameter :: m = 3
+            logical, parameter :: moves = .false.
             include "bogacki_shampine_step.inc"
          end block
       case (4)
          block
             integer, parameter :: m = 4
+            logical, parameter :: moves = .false.
             include "bogacki_shampine_step.inc"
          end block
       case default
-         associate (m => n)
+         associate (m => n, moves => context%problem%moving > 0)
             include "bogacki_shampine_step.inc"
          end associate
       end select

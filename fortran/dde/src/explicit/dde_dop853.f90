@@ -65,40 +65,48 @@ contains
       real(wp) :: norm3, norm5, of_3, of_5, root, slopes, t, t_end, times(size(places))
       integer :: i
 
-      select case (n)
+      ! few equations with constant delays, or any problem
+      select case (merge(n, 0, context%problem%moving == 0))
       case (1)
          block
             integer, parameter :: m = 1
+            logical, parameter :: moves = .false.
             include "dop853_step.inc"
          end block
       case (2)
          block
             integer, parameter :: m = 2
+            logical, parameter :: moves = .false.
             include "dop853_step.inc"
          end block
       case (3)
          block
             integer, parameter :: m = 3
+            logical, parameter :: moves = .false.
             include "dop853_step.inc"
          end block
       case (4)
          block
             integer, parameter :: m = 4
+            logical, parameter :: moves = .false.
             include "dop853_step.inc"
          end block
       case default
-         associate (m => n)
+         associate (m => n, moves => context%problem%moving > 0)
             include "dop853_step.inc"
          end associate
       end select
    end subroutine take_step
 
    !> Slope number `j` at time `t` in state `y`, unless an earlier slope of the step was not finite.
-   pure subroutine evaluate(n, context, t, z, j, y, k, slope, finite)
+   pure subroutine evaluate(n, moves, context, t, z, j, y, k, slope, finite)
       integer, intent(in) :: n
+      !> Whether delays move
+      logical, intent(in) :: moves
       type(step_context), intent(inout) :: context
       !> Time, delayed values and state
-      real(wp), intent(in) :: t, z(size(context%problem%lag)), y(n)
+      real(wp), intent(in) :: t, y(n)
+      real(wp), intent(inout) :: z(size(context%problem%lag))
       integer, intent(in) :: j
       !> All slopes, and this one, which is computed in one piece
       real(wp), intent(inout) :: k(slope_count, n), slope(n)
@@ -108,7 +116,7 @@ contains
       integer :: i
 
       if (.not. finite) return
-      call context%evaluate(t, y, z, slope)
+      call context%evaluate_stage(moves, t, y, z, slope)
       total = 0.0_wp
       do i = 1, n
          k(j, i) = slope(i)

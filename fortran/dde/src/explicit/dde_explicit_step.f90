@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> One step of an explicit Runge-Kutta pair. It is at most as long as the shortest delay, so that
-!> all delayed values lie in the past.
+!> One step of an explicit Runge-Kutta pair. It is at most as long as the shortest constant delay, so
+!> that these delayed values lie in the past. Where a delay that moves reaches into the step, it is
+!> repeated with the dense output of the last pass until that no longer changes.
 module dde_explicit_step
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde_controller, only: method_constants
@@ -14,6 +15,11 @@ module dde_explicit_step
    implicit none (type, external)
    private
    public :: explicit_step_type
+
+   !> Most passes of a step, and the change of its dense output, in units of the tolerance, up to
+   !> which it does not change.
+   integer, parameter :: most_passes = 10
+   real(wp), parameter :: least_change = 0.03_wp
 
    !> Stages of the current step.
    type, extends(step_type) :: explicit_step_type
@@ -80,13 +86,39 @@ contains
       self%t = context%cursor%t
       self%h = context%cursor%h
       finite = self%finite
-      if (finite) then
+      if (context%problem%moving > 0) then
+         call repeat_step(self, context, finite, error)
+      else if (finite) then
          call self%pair%take_step(context, context%problem%n, self%h, self%y, self%delayed, &
                                   self%k, self%newest, self%stage, self%aside, self%y_new, &
                                   self%scale, self%embedded, finite, error)
       end if
       if (.not. finite) error = ieee_value(1.0_wp, ieee_quiet_nan)
    end subroutine attempt
+
+   !> The step, repeated where delays reach into it.
+   pure subroutine repeat_step(self, context, finite, error)
+      type(explicit_step_type), intent(inout) :: self
+      type(step_context), intent(inout) :: context
+      !> Whether all slopes so far are finite, then all of the step
+      logical, intent(inout) :: finite
+      real(wp), intent(inout) :: error
+      real(wp) :: change
+      integer :: pass
+
+      do pass = 1, most_passes
+         if (.not. finite) return
+         call context%cursor%begin_step()
+         call self%pair%take_step(context, context%problem%n, self%h, self%y, self%delayed, &
+                                  self%k, self%newest, self%stage, self%aside, self%y_new, &
+                                  self%scale, self%embedded, finite, error)
+         if (.not. (finite .and. context%cursor%reaches_in)) return
+         ! without an error within the tolerance the dense output is not known
+         call self%offer(context, error > 1.0_wp, change)
+         if (change <= least_change) return
+      end do
+      error = huge(1.0_wp)
+   end subroutine repeat_step
 
    !> Whether stability limits the step: its length times the difference of the slopes of the last
    !> stage and at the end over the distance of their arguments, both at the end of the step (Hairer

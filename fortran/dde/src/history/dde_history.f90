@@ -8,6 +8,7 @@ module dde_history
    use dde_interpolant, only: highest_degree, newton_row, newton_values, stored_degree, &
                               taylor_coefficients, usual_degree
    use dde_memory, only: bytes_of_real, find_lacking, small
+   use dde_pieces, only: pieces_type
    use dde_problem, only: dde_problem_type
    use dde_time, only: elapsed, instant
    use dde_kinds, only: int64, wp
@@ -54,6 +55,10 @@ module dde_history
       logical :: is_copied = .false.
       !> Whether the problem's history may jump where a step starts or ends
       logical :: history_jumps = .false.
+      !> Whether the polynomials of the running step are known, as those of a step after the newest
+      logical :: running = .false.
+      !> Its pieces between kinks, which delays read that move
+      type(pieces_type) :: pieces
       !> Components of y that are kept, without repetition
       integer, allocatable :: kept(:)
       !> Place in `kept` of each delayed value
@@ -73,7 +78,7 @@ module dde_history
       type(polynomials), allocatable :: stored(:)
    contains
       procedure, non_overridable :: start_of, length_of, validity_of, value, values, series
-      procedure, non_overridable :: append, open_step, make_room, recall, forget
+      procedure, non_overridable :: append, open_step, open_running, make_room, recall, forget
       procedure, non_overridable :: degree_in_use
    end type history_type
 
@@ -107,11 +112,12 @@ contains
       end do
       past%row = row_of(problem%component)
       past%last_alike = [(i, i=1, size(problem%lag))]
-      do i = size(problem%lag) - 1, 1, -1
+      do i = size(problem%lag) - problem%moving - 1, 1, -1
          if (past%row(i + 1) /= past%row(i) + 1) cycle
          if (abs(problem%lag(i + 1) - problem%lag(i)) > 0.0_wp) cycle
          past%last_alike(i) = past%last_alike(i + 1)
       end do
+      if (problem%moving > 0) past%pieces = pieces_type(problem%moving)
       allocate (past%slots(first_capacity), past%stored(first_capacity))
       past%mask = first_capacity - 1
    end function new_history
@@ -319,6 +325,27 @@ contains
          slot%nodes(size(nodes) + 1:usual_degree) = 0.0_wp
       end associate
    end subroutine open_step
+
+   !> Store the running step as one after the newest, in the place of its polynomials if it is
+   !> accepted.
+   pure subroutine open_running(self, start, length, nodes, powers, place)
+      class(history_type), intent(inout) :: self
+      type(instant), intent(in) :: start
+      real(wp), intent(in) :: length
+      real(wp), contiguous, intent(in) :: nodes(:)
+      logical, intent(in) :: powers
+      integer, intent(out) :: place
+      integer(int64) :: spare
+      integer :: used
+
+      spare = self%spare
+      used = self%used
+      call self%open_step(start, length, nodes, powers, 0.0_wp, place)
+      self%newest = self%newest - 1
+      self%spare = spare
+      self%used = used
+      self%running = .true.
+   end subroutine open_running
 
    !> Step number `step`, oldest..newest, as it was stored.
    pure subroutine recall(self, step, start, length, valid_for, nodes, coefficients)

@@ -61,6 +61,16 @@ contains
       real(wp) :: s, rest
       integer :: i, j
 
+      if (degree <= short_degree) then
+         do i = first, places
+            if (offset + ahead(i) > limit) exit
+            s = (offset + ahead(i))/length
+            values(row, i) = a(0) + (s - x(1))*(a(1) + (s - x(2))*(a(2) + (s - x(3))*(a(3) &
+                           + (s - x(4))*a(4))))
+         end do
+         first = i
+         return
+      end if
       do i = first, places
          if (offset + ahead(i) > limit) exit
          s = (offset + ahead(i))/length
@@ -68,10 +78,8 @@ contains
          do j = degree, usual_degree + 1, -1
             rest = (s - x(j))*(a(j) + rest)
          end do
-         if (degree > short_degree) then
-            rest = (s - x(5))*(a(5) + (s - x(6))*(a(6) + (s - x(7))*(a(7) &
-                   + (s - x(8))*(a(8) + rest))))
-         end if
+         rest = (s - x(5))*(a(5) + (s - x(6))*(a(6) + (s - x(7))*(a(7) &
+                + (s - x(8))*(a(8) + rest))))
          values(row, i) = a(0) + (s - x(1))*(a(1) + (s - x(2))*(a(2) + (s - x(3))*(a(3) &
                         + (s - x(4))*(a(4) + rest))))
       end do

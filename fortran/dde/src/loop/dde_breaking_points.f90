@@ -11,11 +11,12 @@
 !> points. The error estimate covers the kink then: if the step is accepted, the kink is below the
 !> tolerance, and so are the smoother kinks that it would cause.
 module dde_breaking_points
+   use dde_kink, only: kink_type
    use dde_time, only: ascending, elapsed, instant, later
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: breaking_points, kink_type, stretch
+   public :: breaking_points, stretch
 
    !> A step below this share of the proposed step size is short.
    real(wp), parameter :: short = 0.5_wp
@@ -34,18 +35,6 @@ module dde_breaking_points
 
    !> Points are one if their distance is below this share of their distance from the first kink.
    real(wp), parameter :: same_point = 16.0_wp*epsilon(1.0_wp)
-
-   !> A time where a derivative of the solution jumps.
-   type :: kink_type
-      !> When
-      type(instant) :: at
-      !> Passages through a delay since the first derivative jumped; -1 where the solution does
-      integer :: passages = 0
-      !> Passages since its cause, which is the initial time or a time that the user gave
-      integer :: generation = 0
-   contains
-      procedure :: take_in
-   end type kink_type
 
    !> The kinks of a run.
    type :: breaking_points
@@ -71,7 +60,7 @@ module dde_breaking_points
       integer, private :: credit = 0, most_credit = 0
    contains
       procedure :: begin, add, goal, at, is_end, is_cause, time_to_next, time_to_end, land, pass
-      procedure :: judge, forget
+      procedure :: judge, forget, kink, is_tracked, is_worth, spend
       procedure, private :: add_ahead, add_returns, find_due
    end type breaking_points
 
@@ -135,7 +124,7 @@ contains
       type(instant), intent(in) :: now
       integer :: i
 
-      if (kink%passages >= self%most_passages) return
+      if (.not. self%is_tracked(kink)) return
       if (kink%generation > 0 .and. size(self%ahead) - self%next >= most_ahead) return
       ! the last first: no point is then moved more than once
       do i = size(self%lag), 1, -1
@@ -238,6 +227,40 @@ contains
       point = self%ahead(number)%at
    end function at
 
+   !> A point.
+   pure type(kink_type) function kink(self, number) result(point)
+      class(breaking_points), intent(in) :: self
+      integer, intent(in) :: number
+
+      point = self%ahead(number)
+   end function kink
+
+   !> Whether the passages of a kink through delays are breaking points: it is not too smooth.
+   elemental logical function is_tracked(self, kink) result(value)
+      class(breaking_points), intent(in) :: self
+      type(kink_type), intent(in) :: kink
+
+      value = kink%passages < self%most_passages
+   end function is_tracked
+
+   !> Whether steps should end where a delay that moves meets a kink.
+   pure logical function is_worth(self, kink) result(value)
+      class(breaking_points), intent(in) :: self
+      type(kink_type), intent(in) :: kink
+
+      value = self%is_tracked(kink) .and. (kink%passages <= 0 .or. self%credit > 0)
+   end function is_worth
+
+   !> A delay that moves met a kink in an accepted step, which ends there.
+   pure subroutine spend(self, h, planned)
+      class(breaking_points), intent(inout) :: self
+      !> Length of the step, and that which was planned
+      real(wp), intent(in) :: h, planned
+
+      ! it was counted as one that lands on no point
+      if (h < short*planned) self%credit = max(0, self%credit - 2)
+   end subroutine spend
+
    !> Whether a point is the end of the run.
    pure logical function is_end(self, number) result(value)
       class(breaking_points), intent(in) :: self
@@ -322,15 +345,6 @@ contains
          self%met = self%met(1 + count(elapsed(self%met%at, horizon) > 0.0_wp):)
       end if
    end subroutine forget
-
-   !> Take in another kink at the same time.
-   pure subroutine take_in(self, other)
-      class(kink_type), intent(inout) :: self
-      type(kink_type), intent(in) :: other
-
-      self%passages = min(self%passages, other%passages)
-      self%generation = min(self%generation, other%generation)
-   end subroutine take_in
 
    !> Whether a kink and the next one are the same point.
    pure logical function coincide(kink, next, origin) result(value)

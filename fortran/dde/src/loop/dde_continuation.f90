@@ -3,7 +3,7 @@
 !> to a file and read back.
 module dde_continuation
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use dde_breaking_points, only: kink_type
+   use dde_kink, only: kink_type
    use dde_history, only: history_type
    use dde_interpolant, only: highest_degree
    use dde_problem, only: dde_problem_type

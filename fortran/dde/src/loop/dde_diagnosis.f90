@@ -29,8 +29,8 @@ contains
          culprit = ""
          why = "interrupted"
       case (slides)
-         culprit = run%context%problem%name_of("switching", run%sides%slides)
-         why = "f pushes the solution back from both sides of the zero of "
+         call name_slide(run, culprit)
+         why = "f pushes the solution back from both sides of "
       case (out_of_memory)
          culprit = ""
          steps = run%context%past%newest - run%context%past%oldest + 1
@@ -51,11 +51,29 @@ contains
       case default
          call find_not_finite(run, culprit)
          why = "a value is not finite at every step length down to "//text(run%next%h)//": "
+         if (index(culprit, "expected") > 0) why = "a delay out of its range: "
       end select
       call raise(error, "integrate: stopped at t = "//text(outcome%t)//" of "//text(run%t_end) &
                  //" after "//text(outcome%accepted)//" steps ("//text(outcome%rejected) &
                  //" rejected): "//why//culprit)
    end subroutine explain
+
+   !> Along what the solution slides.
+   subroutine name_slide(run, words)
+      type(run_type), intent(in) :: run
+      character(len=:), allocatable, intent(out) :: words
+
+      associate (problem => run%context%problem, slides => run%sides%slides)
+         if (slides <= problem%switches) then
+            words = "the zero of "//problem%name_of("switching", slides)
+            return
+         end if
+         associate (k => size(problem%lag) - problem%moving + (slides - problem%switches + 1)/2)
+            words = "the place where t - "//problem%name_of("lag", k)//" passes a jump of " &
+                    //problem%name_of("y", problem%component(k))
+         end associate
+      end associate
+   end subroutine name_slide
 
    !> Which component has a tolerance below the rounding error of the step planned from here.
    subroutine find_below_rounding(run, words)
@@ -86,6 +104,7 @@ contains
       real(wp), allocatable :: slope(:), y(:), z(:, :)
       integer :: i, place
       real(wp) :: t
+      logical :: good
 
       y = run%step%y
       call run%context%go_to(run%now, run%next%h)
@@ -94,6 +113,11 @@ contains
          call run%context%delayed_values([0.0_wp, h], z)
          do place = 1, 2
             t = run%now%hi + (place - 1)*h
+            if (problem%moving > 0) then
+               call find_bad_lag(run, t, y, words)
+               if (len(words) > 0) return
+               call run%context%moving_values(t, y, z(:, place), good)
+            end if
             do i = 1, size(problem%lag)
                if (ieee_is_finite(z(i, place))) cycle
                words = problem%name_of("y", problem%component(i))//" is "//text(z(i, place)) &
@@ -113,4 +137,24 @@ contains
       end associate
       words = "f at a stage of the step"
    end subroutine find_not_finite
+
+   !> Which delay that moves is not finite or out of its bounds.
+   subroutine find_bad_lag(run, t, y, words)
+      type(run_type), intent(in) :: run
+      real(wp), intent(in) :: t, y(:)
+      character(len=:), allocatable, intent(out) :: words
+      real(wp) :: lag(run%context%problem%moving)
+      integer :: j
+
+      words = ""
+      associate (problem => run%context%problem)
+         call problem%moving_lags(t, y, lag)
+         associate (bounds => problem%lag(size(problem%lag) - size(lag) + 1:))
+            j = findloc(lag >= 0.0_wp .and. lag <= bounds, .false., dim=1)
+            if (j == 0) return
+            words = problem%name_of("lag", size(problem%lag) - size(lag) + j)//" is " &
+                    //text(lag(j))//" at t = "//text(t)//"; 0.."//text(bounds(j))//" expected"
+         end associate
+      end associate
+   end subroutine find_bad_lag
 end module dde_diagnosis

@@ -72,6 +72,7 @@ contains
          outcome%t = run%now%hi
          outcome%y = run%step%y
          outcome%switched = run%sides%changes
+         outcome%untracked = run%context%past%pieces%left_out
          if (present(continuation) .and. outcome%reason /= out_of_memory) then
             call run%keep(continuation)
          end if
@@ -145,7 +146,7 @@ contains
          if (problem%exponentials > 0 .and. accepted(run%estimate)) then
             call run%exponents%judge(run%context, run%step, run%estimate)
          end if
-         if (problem%switches > 0 .and. accepted(run%estimate)) then
+         if (problem%switches + problem%moving > 0 .and. accepted(run%estimate)) then
             call run%sides%judge(run%context, run%step, run%estimate)
          end if
       end associate
@@ -189,7 +190,12 @@ contains
       call run%exponents%advance(.not. (run%next%landing .or. passed))
       call run%step%advance()
       call run%arrive()
-      if (passed) call run%change_sides()
+      if (passed) then
+         call run%change_sides()
+         if (any(run%sides%passed(run%context%problem%switches + 1:))) then
+            outcome%breaking_points = outcome%breaking_points + 1
+         end if
+      end if
       if (run%sides%slides > 0) then
          outcome%reason = slides
          return

@@ -4,7 +4,7 @@
 module dde_methods
    use dde_bogacki_shampine, only: bogacki_shampine
    use dde_dop853, only: dop853
-   use dde_errors, only: error_type, raise
+   use dde_errors, only: error_type, raise, text
    use dde_explicit_step, only: explicit_step_type
    use dde_implicit_step, only: implicit_cost, implicit_step_type
    use dde_memory, only: small
@@ -80,6 +80,12 @@ contains
                     //"Taylor series (analytic = .false.); another method expected")
          return
       end if
+      if (problem%moving > 0 .and. any(methods == name .and. read_by_methods /= "f")) then
+         call raise(error, "integrate: method = '"//trim(name)//"' for a problem with delays that " &
+                    //"move (moving = "//text(problem%moving)//"); auto, explicit, bs5 or dop853 " &
+                    //"expected")
+         return
+      end if
       select case (name)
       case ("bs5")
          allocate (explicit)
@@ -125,7 +131,7 @@ contains
       associate (n => problem%n, lag => problem%lag)
          height = n
          if (problem%lower >= 0) height = min(n, 1 + problem%lower + problem%upper)
-         if (method == "taylor" .or. size(lag) == 0) return
+         if (method == "taylor" .or. size(lag) == 0 .or. problem%moving > 0) return
          if (real(n, wp)*(height + size(lag)) > small) return
          allocate (by_y(height, n), by_z(n, size(lag)), y(n), z(size(lag)))
          call problem%initial(y)
@@ -135,7 +141,7 @@ contains
          ! elements of the diagonal do not depend on units of the components
          do j = 1, n
             main = merge(j, 1 + problem%upper, height == n)
-            if (-by_y(main, j)*minval(lag) < least_decays) cycle
+            if (-by_y(main, j)*problem%shortest_lag() < least_decays) cycle
             method = implicit_method(tolerance%level)
             return
          end do
@@ -159,11 +165,11 @@ contains
       method = explicit_method(tolerance%level)
       if (implicit) then
          method = implicit_method(tolerance%level)
-      else if (problem%analytic) then
+      else if (problem%analytic .and. problem%moving == 0) then
          if (2*size(problem%lag) >= problem%n .and. tolerance%level >= least_of_many) then
             allocate (y(problem%n))
             call problem%initial(y)
-            if (problem%relaxation_rate(origin, y) < least_balance/minval(problem%lag)) return
+            if (problem%relaxation_rate(origin, y) < least_balance/problem%shortest_lag()) return
          end if
          method = "taylor"
       end if

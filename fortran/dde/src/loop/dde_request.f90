@@ -2,7 +2,7 @@
 !> The options of an integration, and the refusal of wrong arguments.
 module dde_request
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
-   use dde_breaking_points, only: kink_type
+   use dde_kink, only: kink_type
    use dde_continuation, only: continuation_type
    use dde_events, only: event_watcher_type
    use dde_problem, only: dde_problem_type
@@ -136,6 +136,11 @@ contains
                     //"no rows; rows of each delayed value expected")
       end if
       if (allocated(error)) return
+      if (problem%moving < 0 .or. problem%moving > size(problem%lag)) then
+         call raise(error, "integrate: moving = "//text(problem%moving)//" of " &
+                    //text(size(problem%lag))//" delays; 0.."//text(size(problem%lag))//" expected")
+         return
+      end if
       do k = 1, size(problem%lag)
          if (.not. positive(problem%lag(k))) then
             call raise(error, "integrate: lag("//text(k)//") = "//text(problem%lag(k)) &

@@ -2,13 +2,14 @@
 !> The state of a run between two steps: how the next step is planned, and what is kept when it
 !> ends.
 module dde_run
-   use dde_breaking_points, only: breaking_points, kink_type, stretch
+   use dde_breaking_points, only: breaking_points, stretch
    use dde_continuation, only: continuation_type
    use dde_controller, only: controller_type
    use dde_errors, only: error_type
    use dde_event_search, only: endless, event_search, most_places
    use dde_events, only: event_watcher_type
    use dde_exponents, only: exponent_watch
+   use dde_kink, only: kink_type
    use dde_methods, only: choose_method, matching_method
    use dde_problem, only: dde_problem_type
    use dde_request, only: integration_options
@@ -109,7 +110,7 @@ contains
          end associate
       end if
       associate (context => self%context, problem => self%context%problem)
-         call context%go_to(self%now, min(self%options%longest_step, minval(problem%lag), &
+         call context%go_to(self%now, min(self%options%longest_step, problem%shortest_lag(), &
                                           self%points%time_to_next(self%now)))
          call bound_times(self)
          if (.not. allocated(self%sides%above)) then
@@ -148,7 +149,7 @@ contains
          self%longest = min(self%longest, most_places*min(self%watcher%look_every, endless))
       end if
       if (.not. self%step%constants%implicit) then
-         self%longest = min(self%longest, minval(self%context%problem%lag))
+         self%longest = min(self%longest, self%context%problem%shortest_lag())
       end if
    end subroutine find_longest
 
@@ -166,7 +167,7 @@ contains
          call self%step%propose(self%context, self%h)
          self%h = min(self%h, longest)
          if (self%step%constants%implicit) then
-            associate (lag => minval(self%context%problem%lag))
+            associate (lag => self%context%problem%shortest_lag())
                if (self%h > lag .and. self%h/uncoupled < lag) self%h = lag
             end associate
          end if
@@ -205,10 +206,14 @@ contains
       class(run_type), intent(inout) :: self
 
       self%step%y = self%sides%y
-      call self%context%go_to(self%now, min(self%step%h, minval(self%context%problem%lag)))
+      if (self%context%problem%moving > 0) then
+         call self%points%spend(elapsed(self%context%cursor%start, self%now), self%step%h)
+      end if
+      call self%context%go_to(self%now, min(self%step%h, self%context%problem%shortest_lag()))
       call self%sides%change(self%context, self%step%y)
+      call add_piece(self, self%sides%kink)
       call self%prepare_start()
-      call self%points%add(kink_type(self%now))
+      call self%points%add(self%sides%kink)
    end subroutine change_sides
 
    !> Go to the end of an accepted step.
@@ -225,13 +230,28 @@ contains
       end if
       self%at_cause = self%points%is_cause(self%next%goal)
       self%fresh = .true.
+      call add_piece(self, self%points%kink(self%next%goal))
       call self%points%land(self%next%goal, self%h, self%step%h)
       associate (past => self%context%past)
          if (past%newest < past%oldest) return
          horizon = past%start_of(past%oldest)
-         if (elapsed(past%origin, horizon) > 0.0_wp) call self%points%forget(horizon)
+         if (.not. elapsed(past%origin, horizon) > 0.0_wp) return
+         call self%points%forget(horizon)
+         if (self%context%problem%moving > 0) call past%pieces%forget(horizon)
       end associate
    end subroutine arrive
+
+   !> Delays that move read other pieces of the past before and after a kink here, if it may return.
+   pure subroutine add_piece(self, kink)
+      type(run_type), intent(inout) :: self
+      type(kink_type), intent(in) :: kink
+
+      if (self%context%problem%moving == 0 .or. .not. self%points%is_tracked(kink)) return
+      associate (past => self%context%past)
+         call past%pieces%add(kink, past%newest + 1, self%points%is_worth(kink), &
+                              self%context%tolerance%level*self%step%h)
+      end associate
+   end subroutine add_piece
 
    !> Keep what a later run needs to continue from here.
    subroutine keep(self, continuation)

@@ -2,7 +2,7 @@
 !> How a run begins: anew, or where an earlier one ended, and the length of its first step.
 module dde_start
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use dde_breaking_points, only: kink_type
+   use dde_kink, only: kink_type
    use dde_continuation, only: continuation_type
    use dde_cursor, only: cursor_type
    use dde_errors, only: check_finite, error_type
@@ -15,10 +15,10 @@ module dde_start
    use dde_run, only: run_type
    use dde_step, only: step_type
    use dde_step_context, only: step_context
-   use dde_time, only: instant
+   use dde_time, only: elapsed, instant
    use dde_tolerance, only: hopeless, scaled_norm, tolerance_type
    use dde_work, only: work_type
-   use dde_kinds, only: wp
+   use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
    public :: begin_run
@@ -75,8 +75,12 @@ contains
          context%past%most_bytes = options%most_bytes
          context%past%is_copied = run%points%remembers
          call run%points%begin(causes(options, origin, kinks), origin, run%now, instant(t_end), &
-                               problem%lag, problem%n, run%step%constants%order - 1, &
-                               context%tolerance%level)
+                               problem%lag(:size(problem%lag) - problem%moving), problem%n, &
+                               run%step%constants%order - 1, context%tolerance%level)
+         if (problem%moving > 0) then
+            call find_pieces(context%past, &
+                             pack(run%points%met, run%points%is_tracked(run%points%met)))
+         end if
          call run%prepare_start()
          if (.not. allocated(run%first_slope)) run%first_slope = run%step%slope
          if (continued) then
@@ -90,11 +94,11 @@ contains
                                    min(t_end - t_start, options%longest_step), run%h)
          end if
          call run%find_longest()
-         if (options%method /= "auto") return
+         if (options%method /= "auto" .or. problem%moving > 0) return
          allocate (run%switch)
          run%switch%least_price = price_of_trial(problem, context%tolerance)
          run%switch%price = run%switch%least_price
-         run%switch%shortest = minval(problem%lag)
+         run%switch%shortest = problem%shortest_lag()
          run%switch%series = matching_method(problem, context%tolerance, origin%hi, &
                                              implicit=.false.) == "taylor"
       end associate
@@ -160,6 +164,23 @@ contains
       end associate
    end subroutine continue_run
 
+   !> The pieces of the past between kinks, which delays read that move.
+   pure subroutine find_pieces(past, kinks)
+      type(history_type), intent(inout) :: past
+      type(kink_type), intent(in) :: kinks(:)
+      integer(int64) :: step
+      integer :: i
+
+      step = past%oldest
+      do i = 1, size(kinks)
+         do while (step <= past%newest)
+            if (elapsed(past%start_of(step), kinks(i)%at) <= 0.0_wp) exit
+            step = step + 1
+         end do
+         call past%pieces%add(kinks(i), step, .true., 0.0_wp)
+      end do
+   end subroutine find_pieces
+
    !> First step length: about a hundredth of |y|/|y'|, refined by the second derivative (Hairer,
    !> Norsett and Wanner 1993, sec. II.4).
    pure subroutine choose_first_step(context, step, unit, longest, h)
@@ -181,7 +202,7 @@ contains
       if (slope > 1.0e-5_wp .and. length_of(step%y, step%scale) > 1.0e-5_wp) then
          h = 0.01_wp*length_of(step%y, step%scale)/slope*unit
       end if
-      h = min(h, longest, minval(context%problem%lag))
+      h = min(h, longest, context%problem%shortest_lag())
       call context%delayed_values([h], step%z)
       step%y_new = step%y + h*step%slope
       call context%evaluate(context%cursor%t + h, step%y_new, step%z, slope_ahead)

@@ -1,14 +1,16 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The sides of the switching functions of f, which is smooth while none of them passes zero. A step
 !> is made with the sides of its start, ends where the first function passes zero on its dense
-!> output, and f goes to the other side there. Where f pushes the solution back from both sides, it
+!> output, and f goes to the other side there. Functions are those of the problem, and for each
+!> delay that moves t - lag less the kinks at both ends of the piece of the past that it reads. Where f pushes the solution back from both sides, it
 !> would slide along the zero (Filippov 1988, "Differential Equations with Discontinuous Righthand
 !> Sides", sec. 4): it cannot go on by steps.
 module dde_sides
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use dde_cursor, only: cursor_type
    use dde_event_search, only: event_search
    use dde_events, only: event_watcher_type
+   use dde_kink, only: kink_type
    use dde_step, only: step_type
    use dde_step_context, only: step_context
    use dde_time, only: elapsed, instant
@@ -21,6 +23,10 @@ module dde_sides
    real(wp), parameter :: ahead = 1.0e-4_wp, ahead_of_start = 1.0e-10_wp
    !> A passage as near to an end of the step, in units of the spacing of times, is there.
    real(wp), parameter :: near = 16.0_wp
+   !> Rounding error of t - lag near a kink, in the same units.
+   real(wp), parameter :: rounding = 4.0_wp
+   !> Tolerances of the state by whose errors a delay may be below 0.
+   real(wp), parameter :: most_tolerances = 10.0_wp
    !> Even places of a step at which the functions are looked at, powers of two. A sine of many
    !> periods may look straight there, hardly ever at odd ones, too: fractions of roots of primes.
    integer, parameter :: least_places = 8, most_places = 128
@@ -33,17 +39,23 @@ module dde_sides
 
    !> The sides.
    type :: sides_type
-      !> Whether f is that where each function is > 0, shape (switches)
+      !> Whether f is that where each function is > 0, shape (functions)
       logical, allocatable :: above(:)
-      !> How often each has changed, shape (switches)
+      !> Number of functions that are the problem's own
+      integer, private :: own = 0
+      !> How often each of the problem has changed, shape (switches)
       integer(int64), allocatable :: changes(:)
       !> Functions that pass zero at the end of the step, and the state there
       logical, allocatable :: passed(:)
       real(wp), allocatable :: y(:)
+      !> The kink of the solution there
+      type(kink_type) :: kink
       !> Number of the function along whose zero the solution slides; 0 if it does not
       integer :: slides = 0
       !> Changes at one time
       integer, private :: idle = 0
+      !> Whether no function can pass zero in the step
+      logical, private :: quiet = .false.
       !> Places at which the functions are looked at in the step
       integer, private :: places = 2
    contains
@@ -55,7 +67,7 @@ module dde_sides
       type(step_context), pointer :: context => null()
       class(step_type), pointer :: step => null()
       logical, allocatable :: above(:), passed(:)
-      !> Size up to which each function may be beyond zero by rounding, shape (switches)
+      !> Size up to which each function may be beyond zero by rounding, shape (functions)
       real(wp), allocatable :: slack(:)
    contains
       procedure :: values, take
@@ -71,22 +83,36 @@ contains
       real(wp), intent(in) :: y(:)
       !> Number of switching functions
       integer, intent(in) :: switches
-      real(wp), dimension(switches) :: g, rate
-      integer :: k
+      real(wp), dimension(switches + 2*context%problem%moving) :: g, rate
+      real(wp) :: lag(context%problem%moving)
+      integer :: j, k
 
-      allocate (self%above(switches), self%passed(switches), source=.false.)
-      allocate (self%changes(switches), source=0_int64)
+      associate (functions => size(g), moving => size(lag), cursor => context%cursor)
+         allocate (self%above(functions), self%passed(functions), source=.false.)
+         allocate (self%changes(switches), source=0_int64)
+         self%own = switches
+         if (moving > 0) then
+            self%above(switches + 1::2) = .true.
+            call context%problem%moving_lags(cursor%inside(cursor%t), y, lag)
+            associate (pieces => context%past%pieces)
+               pieces%begin = [(pieces%find(cursor%start, -lag(j)), j=1, moving)]
+            end associate
+         end if
+      end associate
       if (switches == 0) return
       ! a function may depend on the sides of those before it
       do k = 0, switches
          call find_rates(context, y, ahead_of_start, g, rate)
-         self%above = g > 0.0_wp .or. .not. abs(g) > 0.0_wp .and. rate > 0.0_wp
-         call context%problem%take_sides(self%above)
+         associate (own => self%above(:switches))
+            own = g(:switches) > 0.0_wp &
+                  .or. .not. abs(g(:switches)) > 0.0_wp .and. rate(:switches) > 0.0_wp
+            call context%problem%take_sides(own)
+         end associate
       end do
    end subroutine begin
 
    !> Find how many places show where the functions pass zero: between these they are near lines.
-   !> Reject a step that takes too many.
+   !> Reject a step that takes too many, and one at whose end a delay is below 0.
    subroutine judge(self, context, step, error)
       class(sides_type), intent(inout) :: self
       type(step_context), intent(in), target :: context
@@ -98,6 +124,13 @@ contains
       type(passages_type) :: passages
       integer :: i, stride
 
+      if (below_zero(context, step)) then
+         error = ieee_value(1.0_wp, ieee_quiet_nan)
+         return
+      end if
+      self%quiet = .false.
+      if (self%own == 0) self%quiet = .not. context%cursor%is_near_kink(context%past)
+      if (self%quiet) return
       passages = new_passages(self, context, step)
       between = reshape([(functions_at(odd(i)), i=1, size(odd))], shape(between))
       stride = most_places/least_places
@@ -126,6 +159,31 @@ contains
          call passages%values(step%t + place*step%h, y, y, values)
       end function functions_at
    end subroutine judge
+
+   !> Whether a delay that moves is below 0 at the end of a step, by more than rounding and some
+   !> tolerances of the state change it.
+   pure logical function below_zero(context, step) result(value)
+      type(step_context), intent(in) :: context
+      class(step_type), intent(in) :: step
+      real(wp), dimension(context%problem%moving) :: allowed, lag, moved
+      real(wp) :: t_end, y(size(step%y))
+      integer :: i
+
+      value = .false.
+      if (size(lag) == 0) return
+      t_end = context%cursor%inside(step%t + step%h)
+      call context%problem%moving_lags(t_end, step%y_new, lag)
+      if (.not. any(lag < 0.0_wp)) return
+      allowed = rounding*spacing(t_end)
+      y = step%y_new
+      do i = 1, size(y)
+         y(i) = step%y_new(i) + most_tolerances*step%scale(i)
+         call context%problem%moving_lags(t_end, y, moved)
+         allowed = allowed + abs(moved - lag)
+         y(i) = step%y_new(i)
+      end do
+      value = any(lag < -allowed)
+   end function below_zero
 
    !> Whether functions are near lines between even places: at every other place, and at odd ones.
    pure logical function straight(g, between) result(value)
@@ -166,6 +224,10 @@ contains
       logical :: ended
 
       self%passed = .false.
+      if (self%quiet) then
+         self%idle = 0
+         return
+      end if
       passages = new_passages(self, context, step)
       passages%look_every = step%h/self%places
       allocate (passages%direction(size(self%above)), source=0)
@@ -192,7 +254,8 @@ contains
       self%idle = merge(0, self%idle + 1, share > 0.0_wp)
    end subroutine end_step
 
-   !> Go to the other side of the functions that passed zero where the step ended.
+   !> Go to the other side of the functions that passed zero where the step ended, and to the next
+   !> pieces of the past.
    subroutine change(self, context, y)
       class(sides_type), intent(inout) :: self
       !> The context, there
@@ -203,23 +266,58 @@ contains
       integer :: k
 
       call find_rates(context, y, ahead, g_before, before)
+      self%kink = kink_type(context%cursor%start)
+      if (.not. any(self%passed(:self%own))) self%kink%passages = huge(1)
+      call change_pieces(self, context)
       changed = self%passed
+      changed(self%own + 1:) = .false.
       do k = 1, size(self%above)
          self%above = self%above .neqv. changed
-         self%changes = self%changes + merge(1, 0, changed)
-         call context%problem%take_sides(self%above)
+         self%changes = self%changes + merge(1, 0, changed(:self%own))
+         call context%problem%take_sides(self%above(:self%own))
          call find_rates(context, y, ahead, g, after)
          ! a function that depends on a side may jump beyond zero
          changed = (self%above .neqv. g > 0.0_wp) .and. .not. self%passed &
                    .and. abs(g - g_before) > 0.0_wp
+         changed(self%own + 1:) = .false.
          if (.not. any(changed)) exit
       end do
-      associate (on => merge(1.0_wp, -1.0_wp, self%above))
+      ! an end of a piece is then the other end of the next
+      after(self%own + 1:) = [(after(k + 1), after(k), k=self%own + 1, size(after), 2)]
+      ! beyond it t - lag is on the other side of the function
+      associate (on => [merge(1.0_wp, -1.0_wp, self%above(:self%own)), &
+                        merge(-1.0_wp, 1.0_wp, self%above(self%own + 1:))])
          back = self%passed .and. on*before > 0.0_wp .and. on*after < -least_push*abs(before)
          if (self%idle > size(self%above)) back = self%passed
       end associate
       self%slides = findloc(back, .true., dim=1)
    end subroutine change
+
+   !> Go to the next piece of the past, or to the one before, where t - lag passed an end of one. The
+   !> kink there returns, one derivative smoother.
+   pure subroutine change_pieces(self, context)
+      type(sides_type), intent(inout) :: self
+      type(step_context), intent(inout) :: context
+      type(kink_type) :: kink
+      integer :: i, j
+
+      associate (pieces => context%past%pieces)
+         do i = self%own + 1, size(self%above)
+            if (.not. self%passed(i)) cycle
+            j = (i - self%own + 1)/2
+            if (self%above(i)) then
+               kink = pieces%kinks(pieces%begin(j))
+               pieces%begin(j) = pieces%begin(j) - 1
+            else
+               pieces%begin(j) = pieces%begin(j) + 1
+               kink = pieces%kinks(pieces%begin(j))
+            end if
+            kink%passages = kink%passages + 1
+            kink%generation = kink%generation + 1
+            call self%kink%take_in(kink)
+         end do
+      end associate
+   end subroutine change_pieces
 
    !> The functions over a step.
    function new_passages(self, context, step) result(passages)
@@ -237,6 +335,11 @@ contains
       ! where the last step ended at a zero
       call passages%values(step%t, step%y, step%slope, g)
       passages%slack = merge(2.0_wp*abs(g), 0.0_wp, self%above .neqv. g > 0.0_wp)
+      if (size(g) == self%own) return
+      ! t - lag is rounded
+      associate (of_delays => passages%slack(self%own + 1:))
+         of_delays = max(of_delays, rounding*spacing(2.0_wp*max(abs(step%t), abs(step%t + step%h))))
+      end associate
    end function new_passages
 
    !> The functions where the step of the context starts, and their rates.
@@ -247,13 +350,17 @@ contains
       real(wp), intent(in) :: share
       real(wp), intent(out) :: g(:), rate(:)
       real(wp) :: h, slope(size(y)), z(size(context%problem%lag), 2)
+      logical :: good
 
       associate (problem => context%problem, cursor => context%cursor)
          h = share*cursor%h
          call context%delayed_values([0.0_wp, h], z)
-         call problem%switching(cursor%inside(cursor%t), y, z(:, 1), g)
          call context%evaluate(cursor%inside(cursor%t), y, z(:, 1), slope)
-         call problem%switching(cursor%inside(cursor%t + h), y + h*slope, z(:, 2), rate)
+         call find_functions(context, cursor%inside(cursor%t), 0.0_wp, y, z(:, 1), g)
+         if (problem%moving > 0) then
+            call context%moving_values(cursor%inside(cursor%t + h), y + h*slope, z(:, 2), good)
+         end if
+         call find_functions(context, cursor%inside(cursor%t + h), h, y + h*slope, z(:, 2), rate)
          where (ieee_is_nan(g) .or. ieee_is_nan(rate))
             g = 0.0_wp
             rate = 0.0_wp
@@ -261,6 +368,38 @@ contains
          rate = (rate - g)/h
       end associate
    end subroutine find_rates
+
+   !> The functions, of the problem and of delays that move.
+   pure subroutine find_functions(context, t, place, y, z, g)
+      type(step_context), intent(in) :: context
+      !> Time, and time since the start of the step
+      real(wp), intent(in) :: t, place
+      !> State there, and delayed values
+      real(wp), intent(in) :: y(:), z(:)
+      real(wp), intent(out) :: g(:)
+      real(wp) :: lag(context%problem%moving)
+      integer :: i, j
+
+      associate (own => size(g) - 2*size(lag), pieces => context%past%pieces)
+         if (own > 0) call context%problem%switching(t, y, z, g(:own))
+         if (size(lag) == 0) return
+         call context%problem%moving_lags(t, y, lag)
+         ! a piece without an end there is never left
+         g(own + 1::2) = 1.0_wp
+         g(own + 2::2) = -1.0_wp
+         do j = 1, size(lag)
+            i = own + 2*j - 1
+            associate (begin => pieces%begin(j), time => place - lag(j))
+               if (begin > 0) then
+                  g(i) = elapsed(pieces%kinks(begin)%at, context%cursor%start) + time
+               end if
+               if (begin < size(pieces%kinks)) then
+                  g(i + 1) = elapsed(pieces%kinks(begin + 1)%at, context%cursor%start) + time
+               end if
+            end associate
+         end do
+      end associate
+   end subroutine find_functions
 
    !> The functions at a place of the step. One that is 0, or no farther beyond than where the step
    !> starts, has not passed yet.
@@ -273,8 +412,10 @@ contains
 
       cursor = self%context%cursor
       associate (context => self%context, place => min(self%step%h, t - cursor%t))
-         call self%step%delayed_at(context%problem, context%past, cursor, place, z)
-         call context%problem%switching(cursor%inside(t), y, z(:, 1), g)
+         if (context%problem%switches > 0) then
+            call self%step%delayed_at(context%problem, context%past, cursor, place, z)
+         end if
+         call find_functions(context, cursor%inside(t), place, y, z(:, 1), g)
       end associate
       where (ieee_is_nan(g)) g = 0.0_wp
       where ((self%above .neqv. g > 0.0_wp) .and. .not. abs(g) > self%slack)

@@ -42,7 +42,7 @@ module dde_step
       real(wp) :: valid_for = 0.0_wp
    contains
       procedure :: allocate_state, restart, renew, reset, propose, next_length
-      procedure :: refuse_series, slope_here, state_at, delayed_at, stiff
+      procedure :: refuse_series, slope_here, state_at, delayed_at, offer, stiff
       procedure(attempt_step), deferred :: attempt
       procedure(give_polynomial), deferred :: interpolant
       procedure(go_to_end), deferred :: advance
@@ -181,16 +181,58 @@ contains
       real(wp), intent(in) :: time
       !> Delayed values, shape (number of delayed values, 1)
       real(wp), intent(inout) :: z(:, :)
-      real(wp) :: y(problem%n)
-      integer :: k
+      real(wp) :: here(problem%n), lag(size(problem%lag)), y(problem%n)
+      integer :: j, k
 
       call cursor%values(problem, past, [time], z)
-      do k = 1, size(problem%lag)
-         if (problem%lag(k) >= time) cycle
-         call self%state_at((time - problem%lag(k))/self%h, y)
-         z(k, 1) = y(problem%component(k))
-      end do
+      associate (constant => size(lag) - problem%moving)
+         lag(:constant) = problem%lag(:constant)
+         if (problem%moving > 0) then
+            call self%state_at(time/self%h, here)
+            call problem%moving_lags(cursor%t + time, here, lag(constant + 1:))
+         end if
+         do k = 1, size(lag)
+            j = k - constant
+            if (j > 0) then
+               if (lag(k) >= time .or. .not. past%pieces%is_open(j)) then
+                  call cursor%read_piece(problem, past, j, time, lag(k), &
+                                         here(problem%component(k)), z(k, 1))
+                  cycle
+               end if
+            end if
+            if (lag(k) >= time) cycle
+            call self%state_at((time - max(0.0_wp, lag(k)))/self%h, y)
+            z(k, 1) = y(problem%component(k))
+         end do
+      end associate
    end subroutine delayed_at
+
+   !> Let delays that move read an attempted step: the past gets its polynomials.
+   pure subroutine offer(self, context, rough, change)
+      class(step_type), intent(in) :: self
+      type(step_context), intent(inout) :: context
+      !> Whether only the cubic polynomial of the step is known
+      logical, intent(in) :: rough
+      !> Largest change since they were offered last in this step, in units of the tolerance; huge
+      !> if they were not
+      real(wp), intent(out) :: change
+      real(wp) :: coefficients(0:highest_degree)
+      integer :: degree, i, place
+      logical :: known
+
+      degree = size(self%nodes)
+      known = context%past%running
+      call context%past%open_running(context%cursor%start, self%h, self%nodes, self%powers, place)
+      change = merge(0.0_wp, huge(1.0_wp), known)
+      associate (kept => context%past%kept, a => context%past%stored(place)%a)
+         do i = 1, size(kept)
+            call self%interpolant(kept(i), coefficients(:degree))
+            if (rough) coefficients(4:) = 0.0_wp
+            change = max(change, sum(abs(coefficients(:degree) - a(:degree, i)))/self%scale(kept(i)))
+            a(:degree, i) = coefficients(:degree)
+         end do
+      end associate
+   end subroutine offer
 
    !> Slope at the present state, from the left: `advance` sets the slope at the next start.
    pure function slope_here(self) result(slope)
