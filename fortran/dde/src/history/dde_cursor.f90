@@ -51,7 +51,7 @@ module dde_cursor
    contains
       procedure, non_overridable :: set, inside, values, values_of, time_before
       procedure, non_overridable :: walk_to, read_from
-      procedure, non_overridable :: begin_step, moving_values, read_piece, is_near_kink
+      procedure, non_overridable :: begin_step, find_lags, moving_values, read_piece, is_near_kink
    end type cursor_type
 
    interface cursor_type
@@ -187,6 +187,31 @@ contains
       self%read(2, :) = -huge(1.0_wp)
    end subroutine begin_step
 
+   !> The delays that move, at a place of the step.
+   pure subroutine find_lags(self, problem, t, y, lag, good)
+      class(cursor_type), intent(inout) :: self
+      class(dde_problem_type), intent(in) :: problem
+      !> The time, and the state there
+      real(wp), intent(in) :: t, y(problem%n)
+      real(wp), intent(out) :: lag(problem%moving)
+      !> Whether they are finite and not longer than their bounds. One below 0 may be so by errors
+      !> of a stage.
+      logical, intent(out) :: good
+      real(wp) :: time
+      integer :: j
+
+      call problem%moving_lags(t, y, lag)
+      good = .false.
+      do j = 1, size(lag)
+         if (.not. ieee_is_finite(lag(j))) return
+         if ((1.0_wp - rounding)*lag(j) > problem%lag(self%constant + j)) return
+         time = elapsed(self%start, instant(t)) - lag(j)
+         self%read(1, j) = min(self%read(1, j), time)
+         self%read(2, j) = max(self%read(2, j), time)
+      end do
+      good = .true.
+   end subroutine find_lags
+
    !> The values of the delays that move, at a place of the step.
    pure subroutine moving_values(self, problem, past, t, y, z, good)
       class(cursor_type), intent(inout) :: self
@@ -196,22 +221,17 @@ contains
       real(wp), intent(in) :: t, y(problem%n)
       !> Delayed values
       real(wp), intent(inout) :: z(size(problem%lag))
-      !> Whether the delays are finite and not longer than their bounds. One below 0 counts as 0: it
-      !> may be so by errors of a stage.
+      !> Whether the delays are finite and not longer than their bounds
       logical, intent(out) :: good
-      real(wp) :: lag(problem%moving), place, time
+      real(wp) :: lag(problem%moving)
       integer :: j, k
 
-      place = elapsed(self%start, instant(t))
-      call problem%moving_lags(t, y, lag)
+      call self%find_lags(problem, t, y, lag, good)
+      if (.not. good) return
       do j = 1, size(lag)
          k = self%constant + j
-         good = ieee_is_finite(lag(j)) .and. (1.0_wp - rounding)*lag(j) <= problem%lag(k)
-         if (.not. good) return
-         time = place - lag(j)
-         self%read(1, j) = min(self%read(1, j), time)
-         self%read(2, j) = max(self%read(2, j), time)
-         call self%read_piece(problem, past, j, place, lag(j), y(problem%component(k)), z(k))
+         call self%read_piece(problem, past, j, elapsed(self%start, instant(t)), lag(j), &
+                              y(problem%component(k)), z(k))
       end do
    end subroutine moving_values
 

@@ -80,10 +80,9 @@ contains
                     //"Taylor series (analytic = .false.); another method expected")
          return
       end if
-      if (problem%moving > 0 .and. any(methods == name .and. read_by_methods /= "f")) then
+      if (problem%moving > 0 .and. name == "taylor") then
          call raise(error, "integrate: method = '"//trim(name)//"' for a problem with delays that " &
-                    //"move (moving = "//text(problem%moving)//"); auto, explicit, bs5 or dop853 " &
-                    //"expected")
+                    //"move (moving = "//text(problem%moving)//"); another method expected")
          return
       end if
       select case (name)

@@ -94,7 +94,7 @@ contains
                                    min(t_end - t_start, options%longest_step), run%h)
          end if
          call run%find_longest()
-         if (options%method /= "auto" .or. problem%moving > 0) return
+         if (options%method /= "auto") return
          allocate (run%switch)
          run%switch%least_price = price_of_trial(problem, context%tolerance)
          run%switch%price = run%switch%least_price

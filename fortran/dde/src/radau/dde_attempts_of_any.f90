@@ -3,6 +3,7 @@
 module dde_attempts_of_any
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    use dde_collocation, only: lagrange_weights
+   use dde_jacobian, only: jacobian_type
    use dde_implicit_state, only: implicit_state, iterations_of_three, iterations_per_stage, &
                                  largest_remainder, least_hidden
    use dde_radau_tableau, only: most_stages

@@ -3,9 +3,10 @@
 !> an attempt finds its stages. Where the step is longer than a delay, its own collocation
 !> polynomial is the past.
 module dde_implicit_state
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde_collocation, only: difference_weights, lagrange_factors, lagrange_weights, shape_bump
    use dde_controller, only: method_constants
-   use dde_jacobian, only: jacobian_type
+   use dde_jacobian, only: difference, jacobian_type, size_of
    use dde_memory, only: find_lacking
    use dde_problem, only: dde_problem_type
    use dde_radau_tableau, only: inverse_of_a, most_stages, radau_iia, radau_tableau
@@ -88,7 +89,8 @@ module dde_implicit_state
       !> does not measure theta.
       real(wp) :: remainder = 1.0_wp
    contains
-      procedure :: set_up, reset, interpolant, stiff, advance, place_delays
+      procedure :: set_up, reset, interpolant, stiff, advance, place_delays, place_moving
+      procedure :: differentiate_moving
    end type implicit_state
 
 contains
@@ -175,14 +177,16 @@ contains
       self%remainder = 1.0_wp
    end subroutine reset
 
-   !> Delayed values of stages that lie in the past, and the places of those in the step itself.
+   !> Values of constant delays of stages that lie in the past, and the places of those in the step
+   !> itself.
    pure subroutine place_delays(self, context)
       class(implicit_state), intent(inout) :: self
       type(step_context), intent(inout) :: context
       real(wp) :: places(most_stages)
       integer :: i, k, past
 
-      associate (s => self%method%stages, lag => context%problem%lag, h => context%cursor%h)
+      associate (s => self%method%stages, h => context%cursor%h, &
+                 lag => context%problem%lag(:size(context%problem%lag) - context%problem%moving))
          places = self%method%c*h
          if (self%coupled) self%own_place(:, :) = 0.0_wp
          ! the last stage is at the end
@@ -204,10 +208,101 @@ contains
             end do
             if (past == 0) cycle
             call context%cursor%values_of(context%problem, context%past, k, k, past, places, k, &
-                                          size(lag), self%delayed)
+                                          size(self%delayed, 1), self%delayed)
          end do
       end associate
    end subroutine place_delays
+
+   !> The values of a stage whose delays move, where they lie in the past, and the places of those in
+   !> the step itself. Without a delay that is the stage.
+   pure subroutine place_moving(self, context, i, t, y)
+      class(implicit_state), intent(inout) :: self
+      type(step_context), intent(inout) :: context
+      !> Number of the stage, its time and state
+      integer, intent(in) :: i
+      real(wp), intent(in) :: t, y(:)
+      real(wp) :: lag(context%problem%moving)
+      logical :: good
+      integer :: j, k
+
+      call context%cursor%find_lags(context%problem, t, y, lag, good)
+      if (.not. good) lag = ieee_value(1.0_wp, ieee_quiet_nan)
+      associate (problem => context%problem, past => context%past, cursor => context%cursor)
+         do j = 1, size(lag)
+            k = size(self%delayed, 1) - size(lag) + j
+            self%own_place(k, i) = 0.0_wp
+            if (past%pieces%is_open(j)) then
+               self%own_place(k, i) = self%method%c(i) - max(0.0_wp, lag(j))/cursor%h
+            end if
+            if (self%own_place(k, i) > 0.0_wp) then
+               call lagrange_weights(self%method%stages, self%nodes, self%factors, &
+                                     self%own_place(k, i), self%own_weights(:, k, i))
+            else if (good) then
+               call cursor%read_piece(problem, past, j, self%method%c(i)*cursor%h, lag(j), &
+                                      y(problem%component(k)), self%delayed(k, i))
+            else
+               self%delayed(k, i) = lag(j)
+            end if
+         end do
+      end associate
+   end subroutine place_moving
+
+   !> Derivatives by the state of a stage's values whose delays move, by differences: the slope of
+   !> the solution there times that of the delay.
+   pure subroutine differentiate_moving(self, context, i, t, y, increments, by_y)
+      class(implicit_state), intent(in) :: self
+      type(step_context), intent(inout) :: context
+      !> Number of the stage, its time and state
+      integer, intent(in) :: i
+      real(wp), intent(in) :: t, y(:)
+      !> Increments of all stages, shape (n, stages)
+      real(wp), contiguous, intent(in) :: increments(:, :)
+      !> The derivatives, shape (moving, n)
+      real(wp), contiguous, intent(out) :: by_y(:, :)
+      real(wp) :: lag(size(by_y, 1)), moved(size(y)), moved_lag(size(by_y, 1)), z, z_moved
+      integer :: j, k
+
+      call context%problem%moving_lags(t, y, lag)
+      moved = y
+      by_y = 0.0_wp
+      do k = 1, size(y)
+         moved(k) = y(k) + difference*size_of(context%tolerance, k, y(k))
+         call context%problem%moving_lags(t, moved, moved_lag)
+         do j = 1, size(lag)
+            if (.not. abs(moved_lag(j) - lag(j)) > 0.0_wp) cycle
+            call read_moving(self, context, i, j, lag(j), y, increments, z)
+            call read_moving(self, context, i, j, moved_lag(j), y, increments, z_moved)
+            by_y(j, k) = (z_moved - z)/(moved(k) - y(k))
+         end do
+         moved(k) = y(k)
+      end do
+   end subroutine differentiate_moving
+
+   !> The value of moving delay number j at a stage, for any delay, in the past or in the step.
+   pure subroutine read_moving(self, context, i, j, lag, y, increments, z)
+      class(implicit_state), intent(in) :: self
+      type(step_context), intent(inout) :: context
+      integer, intent(in) :: i, j
+      real(wp), intent(in) :: lag
+      !> State of the stage, and increments of all
+      real(wp), intent(in) :: y(:)
+      real(wp), contiguous, intent(in) :: increments(:, :)
+      real(wp), intent(out) :: z
+      real(wp) :: place, weights(most_stages)
+
+      associate (h => context%cursor%h, s => self%method%stages, problem => context%problem)
+         place = self%method%c(i) - max(0.0_wp, lag)/h
+         associate (component => problem%component(size(problem%lag) - problem%moving + j))
+            if (context%past%pieces%is_open(j) .and. place > 0.0_wp) then
+               call lagrange_weights(s, self%nodes, self%factors, place, weights(:s))
+               z = self%y(component) + sum(weights(:s)*increments(component, :))
+            else
+               call context%cursor%read_piece(problem, context%past, j, self%method%c(i)*h, lag, &
+                                              y(component), z)
+            end if
+         end associate
+      end associate
+   end subroutine read_moving
 
    !> Collocation polynomial of component `i` plus a multiple of the bump, which gives it the slope
    !> at the start and one order more.

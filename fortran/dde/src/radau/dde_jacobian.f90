@@ -12,7 +12,7 @@ module dde_jacobian
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: find_jacobian, jacobian_type
+   public :: difference, find_jacobian, jacobian_type, size_of
 
    !> Difference over the size of the component.
    real(wp), parameter :: difference = sqrt(epsilon(1.0_wp))
@@ -51,7 +51,7 @@ module dde_jacobian
       !> derivative, at the first of them
       integer, allocatable, private :: group(:), shared(:)
    contains
-      procedure :: evaluate, find_rows
+      procedure :: evaluate, find_rows, add_moving
       procedure, private :: difference_by_y, difference_by_z, group_delays, prepare, sum_rows
    end type jacobian_type
 
@@ -150,6 +150,27 @@ contains
          end do
       end do
    end subroutine difference_by_z
+
+   !> Add to the derivatives by y those through delays that depend on it.
+   pure subroutine add_moving(self, by_y)
+      class(jacobian_type), intent(inout) :: self
+      !> Derivatives by y of the last delayed values, shape (moving, n)
+      real(wp), intent(in) :: by_y(:, :)
+      integer :: first, i, j, k, last, moving, shift
+
+      do j = 1, size(by_y, 2)
+         call self%find_rows(j, first, last, shift)
+         do moving = 1, size(by_y, 1)
+            if (.not. abs(by_y(moving, j)) > 0.0_wp) cycle
+            k = size(self%rows, 2) - size(by_y, 1) + moving
+            do i = max(first, self%rows(1, k)), min(last, self%rows(2, k))
+               self%by_y(shift + i, j) = self%by_y(shift + i, j) &
+                                         + self%by_z(1 + i - self%rows(1, k), k)*by_y(moving, j)
+            end do
+         end do
+      end do
+      call self%sum_rows()
+   end subroutine add_moving
 
    !> Rows of a column that may differ from 0: row i is at (shift + i, j).
    pure subroutine find_rows(self, j, first, last, shift)

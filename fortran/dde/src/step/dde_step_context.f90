@@ -91,10 +91,12 @@ contains
       call self%evaluate_stage(self%problem%moving > 0, t, y, z, slope)
    end subroutine evaluate
 
-   !> Right-hand side, counted, where it is known whether delays move.
+   !> Right-hand side, counted, where it is known whether delays move. Values that were found
+   !> otherwise are not set.
    pure subroutine evaluate_stage(self, moves, t, y, z, slope)
       class(step_context), intent(inout) :: self
-      !> Whether delays move: 4 % of the instructions of a run if it is found out in each stage
+      !> Whether to set those that move: 4 % of the instructions of a run if it is found out in each
+      !> stage
       logical, intent(in) :: moves
       real(wp), intent(in) :: t, y(self%problem%n)
       real(wp), intent(inout) :: z(size(self%problem%lag)), slope(self%problem%n)
