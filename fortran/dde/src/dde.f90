@@ -9,7 +9,8 @@ module dde
    use dde_kinds, only: wp
    use dde_methods, only: methods, read_by_methods
    use dde_outcome, only: event_met, integration_result, interrupted, out_of_memory, reached_end, &
-                          refused, step_underflow, stop_requested, too_many_steps, value_not_finite
+                          refused, slides, step_underflow, stop_requested, too_many_steps, &
+                          value_not_finite
    use dde_problem, only: dde_problem_type, not_given, problem_with_tangents
    use dde_request, only: integration_options
    use dde_sampler, only: sampler_type, table_sampler
@@ -23,6 +24,6 @@ module dde
    public :: event_table, event_watcher_type
    public :: sampler_type, table_sampler
    public :: integrate, integration_options, integration_result, methods, read_by_methods
-   public :: event_met, interrupted, out_of_memory, reached_end, refused, step_underflow
-   public :: stop_requested, too_many_steps, value_not_finite
+   public :: event_met, interrupted, out_of_memory, reached_end, refused, slides
+   public :: step_underflow, stop_requested, too_many_steps, value_not_finite
 end module dde

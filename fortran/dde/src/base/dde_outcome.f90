@@ -44,8 +44,8 @@ module dde_outcome
       integer(int64), allocatable :: switched(:)
       !> Breaking points landed on
       integer :: breaking_points = 0
-      !> Kinks that delays may meet which move, beyond those that steps end at: the error estimate
-      !> alone covers them
+      !> Kinks too many, or too near to others, for steps that end where delays meet them that move:
+      !> the error estimate alone covers them
       integer(int64) :: untracked = 0
    end type integration_result
 end module dde_outcome

@@ -291,6 +291,10 @@ contains
             self%step(k) = self%step(k) + 1
             offset = elapsed(past%start_of(self%step(k)), self%start) + time
          end do
+         ! beyond the piece no farther than its last step is long
+         associate (length => past%length_of(self%step(k)))
+            offset = max(-length, min(2.0_wp*length, offset))
+         end associate
          z = past%value(self%step(k), k, offset)
       end associate
    end subroutine read_piece

@@ -10,10 +10,6 @@ module dde_pieces
    private
    public :: pieces_type
 
-   !> Most kinks between pieces. Later ones are passed over, unless the solution or its slope jumps
-   !> there.
-   integer, parameter :: most_kinks = 1000
-
    !> The pieces.
    type :: pieces_type
       !> Kinks between them, ascending
@@ -23,7 +19,7 @@ module dde_pieces
       !> Number of the kink with which the piece begins that each moving delay reads; 0 before the
       !> first, shape (moving)
       integer, allocatable :: begin(:)
-      !> Kinks passed over, since there were too many
+      !> Kinks passed over, since they are too many or too near to others
       integer(int64) :: left_out = 0
    contains
       procedure :: add, forget, find, is_open
@@ -58,12 +54,13 @@ contains
       associate (last => size(self%kinks))
          if (last > 0) then
             if (elapsed(self%kinks(last)%at, kink%at) <= same) then
+               if (kink%passages > self%kinks(last)%passages) self%left_out = self%left_out + 1
                call self%kinks(last)%take_in(kink)
                return
             end if
          end if
       end associate
-      if (.not. worth .or. size(self%kinks) >= most_kinks .and. kink%passages > 0) then
+      if (.not. worth) then
          self%left_out = self%left_out + 1
          return
       end if

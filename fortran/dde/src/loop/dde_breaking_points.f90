@@ -16,12 +16,14 @@ module dde_breaking_points
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: breaking_points, stretch
+   public :: breaking_points, short, stretch
 
    !> A step below this share of the proposed step size is short.
    real(wp), parameter :: short = 0.5_wp
    !> A step may be this many times longer than proposed to end at a point.
    real(wp), parameter :: stretch = 1.01_wp
+   !> Steps that pay for one that ends where a delay that moves meets a kink.
+   integer, parameter :: price_of_kink = 3
    !> No points of later generations are added beyond this number: they lie too close to land on.
    integer, parameter :: most_ahead = 1000
    !> The error estimate of steps over kinks of one equation, which it hardly sees, times this: 2000
@@ -243,22 +245,19 @@ contains
       value = kink%passages < self%most_passages
    end function is_tracked
 
-   !> Whether steps should end where a delay that moves meets a kink.
+   !> Whether steps should end where delays that move meet a kink.
    pure logical function is_worth(self, kink) result(value)
       class(breaking_points), intent(in) :: self
       type(kink_type), intent(in) :: kink
 
-      value = self%is_tracked(kink) .and. (kink%passages <= 0 .or. self%credit > 0)
+      value = kink%passages <= 0 .or. self%credit > 0
    end function is_worth
 
-   !> A delay that moves met a kink in an accepted step, which ends there.
-   pure subroutine spend(self, h, planned)
+   !> A delay that moves met a kink. The step was made twice, and counts as one that lands nowhere.
+   pure subroutine spend(self)
       class(breaking_points), intent(inout) :: self
-      !> Length of the step, and that which was planned
-      real(wp), intent(in) :: h, planned
 
-      ! it was counted as one that lands on no point
-      if (h < short*planned) self%credit = max(0, self%credit - 2)
+      self%credit = max(0, self%credit - price_of_kink)
    end subroutine spend
 
    !> Whether a point is the end of the run.

@@ -100,7 +100,7 @@ contains
          call run%plan()
          outcome%reason = limit_met(run, outcome)
          if (outcome%reason /= reached_end) exit
-         call attempt_step(run)
+         call attempt_step(run, outcome)
          if (accepted(run%estimate)) then
             call accept_step(run, outcome, other)
             if (outcome%reason /= reached_end) exit
@@ -133,13 +133,30 @@ contains
       end if
    end function limit_met
 
-   !> Attempt the planned step, and estimate its error by all that watches it.
-   subroutine attempt_step(run)
+   !> Attempt the planned step, again up to a kink that a moving delay meets in it.
+   subroutine attempt_step(run, outcome)
       type(run_type), intent(inout) :: run
+      type(integration_result), intent(inout) :: outcome
+      logical :: again
 
       if (run%fresh) call run%step%renew(run%context)
       run%fresh = .false.
       run%context%between = is_read(run)
+      again = .false.
+      do
+         call judge_step(run)
+         if (size(run%sides%above) == 0 .or. .not. accepted(run%estimate)) return
+         call run%sides%find_end(run%context, run%step, run%now, run%next%finish, again)
+         if (.not. again) return
+         outcome%rejected = outcome%rejected + 1
+         call run%shorten(run%sides%share, run%sides%finish)
+      end do
+   end subroutine attempt_step
+
+   !> Make the planned step, and estimate its error by all that watches it.
+   subroutine judge_step(run)
+      type(run_type), intent(inout) :: run
+
       call run%step%attempt(run%context, run%estimate)
       call run%points%judge(run%next%finish, run%estimate)
       associate (problem => run%context%problem)
@@ -150,7 +167,7 @@ contains
             call run%sides%judge(run%context, run%step, run%estimate)
          end if
       end associate
-   end subroutine attempt_step
+   end subroutine judge_step
 
    !> Whether the error of a step is finite and within the tolerance.
    pure logical function accepted(estimate) result(value)
@@ -190,17 +207,12 @@ contains
       call run%exponents%advance(.not. (run%next%landing .or. passed))
       call run%step%advance()
       call run%arrive()
-      if (passed) then
-         call run%change_sides()
-         if (any(run%sides%passed(run%context%problem%switches + 1:))) then
-            outcome%breaking_points = outcome%breaking_points + 1
-         end if
-      end if
+      if (passed) call run%change_sides()
       if (run%sides%slides > 0) then
          outcome%reason = slides
          return
       end if
-      if (run%next%landing) then
+      if (run%next%landing .or. run%sides%meets_kink()) then
          ! a step shortened to end at a point does not reduce the step size proposed before
          h = max(run%h, h)
          if (run%points%time_to_end(run%now) > 0.0_wp) then

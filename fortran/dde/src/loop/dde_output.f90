@@ -64,7 +64,8 @@ contains
       share = 1.0_wp
       associate (step_end => run%next%finish, landing => run%next%landing)
          if (size(run%sides%above) > 0) then
-            call run%sides%end_step(run%context, run%step, run%now, step_end, share)
+            share = run%sides%share
+            step_end = run%sides%finish
          end if
          if (associated(run%watcher) .and. share > 0.0_wp) then
             call run%search%search_step(run%watcher, run%step, run%now, step_end, share, ended)

@@ -2,7 +2,7 @@
 !> The state of a run between two steps: how the next step is planned, and what is kept when it
 !> ends.
 module dde_run
-   use dde_breaking_points, only: breaking_points, stretch
+   use dde_breaking_points, only: breaking_points, short, stretch
    use dde_continuation, only: continuation_type
    use dde_controller, only: controller_type
    use dde_errors, only: error_type
@@ -27,6 +27,9 @@ module dde_run
    !> Distance from a jump at which the right-hand side is evaluated, in units of the spacing of
    !> times.
    real(wp), parameter :: beside = 4.0_wp
+
+   !> Kinks as near to each other are one for delays that move, in the same units.
+   real(wp), parameter :: near = 16.0_wp
 
    !> An implicit step of a proposed length below this many times the shortest delay is no longer
    !> than the delay: otherwise its delayed values couple its stages. In one of three stiff chains
@@ -91,7 +94,8 @@ module dde_run
       !> Time derivative of the state at the start of the run, as event functions see it, shape (n)
       real(wp), allocatable :: first_slope(:)
    contains
-      procedure :: prepare_start, find_longest, plan, arrive, change_to_other, change_sides, keep
+      procedure :: prepare_start, find_longest, plan, shorten, arrive, change_to_other
+      procedure :: change_sides, keep
    end type run_type
 
 contains
@@ -181,6 +185,20 @@ contains
       end associate
    end subroutine plan
 
+   !> Plan a shorter step.
+   pure subroutine shorten(self, share, finish)
+      class(run_type), intent(inout) :: self
+      !> Share of the planned one, and its end
+      real(wp), intent(in) :: share
+      type(instant), intent(in) :: finish
+
+      self%next%h = share*self%next%h
+      self%next%finish = finish
+      self%next%landing = .false.
+      call self%context%go_to(self%now, self%next%h)
+      call bound_times(self)
+   end subroutine shorten
+
    !> Continue by the other method of `auto`; if memory is lacking, the step is the same as before.
    subroutine change_to_other(self, error)
       class(run_type), intent(inout) :: self
@@ -206,9 +224,7 @@ contains
       class(run_type), intent(inout) :: self
 
       self%step%y = self%sides%y
-      if (self%context%problem%moving > 0) then
-         call self%points%spend(elapsed(self%context%cursor%start, self%now), self%step%h)
-      end if
+      if (self%sides%meets_kink()) call self%points%spend()
       call self%context%go_to(self%now, min(self%step%h, self%context%problem%shortest_lag()))
       call self%sides%change(self%context, self%step%y)
       call add_piece(self, self%sides%kink)
@@ -248,8 +264,10 @@ contains
 
       if (self%context%problem%moving == 0 .or. .not. self%points%is_tracked(kink)) return
       associate (past => self%context%past)
+         ! smooth ones are worth a step of their own only if it is not short
          call past%pieces%add(kink, past%newest + 1, self%points%is_worth(kink), &
-                              self%context%tolerance%level*self%step%h)
+                              max(near*spacing(self%now%hi), &
+                                  merge(short*self%h, 0.0_wp, kink%passages > 0)))
       end associate
    end subroutine add_piece
 

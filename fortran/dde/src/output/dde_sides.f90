@@ -34,6 +34,8 @@ module dde_sides
                                    - [1.0_wp, 1.0_wp, 2.0_wp, 2.0_wp, 3.0_wp, 3.0_wp]
    !> Largest distance of functions from a line, over their largest value.
    real(wp), parameter :: most_bend = 0.1_wp
+   !> Part of a step that is made again up to which it may miss a kink.
+   real(wp), parameter :: least_part = 1.0e-9_wp
    !> Least rate at which a solution is pushed back, over that at which it came.
    real(wp), parameter :: least_push = 1.0e-6_wp
 
@@ -45,13 +47,18 @@ module dde_sides
       integer, private :: own = 0
       !> How often each of the problem has changed, shape (switches)
       integer(int64), allocatable :: changes(:)
-      !> Functions that pass zero at the end of the step, and the state there
+      !> The end of the step, and its share up to there
+      type(instant) :: finish
+      real(wp) :: share = 1.0_wp
+      !> Functions that pass zero there, and the state
       logical, allocatable :: passed(:)
       real(wp), allocatable :: y(:)
       !> The kink of the solution there
       type(kink_type) :: kink
       !> Number of the function along whose zero the solution slides; 0 if it does not
       integer :: slides = 0
+      !> Functions that should pass zero at the end of a step that is made again
+      logical, allocatable, private :: due(:)
       !> Changes at one time
       integer, private :: idle = 0
       !> Whether no function can pass zero in the step
@@ -59,7 +66,7 @@ module dde_sides
       !> Places at which the functions are looked at in the step
       integer, private :: places = 2
    contains
-      procedure :: begin, judge, end_step, change
+      procedure :: begin, judge, find_end, change, meets_kink
    end type sides_type
 
    !> The functions over a step, and those that pass zero.
@@ -120,7 +127,7 @@ contains
       !> Error of the step in units of the tolerance
       real(wp), intent(inout) :: error
       real(wp) :: between(size(self%above), size(odd)), g(size(self%above), 0:most_places)
-      real(wp) :: y(size(step%y))
+      real(wp) :: noise(size(self%above)), y(size(step%y))
       type(passages_type) :: passages
       integer :: i, stride
 
@@ -132,11 +139,12 @@ contains
       if (self%own == 0) self%quiet = .not. context%cursor%is_near_kink(context%past)
       if (self%quiet) return
       passages = new_passages(self, context, step)
+      noise = merge(0.0_wp, passages%slack, [(i, i=1, size(noise))] <= self%own)
       between = reshape([(functions_at(odd(i)), i=1, size(odd))], shape(between))
       stride = most_places/least_places
       g(:, ::stride) = reshape([(functions_at(real(i, wp)/least_places), i=0, least_places)], &
                                [size(g, 1), least_places + 1])
-      do while (.not. straight(g(:, ::stride), between))
+      do while (.not. straight(g(:, ::stride), between, noise))
          if (stride == 1) then
             error = huge(1.0_wp)
             return
@@ -186,14 +194,16 @@ contains
    end function below_zero
 
    !> Whether functions are near lines between even places: at every other place, and at odd ones.
-   pure logical function straight(g, between) result(value)
+   pure logical function straight(g, between, noise) result(value)
       !> Functions at even places, shape (switches, 0:last), and at the odd ones
       real(wp), intent(in) :: g(:, 0:), between(:, :)
+      !> What rounding may make of each, shape (switches)
+      real(wp), intent(in) :: noise(:)
       real(wp) :: bend(size(g, 1)), largest(size(g, 1))
       integer :: i, last
 
       last = ubound(g, 2)
-      largest = most_bend*maxval(abs(g), dim=2)
+      largest = max(noise, most_bend*maxval(abs(g), dim=2))
       value = .true.
       do i = 1, last - 1, 2
          bend = g(:, i) - 0.5_wp*(g(:, i - 1) + g(:, i + 1))
@@ -207,52 +217,65 @@ contains
       end do
    end function straight
 
-   !> Let an accepted step end where the first function passes zero.
-   subroutine end_step(self, context, step, start, step_end, share)
+   !> Where an accepted step ends: where the first function passes zero, if one does. If that is the
+   !> end of a piece, the step is made again up to there: it read the piece beyond its end.
+   subroutine find_end(self, context, step, start, whole, again)
       class(sides_type), intent(inout) :: self
       type(step_context), intent(in), target :: context
       class(step_type), intent(in), target :: step
-      type(instant), intent(in) :: start
-      !> End of the step
-      type(instant), intent(inout) :: step_end
-      !> Share of the step up to there
-      real(wp), intent(inout) :: share
+      !> Start and end of the step
+      type(instant), intent(in) :: start, whole
+      !> Whether it was made again, then whether it must be, up to `finish`
+      logical, intent(inout) :: again
       type(passages_type) :: passages
       type(event_search) :: search
-      type(instant) :: whole
       real(wp) :: beside
-      logical :: ended
+      real(wp), dimension(size(self%above)) :: g, g_end
+      logical :: ended, repeated
 
+      repeated = again
+      again = .false.
       self%passed = .false.
-      if (self%quiet) then
-         self%idle = 0
-         return
+      self%share = 1.0_wp
+      self%finish = whole
+      if (.not. self%quiet) then
+         passages = new_passages(self, context, step)
+         passages%look_every = step%h/self%places
+         allocate (passages%direction(size(self%above)), source=0)
+         allocate (passages%terminal(size(self%above)), source=.true.)
+         call search%begin(passages, start, step%y, step%slope, merge(1, -1, self%above))
+         call search%search_step(passages, step, start, self%finish, self%share, ended)
+         if (ended) then
+            self%passed = passages%passed
+            self%y = search%event%y
+         end if
       end if
-      passages = new_passages(self, context, step)
-      passages%look_every = step%h/self%places
-      allocate (passages%direction(size(self%above)), source=0)
-      allocate (passages%terminal(size(self%above)), source=.true.)
-      call search%begin(passages, start, step%y, step%slope, merge(1, -1, self%above))
-      whole = step_end
-      call search%search_step(passages, step, start, step_end, share, ended)
-      if (.not. ended) then
-         self%idle = 0
-         return
-      end if
-      self%passed = passages%passed
-      self%y = search%event%y
-      beside = near*spacing(step_end%hi)
-      if (elapsed(step_end, whole) <= beside) then
-         share = 1.0_wp
-         step_end = whole
-         self%y = step%y_new
-      else if (elapsed(start, step_end) <= beside) then
-         share = 0.0_wp
-         step_end = start
+      beside = near*spacing(self%finish%hi)
+      if (repeated .and. 1.0_wp - self%share <= least_part) then
+         ! the kink is as near to the end as it can be found
+         if (.not. self%quiet) then
+            call passages%values(step%t, step%y, step%slope, g)
+            call passages%values(step%t + step%h, step%y_new, step%slope, g_end)
+            self%passed = self%passed .or. self%due .and. abs(g_end) <= least_part*abs(g)
+         end if
+         self%share = 1.0_wp
+      else if (elapsed(self%finish, whole) <= beside) then
+         self%share = 1.0_wp
+      else if (elapsed(start, self%finish) <= beside) then
+         self%share = 0.0_wp
+         self%finish = start
          self%y = step%y
+      else if (any(self%passed(self%own + 1:))) then
+         again = .true.
+         self%due = self%passed
+         self%due(:self%own) = .false.
       end if
-      self%idle = merge(0, self%idle + 1, share > 0.0_wp)
-   end subroutine end_step
+      if (.not. self%share < 1.0_wp) then
+         self%finish = whole
+         if (any(self%passed)) self%y = step%y_new
+      end if
+      self%idle = merge(0, self%idle + 1, self%share > 0.0_wp)
+   end subroutine find_end
 
    !> Go to the other side of the functions that passed zero where the step ended, and to the next
    !> pieces of the past.
@@ -292,6 +315,13 @@ contains
       end associate
       self%slides = findloc(back, .true., dim=1)
    end subroutine change
+
+   !> Whether a delay that moves meets a kink at the end of the step.
+   pure logical function meets_kink(self) result(value)
+      class(sides_type), intent(in) :: self
+
+      value = any(self%passed(self%own + 1:))
+   end function meets_kink
 
    !> Go to the next piece of the past, or to the one before, where t - lag passed an end of one. The
    !> kink there returns, one derivative smoother.

@@ -239,7 +239,7 @@ contains
                                      self%own_place(k, i), self%own_weights(:, k, i))
             else if (good) then
                call cursor%read_piece(problem, past, j, self%method%c(i)*cursor%h, lag(j), &
-                                      y(problem%component(k)), self%delayed(k, i))
+                                      self%y(problem%component(k)), self%delayed(k, i))
             else
                self%delayed(k, i) = lag(j)
             end if
@@ -298,7 +298,7 @@ contains
                z = self%y(component) + sum(weights(:s)*increments(component, :))
             else
                call context%cursor%read_piece(problem, context%past, j, self%method%c(i)*h, lag, &
-                                              y(component), z)
+                                              self%y(component), z)
             end if
          end associate
       end associate
