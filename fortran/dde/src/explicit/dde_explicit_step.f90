@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> One step of an explicit Runge-Kutta pair. It is at most as long as the shortest constant delay, so
-!> that these delayed values lie in the past. Where a delay that moves reaches into the step, it is
-!> repeated with the dense output of the last pass until that no longer changes.
+!> One step of an explicit Runge-Kutta pair. It is at most as long as the shortest constant delay,
+!> so that these delayed values lie in the past. Where a delay that moves reaches into the step,
+!> it is repeated with the dense output of the last pass until that no longer changes.
 module dde_explicit_step
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde_controller, only: method_constants

@@ -16,7 +16,7 @@ module dde_breaking_points
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: breaking_points, short, stretch
+   public :: breaking_points, stretch
 
    !> A step below this share of the proposed step size is short.
    real(wp), parameter :: short = 0.5_wp

@@ -81,8 +81,8 @@ contains
          return
       end if
       if (problem%moving > 0 .and. name == "taylor") then
-         call raise(error, "integrate: method = '"//trim(name)//"' for a problem with delays that " &
-                    //"move (moving = "//text(problem%moving)//"); another method expected")
+         call raise(error, "integrate: method = '"//trim(name)//"' for a problem with delays " &
+                    //"that move (moving = "//text(problem%moving)//"); another method expected")
          return
       end if
       select case (name)

@@ -2,7 +2,7 @@
 !> The state of a run between two steps: how the next step is planned, and what is kept when it
 !> ends.
 module dde_run
-   use dde_breaking_points, only: breaking_points, short, stretch
+   use dde_breaking_points, only: breaking_points, stretch
    use dde_continuation, only: continuation_type
    use dde_controller, only: controller_type
    use dde_errors, only: error_type
@@ -28,8 +28,9 @@ module dde_run
    !> times.
    real(wp), parameter :: beside = 4.0_wp
 
-   !> Kinks as near to each other are one for delays that move, in the same units.
-   real(wp), parameter :: near = 16.0_wp
+   !> Kinks as near to each other are one for delays that move, in the same units, or smooth ones in
+   !> units of the proposed step.
+   real(wp), parameter :: near = 16.0_wp, beside_kink = 0.5_wp
 
    !> An implicit step of a proposed length below this many times the shortest delay is no longer
    !> than the delay: otherwise its delayed values couple its stages. In one of three stiff chains
@@ -267,7 +268,7 @@ contains
          ! smooth ones are worth a step of their own only if it is not short
          call past%pieces%add(kink, past%newest + 1, self%points%is_worth(kink), &
                               max(near*spacing(self%now%hi), &
-                                  merge(short*self%h, 0.0_wp, kink%passages > 0)))
+                                  merge(beside_kink*self%h, 0.0_wp, kink%passages > 0)))
       end associate
    end subroutine add_piece
 

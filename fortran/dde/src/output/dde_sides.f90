@@ -1,16 +1,14 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The sides of the switching functions of f, which is smooth while none of them passes zero. A step
 !> is made with the sides of its start, ends where the first function passes zero on its dense
-!> output, and f goes to the other side there. Functions are those of the problem, and for each
-!> delay that moves t - lag less the kinks at both ends of the piece of the past that it reads. Where f pushes the solution back from both sides, it
+!> output, and f goes to the other side there. Where f pushes the solution back from both sides, it
 !> would slide along the zero (Filippov 1988, "Differential Equations with Discontinuous Righthand
 !> Sides", sec. 4): it cannot go on by steps.
 module dde_sides
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
-   use dde_cursor, only: cursor_type
    use dde_event_search, only: event_search
-   use dde_events, only: event_watcher_type
    use dde_kink, only: kink_type
+   use dde_passages, only: find_functions, new_passages, passages_type, rounding
    use dde_step, only: step_type
    use dde_step_context, only: step_context
    use dde_time, only: elapsed, instant
@@ -23,10 +21,8 @@ module dde_sides
    real(wp), parameter :: ahead = 1.0e-4_wp, ahead_of_start = 1.0e-10_wp
    !> A passage as near to an end of the step, in units of the spacing of times, is there.
    real(wp), parameter :: near = 16.0_wp
-   !> Rounding error of t - lag near a kink, in the same units.
-   real(wp), parameter :: rounding = 4.0_wp
    !> Tolerances of the state by whose errors a delay may be below 0.
-   real(wp), parameter :: most_tolerances = 10.0_wp
+   real(wp), parameter :: most_tolerances = 100.0_wp
    !> Even places of a step at which the functions are looked at, powers of two. A sine of many
    !> periods may look straight there, hardly ever at odd ones, too: fractions of roots of primes.
    integer, parameter :: least_places = 8, most_places = 128
@@ -68,17 +64,6 @@ module dde_sides
    contains
       procedure :: begin, judge, find_end, change, meets_kink
    end type sides_type
-
-   !> The functions over a step, and those that pass zero.
-   type, extends(event_watcher_type) :: passages_type
-      type(step_context), pointer :: context => null()
-      class(step_type), pointer :: step => null()
-      logical, allocatable :: above(:), passed(:)
-      !> Size up to which each function may be beyond zero by rounding, shape (functions)
-      real(wp), allocatable :: slack(:)
-   contains
-      procedure :: values, take
-   end type passages_type
 
 contains
 
@@ -138,7 +123,7 @@ contains
       self%quiet = .false.
       if (self%own == 0) self%quiet = .not. context%cursor%is_near_kink(context%past)
       if (self%quiet) return
-      passages = new_passages(self, context, step)
+      passages = new_passages(self%above, self%own, context, step)
       noise = merge(0.0_wp, passages%slack, [(i, i=1, size(noise))] <= self%own)
       between = reshape([(functions_at(odd(i)), i=1, size(odd))], shape(between))
       stride = most_places/least_places
@@ -239,7 +224,7 @@ contains
       self%share = 1.0_wp
       self%finish = whole
       if (.not. self%quiet) then
-         passages = new_passages(self, context, step)
+         passages = new_passages(self%above, self%own, context, step)
          passages%look_every = step%h/self%places
          allocate (passages%direction(size(self%above)), source=0)
          allocate (passages%terminal(size(self%above)), source=.true.)
@@ -323,8 +308,8 @@ contains
       value = any(self%passed(self%own + 1:))
    end function meets_kink
 
-   !> Go to the next piece of the past, or to the one before, where t - lag passed an end of one. The
-   !> kink there returns, one derivative smoother.
+   !> Go to the next piece of the past, or to the one before, where t - lag passed an end of one.
+   !> The kink there returns, one derivative smoother.
    pure subroutine change_pieces(self, context)
       type(sides_type), intent(inout) :: self
       type(step_context), intent(inout) :: context
@@ -348,29 +333,6 @@ contains
          end do
       end associate
    end subroutine change_pieces
-
-   !> The functions over a step.
-   function new_passages(self, context, step) result(passages)
-      class(sides_type), intent(in) :: self
-      type(step_context), intent(in), target :: context
-      class(step_type), intent(in), target :: step
-      type(passages_type) :: passages
-      real(wp) :: g(size(self%above))
-
-      passages%context => context
-      passages%step => step
-      passages%above = self%above
-      passages%passed = self%passed
-      allocate (passages%slack(size(self%above)), source=0.0_wp)
-      ! where the last step ended at a zero
-      call passages%values(step%t, step%y, step%slope, g)
-      passages%slack = merge(2.0_wp*abs(g), 0.0_wp, self%above .neqv. g > 0.0_wp)
-      if (size(g) == self%own) return
-      ! t - lag is rounded
-      associate (of_delays => passages%slack(self%own + 1:))
-         of_delays = max(of_delays, rounding*spacing(2.0_wp*max(abs(step%t), abs(step%t + step%h))))
-      end associate
-   end function new_passages
 
    !> The functions where the step of the context starts, and their rates.
    subroutine find_rates(context, y, share, g, rate)
@@ -398,68 +360,4 @@ contains
          rate = (rate - g)/h
       end associate
    end subroutine find_rates
-
-   !> The functions, of the problem and of delays that move.
-   pure subroutine find_functions(context, t, place, y, z, g)
-      type(step_context), intent(in) :: context
-      !> Time, and time since the start of the step
-      real(wp), intent(in) :: t, place
-      !> State there, and delayed values
-      real(wp), intent(in) :: y(:), z(:)
-      real(wp), intent(out) :: g(:)
-      real(wp) :: lag(context%problem%moving)
-      integer :: i, j
-
-      associate (own => size(g) - 2*size(lag), pieces => context%past%pieces)
-         if (own > 0) call context%problem%switching(t, y, z, g(:own))
-         if (size(lag) == 0) return
-         call context%problem%moving_lags(t, y, lag)
-         ! a piece without an end there is never left
-         g(own + 1::2) = 1.0_wp
-         g(own + 2::2) = -1.0_wp
-         do j = 1, size(lag)
-            i = own + 2*j - 1
-            associate (begin => pieces%begin(j), time => place - lag(j))
-               if (begin > 0) then
-                  g(i) = elapsed(pieces%kinks(begin)%at, context%cursor%start) + time
-               end if
-               if (begin < size(pieces%kinks)) then
-                  g(i + 1) = elapsed(pieces%kinks(begin + 1)%at, context%cursor%start) + time
-               end if
-            end associate
-         end do
-      end associate
-   end subroutine find_functions
-
-   !> The functions at a place of the step. One that is 0, or no farther beyond than where the step
-   !> starts, has not passed yet.
-   pure subroutine values(self, t, y, slope, g)
-      class(passages_type), intent(in) :: self
-      real(wp), intent(in) :: t, y(:), slope(:)
-      real(wp), intent(out) :: g(:)
-      type(cursor_type) :: cursor
-      real(wp) :: z(size(self%context%problem%lag), 1)
-
-      cursor = self%context%cursor
-      associate (context => self%context, place => min(self%step%h, t - cursor%t))
-         if (context%problem%switches > 0) then
-            call self%step%delayed_at(context%problem, context%past, cursor, place, z)
-         end if
-         call find_functions(context, cursor%inside(t), place, y, z(:, 1), g)
-      end associate
-      where (ieee_is_nan(g)) g = 0.0_wp
-      where ((self%above .neqv. g > 0.0_wp) .and. .not. abs(g) > self%slack)
-         g = merge(tiny(g), -tiny(g), self%above)
-      end where
-   end subroutine values
-
-   !> A function passes zero.
-   subroutine take(self, which, t, y, slope)
-      class(passages_type), intent(inout) :: self
-      integer, intent(in) :: which
-      type(instant), intent(in) :: t
-      real(wp), intent(in) :: y(:), slope(:)
-
-      self%passed(which) = .true.
-   end subroutine take
 end module dde_sides

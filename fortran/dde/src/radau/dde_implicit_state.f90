@@ -213,8 +213,8 @@ contains
       end associate
    end subroutine place_delays
 
-   !> The values of a stage whose delays move, where they lie in the past, and the places of those in
-   !> the step itself. Without a delay that is the stage.
+   !> The values of a stage whose delays move, where they lie in the past, and the places of those
+   !> in the step itself. Without a delay that is the stage.
    pure subroutine place_moving(self, context, i, t, y)
       class(implicit_state), intent(inout) :: self
       type(step_context), intent(inout) :: context

@@ -228,8 +228,10 @@ contains
          do i = 1, size(kept)
             call self%interpolant(kept(i), coefficients(:degree))
             if (rough) coefficients(4:) = 0.0_wp
-            change = max(change, sum(abs(coefficients(:degree) - a(:degree, i)))/self%scale(kept(i)))
-            a(:degree, i) = coefficients(:degree)
+            associate (new => coefficients(:degree), old => a(:degree, i))
+               change = max(change, sum(abs(new - old))/self%scale(kept(i)))
+               old = new
+            end associate
          end do
       end associate
    end subroutine offer

@@ -1,11 +1,12 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Problems whose delays depend on time or state, most of them with exact solutions: of Neves (1975,
-!> "Automatic integration of functional differential equations: an approach", ACM Trans. Math. Softw.
-!> 1, 357), Feldstein and Neves (1984, "High order methods for state-dependent delay differential
-!> equations with nonsmooth solutions", SIAM J. Numer. Anal. 21, 844), Paul (1992, "Developing a
-!> delay differential equation solver", Appl. Numer. Math. 9, 403; 1994, "A test set of functional
-!> differential equations", Manchester, problem 1.3.10), Enright and Hayashi (1997, problem D1), and
-!> of Fox, Mayers, Ockendon and Tayler (1971, "On a functional differential equation", J. Inst. Maths
+!> Problems whose delays depend on time or state, most with exact solutions: of Neves (1975,
+!> "Automatic integration of functional differential equations: an approach", ACM Trans. Math.
+!> Softw. 1, 357), Feldstein and Neves (1984, "High order methods for state-dependent delay
+!> differential equations with nonsmooth solutions", SIAM J. Numer. Anal. 21, 844), Paul (1992,
+!> "Developing a delay differential equation solver", Appl. Numer. Math. 9, 403; 1994, "A test set
+!> of functional differential equations", Manchester, problem 1.3.10), Enright and Hayashi (1997,
+!> "The evaluation of numerical software for delay differential equations", problem D1), and of Fox,
+!> Mayers, Ockendon and Tayler (1971, "On a functional differential equation", J. Inst. Maths
 !> Applics 8, 271), the pantograph.
 module moving_problems
    use dde_kinds, only: wp
@@ -105,7 +106,8 @@ contains
       case ("two thresholds")
          ! no known solution; many kinks, of two delays that move and a constant one
          problem%t_end = 10.0_wp
-         call fill(problem, 2, [1.0_wp, 1.0_wp], [1.0_wp, 0.5_wp], [1.0_wp, 3.0_wp, 3.0_wp], [1, 2, 1])
+         call fill(problem, 2, [1.0_wp, 1.0_wp], [1.0_wp, 0.5_wp], [1.0_wp, 3.0_wp, 3.0_wp], &
+                   [1, 2, 1])
          problem%moving = 2
          problem%f => coupled
          problem%lags => of_state_and_time
@@ -120,7 +122,8 @@ contains
          problem%past = [1.0_wp]
          problem%f => less_the_past
          problem%lags => one_less_time
-      case ("whole numbers")
+      case default
+         ! "whole numbers"
          problem%t_end = 3.5_wp
          problem%past = [1.0_wp]
          problem%f => the_past
