@@ -30,13 +30,13 @@ names of a definition."""
 KEYS = {
     *("name", "about", "kind", "source", "parameters", "states", "auxiliary", "definitions"),
     *("equations", "steady_state", "fast", "domain"),
-    *("event", "section", "integral", "coordinates"),
+    *("event", "section", "integral", "coordinates", "longest_delay"),
 }
 EVENT, SECTION = re.compile(r"(\w+) ?> ?(\S+)"), re.compile(r"(\w+) ?= ?(\S+)")
 """A signal above a level, and one at a level."""
 INTEGRAL = re.compile(r"(\w+)( ?\+ ?t)?")
 NUMBER = re.compile(r"-?\d+\.?\d*(e[+-]?\d+)?")
-TEXTS = ("fast", "event", "section", "integral")
+TEXTS = ("fast", "event", "section", "integral", "longest_delay")
 """Keys of a text with names."""
 LARGEST = 10**308
 """Largest number, and 1/LARGEST is the least."""
@@ -144,6 +144,8 @@ class _Reader:
             )
             model.equations[state] = self.expression(f"equation of {state}", model.texts[state])
         self.expect_smooth("second_difference", ", ".join(model.differences))
+        self.expect_constant("second_difference", ", ".join(model.differences))
+        self.read_longest_delay(values.get("longest_delay"))
         self.read_rest(values)
         # a domain has windows of its own
         if not model.domain:
@@ -161,6 +163,24 @@ class _Reader:
         """Refuse what a model that is not smooth cannot have."""
         if value and (switches := self.model.switches):
             self.refuse(what, value, f"none where the model is not smooth, at {switches[0].text}")
+
+    def expect_constant(self, what: str, value):
+        """Refuse what a model with delays that move cannot have."""
+        if value and (moving := self.model.moving):
+            text = f"{moving[0].state}(t - ({moving[0].lag}))"
+            self.refuse(what, value, f"none where a delay depends on t or the states: {text}")
+
+    def read_longest_delay(self, text) -> None:
+        """A bound of the delays that move, which stand last."""
+        model = self.model
+        model.delayed.sort(key=lambda one: one.moves)
+        if text is None:
+            return
+        if not model.moving:
+            self.refuse("longest_delay", text, "none where no delay depends on t or the states")
+        model.longest_delay = self.expression("longest_delay", text)
+        if model.longest_delay.free_symbols & (model.variables | model.sides):
+            self.refuse("longest_delay", text, "an expression of parameters")
 
     def line(self, what: str, text, longest: int = LONGEST_TEXT) -> str:
         """A text on one line: as a comment of the generated code it must not begin another one."""
@@ -215,6 +235,7 @@ class _Reader:
         self.read_steady_state(values)
         fast = values.get("fast")
         self.expect_smooth("fast", fast)
+        self.expect_constant("fast", fast)
         if fast is not None and fast not in model.states:
             self.refuse("fast", fast, f"one of the states {', '.join(model.states)}")
         model.fast = fast
@@ -260,6 +281,7 @@ class _Reader:
         if texts is None:
             return
         self.expect_smooth("steady_state", texts)
+        self.expect_constant("steady_state", ", ".join(map(str, near or texts)))
         if near and len(texts) > 1:
             self.refuse("steady_state", ", ".join(texts), "near alone")
         texts = near or texts
@@ -338,7 +360,8 @@ class _Reader:
                 return one.symbol
         number = len(self.model.delayed) + 1
         symbol = sympy.Symbol(f"{state}_delayed_{number}", real=True)
-        self.model.delayed.append(Delayed(state, lag, symbol))
+        moves = bool(lag.free_symbols & self.model.variables)
+        self.model.delayed.append(Delayed(state, lag, symbol, moves))
         return symbol
 
     def side(self, place: str, text: str, value: sympy.Expr) -> sympy.Expr:

@@ -184,9 +184,12 @@ class Expression:
         if lag == 0:
             return model.symbol(name)
         # one whose sign depends on the parameters is seen with their values, before a run
-        changing = model.variables | model.sides
-        if lag.free_symbols & changing or lag.subs(model.signed).is_nonpositive:
-            self.refuse(node, f"{name}(t - DELAY) with a delay >= 0 of numbers and parameters")
+        now = {TIME, *map(model.symbol, [*model.states, *model.auxiliary])}
+        if lag.free_symbols & (model.variables | model.sides) - now or (
+            lag.subs(model.signed).is_nonpositive
+        ):
+            expected = "a delay >= 0 of numbers, parameters, t and the states at t"
+            self.refuse(node, f"{name}(t - DELAY) with {expected}")
         if name in model.auxiliary:
             return sympy.exp(self.reader.delayed(model.auxiliary[name], lag))
         return self.reader.delayed(name, lag)

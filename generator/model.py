@@ -35,6 +35,8 @@ class Delayed:
     state: str
     lag: sympy.Expr
     symbol: sympy.Symbol
+    moves: bool = False
+    """Whether the delay depends on t or the states."""
 
 
 @dataclass(frozen=True)
@@ -83,6 +85,9 @@ class Model:
     definitions: dict[str, str]
     equations: dict[str, sympy.Expr]
     delayed: list[Delayed] = field(default_factory=list)
+    """Those whose delay moves stand last."""
+    longest_delay: sympy.Expr | None = None
+    """Bound of the delays that move, of parameters; None: all of the past is kept."""
     steady_state: dict[str, sympy.Expr] | None = None
     """Of each state an expression of parameters, or its own symbol where it is computed."""
     near: dict[str, sympy.Expr] | None = None
@@ -116,6 +121,11 @@ class Model:
         names = [*self.states, *self.auxiliary]
         others = [*(one.symbol for one in self.delayed), *self.differences.values()]
         return {TIME, *map(self.symbol, names), *others}
+
+    @property
+    def moving(self) -> list[Delayed]:
+        """Delayed states whose delay depends on t or the states."""
+        return [one for one in self.delayed if one.moves]
 
     @property
     def sides(self) -> set[sympy.Symbol]:

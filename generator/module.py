@@ -37,6 +37,8 @@ TEMPLATES = jinja2.Environment(
 
 def write_module(model: Model, extent: str = WHOLE) -> str:
     """The text of the module with all procedures, or those of an extent alone."""
+    # series and what is at rest are of constant delays
+    extent = JACOBIAN if model.moving and extent == WHOLE else extent
     whole = extent == WHOLE
     balance = balance_of(model) if whole else None
     exponents = exponents_of(model)
@@ -46,6 +48,7 @@ def write_module(model: Model, extent: str = WHOLE) -> str:
         "made": procedures(model, exponents, balance, extent),
         "description": description_lines(model, exponents, whole),
         "delayed": delayed_procedure(model),
+        "moving": pointwise.moving_procedure(model),
         "exponents": exponents,
         "flow_texts": flow_texts(model, flow_of(model)) if whole else {},
         "rests": bool(whole and model.steady_state),
@@ -122,6 +125,7 @@ def description_lines(model: Model, exponents: list[str], whole: bool) -> list[s
         ("sizes", *map(str, sizes)),
         *(("coupling", str(row), str(column)) for row, column in couplings(model)),
         observed_line(model),
+        *([("moving", str(len(model.moving)))] if model.moving else ()),
         *([("driven",)] if any(one.has(TIME) for one in taken) else ()),
         ("name", model.name),
         ("kind", model.kind),
@@ -170,9 +174,11 @@ def quoted(text: str) -> str:
 
 
 def delayed_procedure(model: Model) -> Procedure:
-    """Delays and components of the delayed states."""
+    """Delays and components of the delayed states; bounds of delays that move."""
     states = list(model.states)
     components = [states.index(one.state) + 1 for one in model.delayed]
-    lines = [f"lag({i}) = {text_of(one.lag)}" for i, one in enumerate(model.delayed, 1)]
+    bound = "huge(1.0_wp)" if model.longest_delay is None else text_of(model.longest_delay)
+    lags = [bound if one.moves else text_of(one.lag) for one in model.delayed]
+    lines = [f"lag({i}) = {lag}" for i, lag in enumerate(lags, 1)]
     lines += [f"component({i}) = {number}" for i, number in enumerate(components, 1)]
     return with_parameters(model, lines)

@@ -130,6 +130,16 @@ def switching_procedure(model: Model) -> Procedure:
     return of_all_blocks(model, "values", lines, [], guarded={})
 
 
+def moving_procedure(model: Model) -> Procedure:
+    """The delays that move, each no number where one has no value."""
+    own = {place: one.lag for place, one in enumerate(model.moving, 1)}
+    lines = [f"{state} = y({place})" for place, state in enumerate(model.states, 1)]
+    lines += refusals(model, own, guard_names(model), f"lag(:{len(own)})")
+    lines += [f"{name} = exp({state})" for name, state in model.auxiliary.items()]
+    lines += [f"lag({place}) = {text_of(lag)}" for place, lag in own.items()]
+    return with_parameters(model, lines, *model.states, *model.auxiliary)
+
+
 def relaxation_procedure(model: Model, balance: Balance) -> Procedure:
     """The least rate at which the fast state of a block approaches its balance, rate/v."""
     place, size = list(model.states).index(balance.state) + 1, len(model.states)

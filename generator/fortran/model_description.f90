@@ -63,6 +63,8 @@ module model_description
       integer :: exponentials = 0
       !> Number of these whose exponents depend on delayed states
       integer :: delayed_exponents = 0
+      !> Number of delayed states, the last, whose delays depend on time or states
+      integer :: moving = 0
       !> Number of switches, where the equations are not smooth
       integer :: switches = 0
       !> Equations of a chain with a second difference, and the states of which they take it, shape
@@ -130,6 +132,8 @@ contains
             end associate
          case ("observed")
             description%sizes%observed = observed_of(words)
+         case ("moving")
+            read (words(2), *) description%sizes%moving
          case ("driven")
             description%sizes%driven = .true.
          case ("name")
@@ -202,7 +206,9 @@ contains
       integer :: place
 
       place = (number - 1)/size(self%states)
-      if (kind == "switching") then
+      if (kind == "lag") then
+         name = "delay "//text_of(number)
+      else if (kind == "switching") then
          name = trim(self%switches(number))
       else if (place >= size(blocks)) then
          name = kind//"("//text_of(number)//")"

@@ -197,6 +197,9 @@ contains
       call c_f_procpointer(procedure_of(library, "rhs"), code%rhs)
       call c_f_procpointer(procedure_of(library, "delayed"), code%delayed)
       call c_f_procpointer(procedure_of(library, "exponents"), code%exponents)
+      if (has(library, "moving_lags")) then
+         call c_f_procpointer(procedure_of(library, "moving_lags"), code%moving_lags)
+      end if
       if (has(library, "switching")) then
          call c_f_procpointer(procedure_of(library, "switching"), code%switching)
       end if

@@ -41,37 +41,11 @@ module model_problem
       !> Whether thresholds count in units of its motion; otherwise its numbers are of order 1
       logical :: own_units = .false.
    contains
-      !> What the definition says
-      procedure :: describe
-      !> Give the model its parameters and its past
-      procedure :: set
-      !> Give the model other parameters
-      procedure :: put
-      procedure :: number_of
-      procedure :: states
-      procedure :: is_chain
-      procedure :: initial
-      procedure :: history
-      procedure :: past_series
-      procedure :: rhs
-      procedure :: jacobian
-      procedure :: exponents
-      procedure :: switching
-      procedure :: take_sides
-      procedure :: name_of
-      procedure :: series
-      procedure :: tangent_series
-      procedure :: relaxation_rate
-      procedure :: slow_series
-      procedure :: slow_tangent_series
-      !> Delays
-      procedure :: delays
-      !> State at rest, shape (n)
-      procedure :: steady_state
-      !> Derivative form of the right-hand side at the steady state
-      procedure :: derivative
-      !> Terms of the characteristic function
-      procedure :: characteristic_terms
+      procedure :: describe, set, put, number_of, states, is_chain
+      procedure :: initial, history, past_series, rhs, jacobian, exponents, switching, take_sides
+      procedure :: name_of, series, tangent_series, relaxation_rate, slow_series
+      procedure :: slow_tangent_series, moving_lags
+      procedure :: delays, steady_state, derivative, characteristic_terms
    end type model_type
 
 contains
@@ -127,6 +101,7 @@ contains
       self%analytic_tangents = self%analytic
       self%numbers = parameters
       self%switches = self%sizes%switches
+      self%moving = self%sizes%moving
       self%given = [parameters, (0.0_wp, k=1, self%switches)]
       call self%code%delayed(parameters, lag, component)
       kept = lag > 0.0_wp .or. self%keeps_delays
@@ -208,6 +183,15 @@ contains
       y = 0.0_wp
       y(0) = self%past(component)
    end subroutine past_series
+
+   !> Delays that depend on time or states.
+   pure subroutine moving_lags(self, t, y, lag)
+      class(model_type), intent(in) :: self
+      real(wp), intent(in) :: t, y(self%n)
+      real(wp), intent(out) :: lag(self%moving)
+
+      call self%code%moving_lags(self%shape, self%numbers, t, y, lag)
+   end subroutine moving_lags
 
    !> The equations.
    pure subroutine rhs(self, t, y, z, dydt)

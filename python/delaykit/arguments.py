@@ -240,9 +240,14 @@ def begin(own: Arguments, history, t_start: float, initial, breaks, rtol, atol) 
     delays = own.model.delays_of(own.numbers)
     pieces = getattr(history, "pieces", None)
     if pieces is None:
-        first = t_start - delays.max(initial=0.0)
+        first = t_start - delays[delays < np.inf].max(initial=0.0)
         given = own.over_time(own.by_name("history", history), first, t_start)
         reads = any(callable(value) for value in given.values())
+        if reads and np.inf in delays:
+            raise ModelError(
+                "history: a function; expected constants, or a model with longest_delay: its "
+                "delays have no bound"
+            )
         if reads and len(delays) and max(delays) > 0:
             pieces = fit(
                 lambda t: own.values("history", given, t),

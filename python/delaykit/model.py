@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A model with constant delays: its equations, parameters, and what can be computed of it."""
+"""A model: its equations, parameters, and what can be computed of it."""
 
 import copy
 import ctypes
@@ -9,14 +9,14 @@ from pathlib import Path
 import numpy as np
 
 from delaykit import methods, objects, runs, scans
-from delaykit.arguments import ENDS, number_of
+from delaykit.arguments import ENDS, HUGE, number_of
 from delaykit.errors import ModelError, check_name
 from delaykit.generator.ranges import expected_of, is_inside
 from delaykit.library import LIBRARY, address, open_object
 
 OPTIONS = {
     *("about", "kind", "source", "auxiliary", "definitions", "fast", "domain", "event", "section"),
-    *("integral", "coordinates", "steady_state"),
+    *("integral", "coordinates", "steady_state", "longest_delay"),
 }
 """Keys of a definition that may be given by name (generator/README.md explains them)."""
 MOST_DELAYED = 1 << 14
@@ -175,11 +175,12 @@ class Model:
         return self.delays_of(self.numbers(values))
 
     def delays_of(self, numbers: np.ndarray) -> np.ndarray:
-        """The delays with these parameters, all in the order of the definition."""
+        """The delays with these parameters, those that move last by their bound."""
         lags = np.empty(MOST_DELAYED)
         count = ctypes.c_int()
         LIBRARY.dk_delays(self.handle, address(numbers), address(lags), ctypes.byref(count))
-        return lags[: count.value].copy()
+        lags = lags[: count.value]
+        return np.where(lags < HUGE, lags, np.inf)
 
     integrate = runs.integrate
     section = runs.section

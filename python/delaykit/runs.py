@@ -19,7 +19,7 @@ METHODS = {name: EXTENTS[reads] for name, reads in lines_of(LIBRARY.dk_methods)}
 """The solver's methods, with what is compiled for them."""
 COUNTS = (
     *("status", "steps_accepted", "steps_rejected", "steps_implicit", "evaluations"),
-    *("factorisations", "breaking_points", "switches"),
+    *("factorisations", "breaking_points", "switches", "kinks_untracked"),
 )
 """Names of the numbers in `counts` of the library"""
 MOST_SAMPLES = 10**4

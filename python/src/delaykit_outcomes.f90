@@ -46,12 +46,13 @@ contains
       !> Number of terms that are not smooth
       integer, intent(in) :: switches
 
-      call data%column(data%dimension("count", 8), "counts", &
+      call data%column(data%dimension("count", 9), "counts", &
                        [real(wp) :: outcome%reason, outcome%accepted, outcome%rejected, &
                         outcome%implicit_steps, outcome%evaluations, outcome%factorisations, &
-                        outcome%breaking_points, switches], &
+                        outcome%breaking_points, switches, outcome%untracked], &
                        "1 where an event ended the run, steps accepted, rejected and implicit, " &
-                       //"evaluations, factorisations, breaking points, terms that are not smooth")
+                       //"evaluations, factorisations, breaking points, terms that are not smooth, " &
+                       //"kinks passed over where delays move")
       call data%attribute("method_at_end", trim(now%method))
    end subroutine put_outcome
 

@@ -331,6 +331,7 @@ contains
       total%evaluations = total%evaluations + outcome%evaluations
       total%factorisations = total%factorisations + outcome%factorisations
       total%breaking_points = total%breaking_points + outcome%breaking_points
+      total%untracked = total%untracked + outcome%untracked
       if (.not. allocated(total%switched)) total%switched = 0*outcome%switched
       total%switched = total%switched + outcome%switched
    end subroutine add

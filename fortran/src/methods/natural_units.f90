@@ -20,7 +20,7 @@ module natural_units
 contains
 
    !> Options with tolerances and a unit of time by the start of a run, unless numbers of the model
-   !> are of order 1. The unit of time is the longest delay or, without one, the inverse of the
+   !> are of order 1. The unit of time is the longest delay there or, without one, the inverse of the
    !> fastest rate there; the size of a state is that of its value or of its change in this time or,
    !> where that is shorter, in its own.
    pure type(integration_options) function in_own_units(model, options, t, known) result(own)
@@ -30,7 +30,7 @@ contains
       type(integration_options), intent(in) :: options
       !> Where the run starts, and known sizes: with these it does not matter what the model says
       real(wp), intent(in), optional :: t, known(:)
-      real(wp) :: rate(model%n), sizes(model%n), slope(model%n), start
+      real(wp) :: moving(model%moving), rate(model%n), sizes(model%n), slope(model%n), start
 
       own = options
       if (.not. (model%own_units .or. present(known))) return
@@ -42,8 +42,10 @@ contains
          call model%rhs(start, y, y(model%component), slope)
          where (.not. ieee_is_finite(slope)) slope = 0.0_wp
          rate = rates(model, start, y)
-         time = maxval([0.0_wp, model%lag])
-         if (size(model%lag) == 0) then
+         moving = 0.0_wp
+         if (size(moving) > 0) call model%moving_lags(start, y, moving)
+         time = maxval([0.0_wp, model%lag(:size(model%lag) - size(moving)), moving])
+         if (size(model%lag) == 0 .or. size(moving) > 0 .and. .not. time > 0.0_wp) then
             time = maxval(rate)
             if (.not. time > 0.0_wp) time = maxval(abs(slope)/sizes, mask=sizes > 0.0_wp)
             time = 1.0_wp/time

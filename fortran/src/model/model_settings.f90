@@ -133,6 +133,8 @@ contains
       if (allocated(error)) return
       lag = model%delays(numbers)
       do i = 1, size(lag)
+         ! no bound of a delay that moves
+         if (i > size(lag) - model%sizes%moving .and. lag(i) >= huge(1.0_wp)) cycle
          call check_number(error, place, "delay "//text(i)//" of the model", lag(i), &
                            at_least=0.0_wp)
       end do

@@ -52,6 +52,10 @@ contains
          call raise(error, "rk4: the model is not smooth; expected a smooth one")
          return
       end if
+      if (problem%moving > 0) then
+         call raise(error, "rk4: delays depend on t or the states; expected constant delays")
+         return
+      end if
       steps = max(1, nint(t_end/h))
       grid%h = t_end/steps
       grid%cubic = cubic

@@ -3,7 +3,7 @@
 !> arrays. No type with procedures and no allocatable array crosses, so that the two may come from
 !> different compilers. A digest of this file is the first thing that a program asks of a model.
 !>
-!> A model gives these under the names `model_NAME`, of which `switching` and all from
+!> A model gives these under the names `model_NAME`, of which `switching`, `moving_lags` and all from
 !> `relaxation_rate` on may be missing. Behind the parameters is, for each value of `switching`, the
 !> side on which the equations are: 1 where it is > 0, else 0. Arrays are explained where
 !> `model_type` has them.
@@ -14,7 +14,7 @@ module model_border
    private
    public :: copy_line, lanes, line_length, reciprocal, shape_type
    public :: describe_line, expand, expand_tangents, find_delayed, find_exponents, find_forms, &
-             find_jacobian, find_rate, find_rhs, find_state, list_terms
+             find_jacobian, find_lags, find_rate, find_rhs, find_state, list_terms
 
    !> Disturbances computed at a time.
    integer, parameter :: lanes = 4
@@ -55,6 +55,15 @@ module model_border
          real(wp), intent(out) :: lag(*)
          integer(c_int), intent(out) :: component(*)
       end subroutine find_delayed
+
+      !> The delays that move, those of the last delayed states, shape (moving).
+      pure subroutine find_lags(self, parameters, t, y, lag) bind(c)
+         import :: shape_type, wp
+         implicit none (type, external)
+         type(shape_type), intent(in) :: self
+         real(wp), intent(in) :: parameters(*), t, y(self%n)
+         real(wp), intent(out) :: lag(*)
+      end subroutine find_lags
 
       !> The state at rest, of one block of a chain; not a number if there is none.
       pure subroutine find_state(parameters, state) bind(c)

@@ -210,7 +210,7 @@ contains
    !> What messages call a value: its kind and number, unless the extension names it.
    function numbered(self, kind, number) result(name)
       class(dde_problem_type), intent(in) :: self
-      !> y, a component; f, its slope; or switching, a switching function
+      !> y, a component; f, its slope; lag, a delay; or switching, a switching function
       character(len=*), intent(in) :: kind
       integer, intent(in) :: number
       character(len=:), allocatable :: name

@@ -324,11 +324,16 @@ contains
       end if
    end subroutine pass
 
-   !> Refuse a problem that is not smooth.
+   !> Refuse a problem that is not smooth, or whose delays move.
    subroutine expect_smooth(problem, error)
       class(dde_problem_type), intent(in) :: problem
       type(error_type), allocatable, intent(out) :: error
 
+      if (problem%moving > 0) then
+         call raise(error, "exponents: delays of the model depend on t or its states; expected " &
+                    //"constant delays")
+         return
+      end if
       if (problem%switches == 0) return
       call raise(error, "exponents: the model is not smooth at "//problem%name_of("switching", 1) &
                  //"; expected a smooth one, since disturbances jump there")

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Delays that depend on time or the states, in texts: exact solutions, and what is refused."""
+
+import math
+
+import delaykit as dk
+import numpy as np
+import pytest
+
+METHODS = ("auto", "bs5", "dop853", "radau5", "radau9", "radau13")
+
+
+@pytest.fixture(scope="module")
+def own_past(cache) -> dk.Model:
+    """y' = y(y(t)), problem 1.3.10 of Paul (1994)."""
+    return dk.Model({"y": "y(y)"}, name="own_past")
+
+
+@pytest.fixture(scope="module")
+def pantograph(cache) -> dk.Model:
+    """y' = a y(t/2) + b y of Fox, Mayers, Ockendon and Tayler (1971)."""
+    return dk.Model({"y": "a*y(t/2) + b*y"}, {"a": 0.7, "b": -1}, name="pantograph")
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_jump_of_the_history_returns(own_past, method):
+    run = own_past.integrate(0.5, 5.5, t_start=2, initial=1.0, method=method, t_eval=[3, 5, 5.5])
+    known = [1.5, 2 * math.exp(0.5), 4 - 2 * math.log(2 * math.log(2) - 0.5)]
+    assert np.allclose(run.y[0], known, rtol=0, atol=2e-8)
+    assert run.counts["breaking_points"] >= 2
+
+
+def test_series_of_the_pantograph(pantograph):
+    """Coefficient n + 1 is (a 2**-n + b)/(n + 1) times coefficient n."""
+    for t in (0.5, 2.0):
+        known = term = 1.0
+        for n in range(60):
+            term *= t * (0.7 * 0.5**n - 1) / (n + 1)
+            known += term
+        assert pantograph.integrate(1.0, t).y[0, -1] == pytest.approx(known, abs=1e-9)
+
+
+def test_driven_with_a_delay_of_the_state(cache):
+    """y' = y y(log y - 1)/(t + 1) of Paul (1992), in three pieces."""
+    model = dk.Model({"y": "y*y(log(y) - 1)/(t + 1)"}, name="pieces")
+    times = [1.0, 5.0, 10.0]
+    known = [2.0, math.exp(6 / math.e), (math.e / (3 - math.log(11))) ** math.e]
+    run = model.integrate(1.0, 10, t_eval=times)
+    assert np.allclose(run.y[0], known, rtol=1e-8, atol=0)
+
+
+def test_bound_of_the_delay(cache):
+    """It may depend on parameters; a longer delay is refused with its value."""
+    equation, numbers = {"y": "-y(t - 1 - a*cos(t))"}, {"a": 0.5}
+    model = dk.Model(equation, numbers, longest_delay="1 + a", name="bound")
+    assert list(model.delays()) == [1.5]
+    by_function, free = model.run(math.sin, 20), dk.Model(equation, numbers, name="free")
+    assert by_function.y.values[-1] == pytest.approx(model.run(math.sin, 20, rtol=1e-11).y[-1])
+    assert model.run(0.5, 20).y[-1] == pytest.approx(free.run(0.5, 20).y.values[-1], abs=1e-8)
+    short = dk.Model(equation, numbers, longest_delay=1.25, name="short")
+    with pytest.raises(dk.RunError, match=r"delay 1 is 1\.5 at t = 0\.0; 0\.\.1\.25 expected"):
+        short.run(0.5, 20)
+
+
+def test_delay_below_zero(cache):
+    model = dk.Model({"y": "-y(t - (1 - t))"}, name="below_zero")
+    with pytest.raises(dk.RunError, match="a delay out of its range") as caught:
+        model.run(1.0, 2)
+    assert caught.value.partial.t[-1] == pytest.approx(1, abs=1e-9)
+
+
+def test_unknown_bound_and_a_history_over_time(own_past):
+    with pytest.raises(dk.ModelError, match="expected constants, or a model with longest_delay"):
+        own_past.run(lambda t: 1.0, 3)
+    assert list(own_past.delays()) == [np.inf]
+
+
+def test_goes_on_from_dense_output(own_past):
+    first = own_past.integrate(0.5, 3, t_start=2, initial=1.0, dense_output=True)
+    run = own_past.integrate(first, 5.5)
+    known = 4 - 2 * math.log(2 * math.log(2) - 0.5)
+    assert run.y[0, -1] == pytest.approx(known, abs=1e-7)
+
+
+def test_scan(pantograph):
+    found = pantograph.scan("final", a=[0.5, 0.7], history={"y": 1.0}, t_end=1.0, progress=False)
+    assert not any(found.reason.values)
+    assert found.final.values[1, 0] == pytest.approx(pantograph.integrate(1.0, 1.0).y[0, -1])
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda one: one.exponents(1.0), "expected constant delays"),
+        (lambda one: one.attractor(1.0), "expected constant delays"),
+        (lambda one: one.hopf(("a", "b"), ((0, 1), (0, 1)), near={"y": 0}), "a delay depends on t"),
+        (lambda one: one.roots(-1, near={"y": 0}), "a delay depends on t or the states"),
+        (lambda one: one.run(1.0, 1.0, method="taylor"), "gives no Taylor series"),
+    ],
+)
+def test_refusals(pantograph, call, words):
+    with pytest.raises((dk.ModelError, dk.RunError), match=words):
+        call(pantograph)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("y(t - y(t - 1))", "a delay >= 0 of numbers, parameters, t and the states at t"),
+        ("y(t - abs(y))", "a delay >= 0 of numbers, parameters, t and the states at t"),
+        ("y(t + 1)", "a delay >= 0"),
+    ],
+)
+def test_delays_that_are_none(cache, text, words):
+    with pytest.raises(dk.ModelError, match=words):
+        dk.Model({"y": text}, name="none").run(1.0, 1.0)
+
+
+def test_options_that_need_constant_delays(cache):
+    for options in ({"steady_state": {"y": 0}}, {"fast": "y"}):
+        with pytest.raises(dk.ModelError, match="none where a delay depends on t or the states"):
+            dk.Model({"y": "-y(t - 1 - y**2)"}, name="fixed", **options).run(1.0, 1.0)
+    with pytest.raises(dk.ModelError, match="none where no delay depends on t or the states"):
+        dk.Model({"y": "-y(t - 1)"}, name="constant", longest_delay=3).run(1.0, 1.0)
+    with pytest.raises(dk.ModelError, match="an expression of parameters"):
+        dk.Model({"y": "-y(t - y)"}, name="bound", longest_delay="y").run(1.0, 1.0)
+    with pytest.raises(dk.ModelError, match="none where a delay depends on t or the states"):
+        dk.Model(
+            {"y": "-y(t - y**2) + second_difference(y)"}, name="chain", blocks=3, ends="ring"
+        ).run(1.0, 1.0)
