@@ -167,8 +167,8 @@ class _Reader:
     def expect_constant(self, what: str, value):
         """Refuse what a model with delays that move cannot have."""
         if value and (moving := self.model.moving):
-            text = f"{moving[0].state}(t - ({moving[0].lag}))"
-            self.refuse(what, value, f"none where a delay depends on t or the states: {text}")
+            text = f"none where a delay depends on t or the states: {moving[0].lag}"
+            self.refuse(what, value, text)
 
     def read_longest_delay(self, text) -> None:
         """A bound of the delays that move, which stand last."""

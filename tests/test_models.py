@@ -204,6 +204,38 @@ def test_exponents_and_classes_are_of_smooth_models(config):
     checked(config)
 
 
+def test_delays_that_move_are_of_scenes_alone(config):
+    """A bound of them may be a number. Nothing but runs takes them."""
+    panto = {"states": {"P": ""}, "equations": {"P": "-P(t/2)"}, "longest_delay": 50.0}
+    config["models"] = {"panto": {"parameters": {"Ω": {}, "N": {}}, **panto}}
+    at = {"model": "panto", "Ω": 1.0, "N": 1.0}
+    scene = {**at, "history": {"P": 1.0}, "t_end": 50.0, "exponents": {"count": 2}}
+    case = {**at, "history": {"P": 1.0}, "t_end": 5.0, "sample_interval": 1.0}
+    added = {
+        ("scenes",): scene,
+        ("basins", "places"): {**at, "histories": {"seed": 1, "P": [0, 1]}},
+        ("routes", "lines"): {**ALONG_N, "model": "panto", "N": 1, "count": 2},
+        ("atlas", "planes"): {**PLANE, "model": "panto"},
+        ("stability", "families"): {**at, "history": {"P": 1.0}, "t_end": 5.0, "reference": "none"},
+        ("work_precision", "cases"): case,
+    }
+    for path, entry in added.items():
+        section = config
+        for key in path:
+            section = section[key]
+        section["mine"] = copy.deepcopy(entry)
+    with pytest.raises(ConfigError) as refused:
+        checked(copy.deepcopy(config))
+    words = "model = 'panto'; expected constant delays, not t/2"
+    assert f"scene 'mine' exponents: {words}" in str(refused.value)
+    for path in [*added][1:]:
+        assert f"config {' '.join(path)} mine: {words}" in str(refused.value)
+    for path in [*added][1:]:
+        del config[path[0]][path[1]]["mine"]
+    del config["scenes"]["mine"]["exponents"]
+    assert model_of(checked(config), {"law": "panto"}).moving_delay == "t/2"
+
+
 def test_scene_of_a_driven_model_has_no_roots(config):
     config["models"] = {"driven": copy.deepcopy(DRIVEN)}
     config["scenes"]["mine"] = {**AT, "Ω": 0.3, "history": {"P": 1.0}, "t_end": 50.0}

@@ -51,8 +51,8 @@ contains
                         outcome%implicit_steps, outcome%evaluations, outcome%factorisations, &
                         outcome%breaking_points, switches, outcome%untracked], &
                        "1 where an event ended the run, steps accepted, rejected and implicit, " &
-                       //"evaluations, factorisations, breaking points, terms that are not smooth, " &
-                       //"kinks passed over where delays move")
+                       //"evaluations, factorisations, breaking points, terms that are not " &
+                       //"smooth, kinks passed over where delays move")
       call data%attribute("method_at_end", trim(now%method))
    end subroutine put_outcome
 

@@ -80,6 +80,13 @@ def check_smooth(config: dict, place: str, entry: dict) -> Iterator[str]:
     """A model of whose motions there are no exponents, since disturbances jump."""
     if term := model_of(config, entry).switch:
         yield f"{place}: model = {entry['law']!r}; expected a smooth model, without {term}"
+    yield from check_constant_delays(config, place, entry)
+
+
+def check_constant_delays(config: dict, place: str, entry: dict) -> Iterator[str]:
+    """A model with delays that move, for which there are runs alone."""
+    if delay := model_of(config, entry).moving_delay:
+        yield f"{place}: model = {entry['law']!r}; expected constant delays, not {delay}"
 
 
 def check_histories(place: str, ranges: dict, rules: dict[str, dict] = HISTORY) -> Iterator[str]:

@@ -16,10 +16,11 @@ CHECKED = PROJECT / "build" / "checked_laws"
 """A file for each definition that was checked before, named by its digest."""
 
 
-def check_definition(place: str, parts: list[dict]) -> tuple[bool, str]:
+def check_definition(place: str, parts: list[dict]) -> tuple[bool, str, str]:
     """Refuse parts of a definition of which no model can be made; raise ConfigError saying why.
 
-    Otherwise whether the model has t in its equations, and its first term that is not smooth.
+    Otherwise whether the model has t in its equations, its first term that is not smooth, and the
+    first delay that depends on t or the states.
     """
     checked = CHECKED / _digest_of(parts)
     if checked.exists():
@@ -38,7 +39,8 @@ def check_definition(place: str, parts: list[dict]) -> tuple[bool, str]:
         raise ConfigError(f"{place}: {reason}") from None
     has_time = any(one.has(TIME) for one in model.equations.values())
     switches = [in_words(one.text, model.written) for one in model.switches]
-    facts = has_time, next(iter(switches), "")
+    moving = [in_words(str(one.lag), model.written) for one in model.moving]
+    facts = has_time, next(iter(switches), ""), next(iter(moving), "")
     # where nothing can be written, the model is checked again
     with contextlib.suppress(OSError, FileError):
         CHECKED.mkdir(parents=True, exist_ok=True)

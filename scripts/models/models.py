@@ -84,9 +84,14 @@ class Model:
         return self._facts[1]
 
     @property
-    def _facts(self) -> tuple[bool, str]:
+    def moving_delay(self) -> str:
+        """The first delay that depends on t or the states; empty if all are constant."""
+        return self._facts[2]
+
+    @property
+    def _facts(self) -> tuple[bool, str, str]:
         place = f"config models {self.name}"
-        return (False, "") if self.is_block else check_definition(place, [self.definition])
+        return (False, "", "") if self.is_block else check_definition(place, [self.definition])
 
     @property
     def own_parameters(self) -> dict[str, dict]:

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> A delay that depends on the state (Paul 1994, "A test set of functional differential equations",
-!> problem 1.3.10): y' = y(y(t)), y = 1/2 before t = 2, y(2) = 1. The argument y(t) passes the jump at
-!> 2 where t = 4, and 4 where t = 4 + 2 log 2.
+!> problem 1.3.10): y' = y(y(t)), y = 1/2 before t = 2, y(2) = 1. The argument y(t) passes the jump
+!> at 2 where t = 4, and 4 where t = 4 + 2 log 2.
 module own_past_problem
    use dde, only: dde_problem_type, wp
    implicit none (type, external)

@@ -20,9 +20,9 @@ module natural_units
 contains
 
    !> Options with tolerances and a unit of time by the start of a run, unless numbers of the model
-   !> are of order 1. The unit of time is the longest delay there or, without one, the inverse of the
-   !> fastest rate there; the size of a state is that of its value or of its change in this time or,
-   !> where that is shorter, in its own.
+   !> are of order 1. The unit of time is the longest delay there or, without one, the inverse of
+   !> the fastest rate there; the size of a state is that of its value or of its change in this time
+   !> or, where that is shorter, in its own.
    pure type(integration_options) function in_own_units(model, options, t, known) result(own)
       !> The model with its past
       class(model_type), intent(in) :: model

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from scripts.config.checks import check_reference, wrong
+from scripts.config.checks import check_constant_delays, check_reference, wrong
 from scripts.models.models import model_of
 from scripts.studies.stability.plan import cases_of_family, number_of_cases
 
@@ -25,6 +25,7 @@ def contradictions(config: dict) -> Iterator[str]:
 def check_family(config: dict, name: str, family: dict) -> Iterator[str]:
     """Problems of the cases of a family."""
     place, count = f"config stability families {name}", number_of_cases(config, name)
+    yield from check_constant_delays(config, place, family)
     if count > MOST_CASES:
         yield f"{place}: {count} combinations; expected at most {MOST_CASES}"
         return

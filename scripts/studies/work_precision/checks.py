@@ -2,7 +2,12 @@
 
 from collections.abc import Iterator
 
-from scripts.config.checks import check_reference, check_samples, check_scenes
+from scripts.config.checks import (
+    check_constant_delays,
+    check_reference,
+    check_samples,
+    check_scenes,
+)
 
 
 def contradictions(config: dict) -> Iterator[str]:
@@ -19,4 +24,7 @@ def contradictions(config: dict) -> Iterator[str]:
     runs = len(study["methods"]) * len(study["tolerances"])
     for kind in ("scenes", "cases"):
         for name, case in study[kind].items():
+            # a scene that there is not is refused above
+            if entry := scenes.get(name) if kind == "scenes" else case:
+                yield from check_constant_delays(config, f"{place} {kind} {name}", entry)
             yield from check_samples(f"{place} {kind} {name}", case, runs)

@@ -330,8 +330,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       if (problem%moving > 0) then
-         call raise(error, "exponents: delays of the model depend on t or its states; expected " &
-                    //"constant delays")
+         call raise(error, "exponents: delays depend on t or the states; expected constant ones")
          return
       end if
       if (problem%switches == 0) return
