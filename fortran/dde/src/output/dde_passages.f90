@@ -95,12 +95,13 @@ contains
       type(cursor_type) :: cursor
       real(wp) :: z(size(self%context%problem%lag), 1)
 
-      cursor = self%context%cursor
-      associate (context => self%context, place => min(self%step%h, t - cursor%t))
+      associate (context => self%context, at => self%context%cursor, &
+                 place => min(self%step%h, t - self%context%cursor%t))
          if (context%problem%switches > 0) then
+            cursor = at
             call self%step%delayed_at(context%problem, context%past, cursor, place, z)
          end if
-         call find_functions(context, cursor%inside(t), place, y, z(:, 1), g)
+         call find_functions(context, at%inside(t), place, y, z(:, 1), g)
       end associate
       where (ieee_is_nan(g)) g = 0.0_wp
       where ((self%above .neqv. g > 0.0_wp) .and. .not. abs(g) > self%slack)
