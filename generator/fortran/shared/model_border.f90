@@ -4,9 +4,9 @@
 !> different compilers. A digest of this file is the first thing that a program asks of a model.
 !>
 !> A model gives these under the names `model_NAME`, of which `switching`, `moving_lags` and all
-!> from `relaxation_rate` on may be missing. Behind the parameters is, for each value of `switching`, the
-!> side on which the equations are: 1 where it is > 0, else 0. Arrays are explained where
-!> `model_type` has them.
+!> from `relaxation_rate` on may be missing. Behind the parameters is, for each value of
+!> `switching`, the side on which the equations are: 1 where it is > 0, else 0. Arrays are explained
+!> where `model_type` has them.
 module model_border
    use, intrinsic :: iso_c_binding, only: c_char, c_int
    use dde_kinds, only: wp
