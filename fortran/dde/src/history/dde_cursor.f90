@@ -67,7 +67,7 @@ contains
 
       associate (terms => size(problem%lag))
          cursor%constant = terms - problem%moving
-         if (problem%moving > 0) allocate (cursor%read(2, problem%moving))
+         if (problem%moving > 0) allocate (cursor%read(2, problem%moving), source=0.0_wp)
          allocate (cursor%step(terms), source=0_int64)
          allocate (cursor%delayed_start(terms), cursor%offset(terms), cursor%before_origin(terms))
          allocate (cursor%passes_origin(terms), source=huge(1.0_wp))

@@ -25,6 +25,9 @@ module moving_problems
       end subroutine lags_interface
    end interface
 
+   !> Iterations may try states for which functions overflow.
+   real(wp), parameter :: least_log = 50.0_wp
+
    !> A problem with delays that move.
    type, extends(constant_past) :: moving_problem
       !> Initial time, and the end up to which the solution is known
@@ -189,14 +192,14 @@ contains
       real(wp), intent(in) :: p(:), t, y(:), z(:)
       real(wp), intent(out) :: f(:)
 
-      f = [y(2), -z(1)*y(2)**2*exp(1.0_wp - y(2))]
+      f = [y(2), -z(1)*y(2)**2*exp(1.0_wp - max(-least_log, y(2)))]
    end subroutine slope_and_square
 
    pure subroutine to_exponential_of_state(p, t, y, lag)
       real(wp), intent(in) :: p(:), t, y(:)
       real(wp), intent(out) :: lag(:)
 
-      lag = t - exp(1.0_wp - y(2))
+      lag = t - exp(1.0_wp - max(-least_log, y(2)))
    end subroutine to_exponential_of_state
 
    pure subroutine past_over_root(p, t, y, z, f)
@@ -232,7 +235,7 @@ contains
       real(wp), intent(in) :: p(:), t, y(:)
       real(wp), intent(out) :: lag(:)
 
-      lag = t + 1.0_wp - log(y(1))
+      lag = t + 1.0_wp - log(max(exp(-least_log), y(1)))
    end subroutine to_logarithm_of_state
 
    pure subroutine three_pieces(p, t, y)
