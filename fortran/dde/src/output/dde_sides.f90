@@ -30,8 +30,10 @@ module dde_sides
                                    - [1.0_wp, 1.0_wp, 2.0_wp, 2.0_wp, 3.0_wp, 3.0_wp]
    !> Largest distance of functions from a line, over their largest value.
    real(wp), parameter :: most_bend = 0.1_wp
-   !> Part of a step that is made again up to which it may miss a kink.
+   !> Part of a step that is made again up to which it may miss a kink, and how often it is made at
+   !> most.
    real(wp), parameter :: least_part = 1.0e-9_wp
+   integer, parameter :: most_times = 8
    !> Least rate at which a solution is pushed back, over that at which it came.
    real(wp), parameter :: least_push = 1.0e-6_wp
 
@@ -55,8 +57,8 @@ module dde_sides
       integer :: slides = 0
       !> Functions that should pass zero at the end of a step that is made again
       logical, allocatable, private :: due(:)
-      !> Changes at one time
-      integer, private :: idle = 0
+      !> Changes at one time, and how often the step was made again
+      integer, private :: idle = 0, times = 0
       !> Whether no function can pass zero in the step
       logical, private :: quiet = .false.
       !> Places at which the functions are looked at in the step
@@ -219,6 +221,7 @@ contains
       logical :: ended, repeated
 
       repeated = again
+      self%times = merge(self%times + 1, 0, repeated)
       again = .false.
       self%passed = .false.
       self%share = 1.0_wp
@@ -250,7 +253,7 @@ contains
          self%share = 0.0_wp
          self%finish = start
          self%y = step%y
-      else if (any(self%passed(self%own + 1:))) then
+      else if (any(self%passed(self%own + 1:)) .and. self%times < most_times) then
          again = .true.
          self%due = self%passed
          self%due(:self%own) = .false.
