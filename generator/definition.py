@@ -328,6 +328,8 @@ class _Reader:
         try:
             tree = ast.parse(str(text).strip(), mode="eval")
         except (SyntaxError, ValueError):
+            if "'" in str(text):
+                self.refuse(place, text, "no slope y': an equation with one is neutral")
             self.refuse(place, text, "an expression such as -v*(theta + log(v(t - tau)))")
         value = Expression(self, place, str(text).strip()).value(tree.body)
         self.expect_real(place, text, value)
