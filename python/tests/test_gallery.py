@@ -47,7 +47,7 @@ def test_the_notebook():
             figure = pyplot.figure()
             exec("".join(cell["source"]), names)
             drawn += any(axes.lines or axes.collections for axes in figure.axes)
-    assert drawn == 4
+    assert drawn == 5
     assert names["exponents"].sign[0] == "positive"
     assert names["hopf"].l1.size > 0
     assert "period_doubling" in names["cycles"].special_kind
