@@ -281,7 +281,6 @@ class _Reader:
         if texts is None:
             return
         self.expect_smooth("steady_state", texts)
-        self.expect_constant("steady_state", ", ".join(map(str, near or texts)))
         if near and len(texts) > 1:
             self.refuse("steady_state", ", ".join(texts), "near alone")
         texts = near or texts
@@ -297,6 +296,11 @@ class _Reader:
         if near:
             model.near = found
             model.steady_state = {state: model.symbol(state) for state in model.states}
+        if near:
+            self.expect_constant("near", ", ".join(near))
+        for one in model.moving:
+            if model.at_steady_state(one.lag).has(TIME):
+                self.refuse("steady_state", ", ".join(texts), f"none where a delay is {one.lag}")
         for state, equation in model.equations.items():
             if equation.has(TIME):
                 text = model.texts[state]

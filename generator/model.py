@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A model in symbols: a system y' = f(t, y, z) with parameters and delayed states."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import sympy
 
@@ -145,6 +145,12 @@ class Model:
         """An expression without expm1 and log1p, and with the names of exponentials."""
         names = {sympy.exp(self.symbol(w)): self.symbol(v) for v, w in self.auxiliary.items()}
         return sympy.expand_func(expression).xreplace(names)
+
+    def frozen(self) -> "Model":
+        """The model whose delays are those at the steady state: the same near it (Cooke and Huang
+        1996, Proc. Am. Math. Soc. 124, 1417)."""
+        lags = [replace(one, lag=self.at_steady_state(one.lag)) for one in self.delayed]
+        return replace(self, delayed=lags) if self.moving else self
 
     def at_steady_state(self, expression: sympy.Expr) -> sympy.Expr:
         """An expression with all states, now and before, at the steady state."""

@@ -37,8 +37,6 @@ TEMPLATES = jinja2.Environment(
 
 def write_module(model: Model, extent: str = WHOLE) -> str:
     """The text of the module with all procedures, or those of an extent alone."""
-    # series and what is at rest are of constant delays
-    extent = JACOBIAN if model.moving and extent == WHOLE else extent
     whole = extent == WHOLE
     balance = balance_of(model) if whole else None
     exponents = exponents_of(model)
@@ -50,16 +48,17 @@ def write_module(model: Model, extent: str = WHOLE) -> str:
         "delayed": delayed_procedure(model),
         "moving": pointwise.moving_procedure(model),
         "exponents": exponents,
-        "flow_texts": flow_texts(model, flow_of(model)) if whole else {},
+        "flow_texts": flow_texts(model, flow_of(model)) if whole and not model.moving else {},
         "rests": bool(whole and model.steady_state),
+        "has_forms": bool(whole and model.steady_state) and not (model.differences or model.moving),
     }
     if parts["rests"]:
         parts["steady_state"] = rest.steady_state_procedure(model)
-        parts["characteristic"] = rest.characteristic_procedure(model)
-        parts["terms"] = rest.characteristic_terms(model)
+        parts["characteristic"] = rest.characteristic_procedure(model.frozen())
+        parts["terms"] = rest.characteristic_terms(model.frozen())
         if model.near:
             parts["at_rest"] = rest.rest_procedure(model)
-        if not model.differences:
+        if parts["has_forms"]:
             parts["derivative"] = rest.derivative_procedure(model)
     return rendered("model.f90.jinja", model.written, model=model, balance=balance, **parts)
 
@@ -74,7 +73,7 @@ def procedures(
     }
     if extent != EQUATIONS:
         parts["jacobian"] = pointwise.jacobian_procedure(model)
-    if extent == WHOLE:
+    if extent == WHOLE and not model.moving:
         parts["series"] = series_procedure(model)
         parts["tangent_series"] = tangent_series_procedure(model)
     if model.switches:
@@ -113,7 +112,7 @@ def description_lines(model: Model, exponents: list[str], whole: bool) -> list[s
     equations = [f"{state}' = {in_short(text)}" for state, text in model.texts.items()]
     equations += [f"{name} = {text}" for name, text in model.definitions.items()]
     equations += [f"{name} = exp({state})" for name, state in model.auxiliary.items()]
-    terms = rest.characteristic_terms(model) if whole and model.steady_state else []
+    terms = rest.characteristic_terms(model.frozen()) if whole and model.steady_state else []
     states = list(model.states)
     rest_at = model.near or model.steady_state or {}
     where = ", ".join(f"{state} = {value}" for state, value in rest_at.items())

@@ -91,7 +91,6 @@ def block(law: str = PAPER) -> dict:
             {"equations": of_a("lambda**a"), "parameters": {"lambda": {}}},
             r"'lambda\*\*a'; expected a power with a constant exponent",
         ),
-        ("a(t - w)", r"steady_state: 'a, w'; expected none where a delay depends on t or .*: w"),
         ("w - a'(t - 1)", "expected no slope y': an equation with one is neutral"),
         ("a(t - a(t - 1))", r"'a\(t - a.*; expected a\(t - DELAY\) with a delay >= 0"),
         ("a(t + 1)", r"'a\(t \+ 1\)'; expected a\(t - DELAY\)"),

@@ -218,6 +218,7 @@ def test_delays_that_move_are_of_scenes_alone(config):
         ("atlas", "planes"): {**PLANE, "model": "panto"},
         ("stability", "families"): {**at, "history": {"P": 1.0}, "t_end": 5.0, "reference": "none"},
         ("work_precision", "cases"): case,
+        ("cycles", "lines"): {**ALONG_N, "model": "panto", "N": 1},
     }
     for path, entry in added.items():
         section = config

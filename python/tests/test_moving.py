@@ -82,6 +82,24 @@ def test_goes_on_from_dense_output(own_past):
     assert run.y[0, -1] == pytest.approx(known, abs=1e-7)
 
 
+def test_roots_and_hopf_points_are_those_of_the_frozen_delay(cache):
+    """s = -a exp(-s T) (Cooke and Huang 1996), at s = i omega a T = pi/2; W(-1.6) of Lambert."""
+    model = dk.Model(
+        {"x": "-a*x(t - T - c*tanh(x))"}, {"a": 1.6, "T": 1, "c": 0.5}, steady_state={"x": 0}
+    )
+    known = 0.013113669474157886 + 1.579100653687886j
+    assert model.roots(-0.1)[:2] == pytest.approx([known, known.conjugate()], abs=1e-10)
+    found = model.hopf(("T", "a"), ((0.5, 2), (0.5, 3)))
+    first = found.sel(point=found.omega * found["T"] < 3)
+    assert first.point.size > 5
+    assert (first["T"] * first.a).values == pytest.approx(math.pi / 2, abs=1e-8)
+    assert np.isnan(found.l1).all()
+    with pytest.raises(dk.RunError, match="cycles: delays depend on t or the states"):
+        model.cycle({"x": 0.1}, along="a", window=(1.5, 2))
+    with pytest.raises(dk.ModelError, match="none where a delay is t/2"):
+        dk.Model({"x": "-x(t/2)"}, steady_state={"x": 0}, name="half").roots(-1)
+
+
 def test_scan(pantograph):
     found = pantograph.scan("final", a=[0.5, 0.7], history={"y": 1.0}, t_end=1.0, progress=False)
     assert not any(found.reason.values)
@@ -91,8 +109,8 @@ def test_scan(pantograph):
 @pytest.mark.parametrize(
     ("call", "words"),
     [
-        (lambda one: one.exponents(1.0), "expected constant delays"),
-        (lambda one: one.attractor(1.0), "expected constant delays"),
+        (lambda one: one.exponents(1.0), "expected constant ones"),
+        (lambda one: one.attractor(1.0), "expected constant ones"),
         (lambda one: one.hopf(("a", "b"), ((0, 1), (0, 1)), near={"y": 0}), "a delay depends on t"),
         (lambda one: one.roots(-1, near={"y": 0}), "a delay depends on t or the states"),
         (lambda one: one.run(1.0, 1.0, method="taylor"), "gives no Taylor series"),
@@ -117,7 +135,7 @@ def test_delays_that_are_none(cache, text, words):
 
 
 def test_options_that_need_constant_delays(cache):
-    for options in ({"steady_state": {"y": 0}}, {"fast": "y"}):
+    for options in ({"steady_state": {"near": {"y": 0}}}, {"fast": "y"}):
         with pytest.raises(dk.ModelError, match="none where a delay depends on t or the states"):
             dk.Model({"y": "-y(t - 1 - y**2)"}, name="fixed", **options).run(1.0, 1.0)
     with pytest.raises(dk.ModelError, match="none where no delay depends on t or the states"):

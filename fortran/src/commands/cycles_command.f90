@@ -99,6 +99,9 @@ contains
       if (allocated(error)) return
       call cycles%model%open(given%place, line%model, error, at_rest=.true., &
                              opened=given%model)
+      if (line%model%moving > 0 .and. .not. allocated(error)) then
+         call raise(error, "cycles: delays depend on t or the states; expected constant ones")
+      end if
       call given%read_histories(line%model, history, error)
       if (allocated(error)) return
       call check_choice(error, given%place, "along", cycles%along, line%model%names)

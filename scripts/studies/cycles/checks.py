@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from generator.ranges import range_of
-from scripts.config.checks import check_line, check_rest, window
+from scripts.config.checks import check_constant_delays, check_line, check_rest, window
 from scripts.models.models import block_parameters, model_of
 
 
@@ -15,6 +15,7 @@ def contradictions(config: dict) -> Iterator[str]:
         place, known = f"config cycles lines {name}", model_of(config, line).parameters
         yield from check_line(config, place, line)
         yield from check_rest(config, place, line)
+        yield from check_constant_delays(config, place, line)
         yield from check_curves(f"{place} curves", line.get("curves", {}), known)
 
 

@@ -40,6 +40,10 @@ contains
          linear%a(:, model%component(k), k + 1) = by_z(:, k)
       end do
       linear%lag = [0.0_wp, model%lag]
+      associate (constant => size(model%lag) - model%moving)
+         ! near rest a delay of the state is that at rest (Cooke and Huang 1996)
+         if (model%moving > 0) call model%moving_lags(0.0_wp, state, linear%lag(constant + 2:))
+      end associate
    end function linear_part
 
    !> The Jacobian as full matrices, also of a problem that gives it as a band.
