@@ -6,8 +6,8 @@ from matplotlib.patheffects import withStroke
 
 from scripts.drawing.style import INK
 
-SUBCRITICAL = (0, (3, 1.5))
-"""Dashes."""
+SUBCRITICAL, UNKNOWN = (0, (3, 1.5)), ":"
+"""Dashes; dots where the first Lyapunov coefficient is not known."""
 SCENE = {"ls": "", "marker": "o", "color": INK, "mfc": "white"}
 NEAR = 0.25
 """A scene this close at the right, as a share of the axis, sends a name above its dot."""
@@ -15,10 +15,11 @@ NEAR = 0.25
 
 def draw_piece(axes: Axes, x: np.ndarray, y: np.ndarray, l1: np.ndarray, colour: str) -> None:
     """One unbroken piece, dashed where the first Lyapunov coefficient is positive."""
-    ends = np.flatnonzero(np.diff(l1 > 0)) + 1
+    kinds = np.where(np.isnan(l1), 2, l1 > 0)
+    ends = np.flatnonzero(np.diff(kinds)) + 1
     for part in np.split(np.arange(x.size), ends):
         part = np.append(part, part[-1] + 1) if part[-1] + 1 < x.size else part
-        style = "-" if l1[part[0]] < 0 else SUBCRITICAL
+        style = ("-", SUBCRITICAL, UNKNOWN)[kinds[part[0]]]
         axes.plot(x[part], y[part], color=colour, ls=style)
 
 

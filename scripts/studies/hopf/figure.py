@@ -8,7 +8,7 @@ from matplotlib.colors import ListedColormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from scripts.drawing.hopf_plane import SCENE, SUBCRITICAL, draw_piece, mark_scenes
+from scripts.drawing.hopf_plane import SCENE, SUBCRITICAL, UNKNOWN, draw_piece, mark_scenes
 from scripts.drawing.parameters import axis_of, in_words, symbol_of
 from scripts.drawing.special_points import words_of
 from scripts.drawing.style import INK
@@ -49,7 +49,9 @@ def draw(curves: xr.Dataset, scenes: dict[str, dict[str, float]]) -> Figure:
     meanings = [curves[key].attrs.get("long_name", "") for key in along]
     x, y = (axis_of(*each, curves.attrs) for each in zip(along, meanings, strict=True))
     axes.set(xlabel=x, ylabel=y)
-    kinds = {"supercritical": "-", "subcritical": SUBCRITICAL} if ends else {}
+    unknown = np.isnan(curves.l1.values)
+    kinds = {"supercritical": "-", "subcritical": SUBCRITICAL} if (~unknown).any() else {}
+    kinds |= {"l1 unknown": UNKNOWN} if unknown.any() else {}
     handles = [Line2D([], [], color=INK, ls=ls, label=kind) for kind, ls in kinds.items()]
     marked = [Line2D([], [], label="scene", **SCENE)] if scenes else []
     bar = figure.colorbar(shades, ax=axes, label="unstable roots", location="bottom")
@@ -134,6 +136,7 @@ def numbers(curves: xr.Dataset, scenes: dict[str, dict]) -> dict:
         "branches": np.unique(curves.branch).size,
         "points": curves.sizes["point"],
         "subcritical": int((curves.l1 > 0).sum()),
+        "unknown": int(np.isnan(curves.l1).sum()),
         "stabilising": int((curves.crossing < 0).sum()),
         "stable": short(100 * float((curves.map_unstable_roots == 0).mean()), 3),
         "boundary": ends_of(boundary[along[0]]),

@@ -155,6 +155,23 @@ def test_plane_without_a_curve_has_a_figure_and_a_caption(smoke):
     assert "Lyapunov" not in caption
 
 
+def test_points_without_l1_are_of_no_kind(smoke):
+    """As where delays depend on the states: dots, and a sentence."""
+    curves = xr.load_dataset(smoke.folder / "results" / "hopf" / "tau_of_epsilon.nc")
+    whole = curves.assign(l1=np.nan * curves.l1)
+    figure = drawing.draw(whole, {})
+    drawn = {line.get_linestyle() for line in figure.axes[0].lines if len(line.get_xdata()) > 1}
+    words = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert drawn - {"None"} == {":"}
+    assert "l1 unknown" in words
+    assert "subcritical" not in words
+    plt.close(figure)
+    text = (studies.FOLDER / "hopf" / "caption.rst").read_text()
+    caption = render(text, [], paper=False, **drawing.numbers(whole, {}))
+    assert "supercritical at\n0 of" in caption
+    assert "this is not known (dotted lines)" in caption
+
+
 def test_numbers_of_a_plane():
     """Counts along the curves, the boundary, and special points with their places."""
     curves = hopf_curve()
