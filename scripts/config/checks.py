@@ -84,7 +84,7 @@ def check_smooth(config: dict, place: str, entry: dict) -> Iterator[str]:
 
 
 def check_constant_delays(config: dict, place: str, entry: dict) -> Iterator[str]:
-    """A model with delays that move, for which there are runs alone."""
+    """A model with delays that move, for which a study needs constant ones."""
     if delay := model_of(config, entry).moving_delay:
         yield f"{place}: model = {entry['law']!r}; expected constant delays, not {delay}"
 

@@ -49,9 +49,7 @@ contains
          why = text(run%options%most_steps)//" steps (most_steps) were used up"
          if (len(culprit) > 0) why = why//"; "
       case default
-         call find_not_finite(run, culprit)
-         why = "a value is not finite at every step length down to "//text(run%next%h)//": "
-         if (index(culprit, "expected") > 0) why = "a delay out of its range: "
+         call find_not_finite(run, why, culprit)
       end select
       call raise(error, "integrate: stopped at t = "//text(outcome%t)//" of "//text(run%t_end) &
                  //" after "//text(outcome%accepted)//" steps ("//text(outcome%rejected) &
@@ -97,15 +95,16 @@ contains
       end do
    end subroutine find_below_rounding
 
-   !> Which value is not finite in the step planned from here.
-   subroutine find_not_finite(run, words)
+   !> Which value is not finite, or which delay out of its range, in the step planned from here.
+   subroutine find_not_finite(run, why, words)
       type(run_type), intent(inout) :: run
-      character(len=:), allocatable, intent(out) :: words
+      character(len=:), allocatable, intent(out) :: why, words
       real(wp), allocatable :: slope(:), y(:), z(:, :)
       integer :: i, place
       real(wp) :: t
       logical :: good
 
+      why = "a value is not finite at every step length down to "//text(run%next%h)//": "
       y = run%step%y
       call run%context%go_to(run%now, run%next%h)
       associate (problem => run%context%problem, cursor => run%context%cursor, h => run%next%h)
@@ -115,7 +114,10 @@ contains
             t = run%now%hi + (place - 1)*h
             if (problem%moving > 0) then
                call find_bad_lag(run, t, y, words)
-               if (len(words) > 0) return
+               if (len(words) > 0) then
+                  why = "a delay out of its range: "
+                  return
+               end if
                call run%context%moving_values(t, y, z(:, place), good)
             end if
             do i = 1, size(problem%lag)
