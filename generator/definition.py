@@ -30,10 +30,11 @@ names of a definition."""
 KEYS = {
     *("name", "about", "kind", "source", "parameters", "states", "auxiliary", "definitions"),
     *("equations", "steady_state", "fast", "domain"),
-    *("event", "section", "integral", "coordinates", "longest_delay"),
+    *("event", "events", "section", "integral", "coordinates", "longest_delay"),
 }
 EVENT, SECTION = re.compile(r"(\w+) ?> ?(\S+)"), re.compile(r"(\w+) ?= ?(\S+)")
 """A signal above a level, and one at a level."""
+WHEN = re.compile(r"([^=<>]+)=([^=<>]+?)(?:\s+(rising|falling))?\s*")
 INTEGRAL = re.compile(r"(\w+)( ?\+ ?t)?")
 NUMBER = re.compile(r"-?\d+\.?\d*(e[+-]?\d+)?")
 TEXTS = ("fast", "event", "section", "integral", "longest_delay")
@@ -143,6 +144,7 @@ class _Reader:
                 f"equation of {state}", values["equations"][state], LONGEST_EQUATION
             )
             model.equations[state] = self.expression(f"equation of {state}", model.texts[state])
+        self.read_events(values["events"])
         self.expect_smooth("second_difference", ", ".join(model.differences))
         self.expect_constant("second_difference", ", ".join(model.differences))
         self.read_longest_delay(values.get("longest_delay"))
@@ -153,7 +155,8 @@ class _Reader:
                 model.equations[state] = limited(equation, model.variables)
             for place, one in enumerate(model.switches):
                 value = limited(one.value, model.variables)
-                model.switches[place] = replace(one, value=value)
+                new = {state: limited(x, model.variables) for state, x in one.changes.items()}
+                model.switches[place] = replace(one, value=value, changes=new)
 
     def refuse(self, what: str, value, expected: str):
         text = f"{self.place}: {what}: {value!r}; expected {expected}"
@@ -169,6 +172,34 @@ class _Reader:
         if value and (moving := self.model.moving):
             text = f"none where a delay depends on t or the states: {moving[0].lag}"
             self.refuse(what, value, text)
+
+    def read_events(self, entries: list[dict]) -> None:
+        """Where the state changes, and what it is then: all from the values before."""
+        model, found = self.model, {}
+        for entry in entries:
+            when = self.line("when of an event", entry["when"])
+            match = WHEN.fullmatch(when)
+            if not match or when in found:
+                self.refuse("when of an event", when, "LEFT = RIGHT, rising or falling, once")
+            left, right = (self.expression(f"event {when}", x.strip()) for x in match.groups()[:2])
+            value = left - right
+            if not value.free_symbols & model.variables:
+                self.refuse("when of an event", when, "an equation with t or the states")
+            if unknown := set(entry["set"]) - set(model.states):
+                expected = (
+                    f"states, {', '.join(model.states)}; one whose slope is 0 for a parameter"
+                )
+                self.refuse(f"set of event {when}", ", ".join(sorted(unknown)), expected)
+            changes = {
+                state: self.expression(f"event {when}: {state}", text)
+                for state, text in entry["set"].items()
+            }
+            symbol = sympy.Symbol(f"event_{len(found) + 1}", real=True)
+            direction = {"rising": 1, "falling": -1, None: 0}[match[3]]
+            new = ", ".join(f"{state} = {text}" for state, text in entry["set"].items())
+            said = self.line(f"event {when}", f"{when}: {new}")
+            found[when] = Switch(value, when, symbol, changes, direction, said)
+        model.switches += found.values()
 
     def read_longest_delay(self, text) -> None:
         """A bound of the delays that move, which stand last."""
@@ -220,14 +251,32 @@ class _Reader:
         said["coordinates"] = [
             in_words(str(name), safe) for name in values.get("coordinates") or ()
         ]
+        said["events"] = [
+            {
+                "when": in_words(str(one["when"]), safe),
+                "set": entries_in_words(one["set"], safe, safe),
+            }
+            for one in self.events(values.get("events"))
+        ]
         for key, section in values.items():
-            if isinstance(section, dict):
+            if isinstance(section, dict) and key != "events":
                 inside = {} if key in ("parameters", "states") else safe
                 said[key] = entries_in_words(section, safe, inside)
         if near := near_of(values):
             whole = {**values["steady_state"], "near": entries_in_words(near, safe, safe)}
             said["steady_state"] = whole
         return said
+
+    def events(self, entries) -> list[dict]:
+        """Entries of the shape that events have; a single one need not stand in a list."""
+        entries = [entries] if isinstance(entries, dict) else entries or []
+        for one in entries if isinstance(entries, list) else [entries]:
+            is_event = isinstance(one, dict) and set(one) == {"when", "set"}
+            if not is_event or not isinstance(one["set"], dict) or not one["set"]:
+                self.refuse(
+                    "events", one, "{when: 'v = 1 rising', set: {v: 0}}, or a list of these"
+                )
+        return entries
 
     def read_rest(self, values: dict) -> None:
         """What a definition may leave out."""

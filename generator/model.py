@@ -41,13 +41,19 @@ class Delayed:
 
 @dataclass(frozen=True)
 class Switch:
-    """A place where equations are not smooth: where an expression passes 0."""
+    """Where an expression passes 0, and equations are not smooth or the state changes."""
 
     value: sympy.Expr
     text: str
-    """The term as written."""
+    """The term, or the event, as written."""
     symbol: sympy.Symbol
     """1 where the expression is > 0, else 0."""
+    changes: dict[str, sympy.Expr] = field(default_factory=dict)
+    """Of an event, new values of states."""
+    direction: int = 0
+    """Of an event, 1 where the expression rises, -1 where it falls, 0 for both."""
+    said: str = ""
+    """Of an event, it and its changes as written."""
 
 
 @dataclass
@@ -98,6 +104,7 @@ class Model:
     differences: dict[str, sympy.Symbol] = field(default_factory=dict)
     """Second difference along the chain of each state of which the equations take one."""
     switches: list[Switch] = field(default_factory=list)
+    """Events stand last."""
     written: dict[str, str] = field(default_factory=dict)
     """Names of the definition by those that stand for them here and in the generated code."""
 
@@ -126,6 +133,11 @@ class Model:
     def moving(self) -> list[Delayed]:
         """Delayed states whose delay depends on t or the states."""
         return [one for one in self.delayed if one.moves]
+
+    @property
+    def events(self) -> list[Switch]:
+        """Switches at which the state changes."""
+        return [one for one in self.switches if one.changes]
 
     @property
     def sides(self) -> set[sympy.Symbol]:

@@ -78,6 +78,8 @@ def procedures(
         parts["tangent_series"] = tangent_series_procedure(model)
     if model.switches:
         parts["switching"] = pointwise.switching_procedure(model)
+    if model.events:
+        parts["act"] = pointwise.act_procedure(model)
     if balance:
         parts["relaxation_rate"] = pointwise.relaxation_procedure(model, balance)
         parts["slow_series"] = series_procedure(model, balance)
@@ -112,6 +114,7 @@ def description_lines(model: Model, exponents: list[str], whole: bool) -> list[s
     equations = [f"{state}' = {in_short(text)}" for state, text in model.texts.items()]
     equations += [f"{name} = {text}" for name, text in model.definitions.items()]
     equations += [f"{name} = exp({state})" for name, state in model.auxiliary.items()]
+    equations += [f"at {one.said}" for one in model.events]
     terms = rest.characteristic_terms(model.frozen()) if whole and model.steady_state else []
     states = list(model.states)
     rest_at = model.near or model.steady_state or {}
@@ -125,6 +128,7 @@ def description_lines(model: Model, exponents: list[str], whole: bool) -> list[s
         *(("coupling", str(row), str(column)) for row, column in couplings(model)),
         observed_line(model),
         *([("moving", str(len(model.moving)))] if model.moving else ()),
+        *([("acting", str(len(model.events)))] if model.events else ()),
         *([("driven",)] if any(one.has(TIME) for one in taken) else ()),
         ("name", model.name),
         ("kind", model.kind),

@@ -130,6 +130,20 @@ def switching_procedure(model: Model) -> Procedure:
     return of_all_blocks(model, "values", lines, [], guarded={})
 
 
+def act_procedure(model: Model) -> Procedure:
+    """The state after an event, all from the values before; no number where one has no value."""
+    at, lines = Address(model), []
+    for number, one in enumerate(model.events, 1):
+        way = {1: " .and. rises == 1", -1: " .and. rises == 0", 0: ""}[one.direction]
+        inside = [
+            "acts = 1",
+            *refusals(model, one.changes, guard_names(model), "y"),
+            *(f"{at.state('y', state=s)} = {text_of(value)}" for s, value in one.changes.items()),
+        ]
+        lines += [f"if (number == {number}{way}) then", *indented(inside), "end if"]
+    return of_all_blocks(model, "y", ["acts = 0", *lines], [], guarded={})
+
+
 def moving_procedure(model: Model) -> Procedure:
     """The delays that move, each no number where one has no value."""
     own = {place: one.lag for place, one in enumerate(model.moving, 1)}

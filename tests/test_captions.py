@@ -55,6 +55,17 @@ def test_captions_of_users_say_nothing_of_the_papers_claims(study):
         assert [call for call in calls if call not in allowed] == []
 
 
+def test_signal_of_a_users_model_is_not_that_of_the_block():
+    """One of the name v has a section and a steady state of its own."""
+    given = "end unsettled missed exponents lines roots si place motion section".split()
+    text = (studies.FOLDER / "scenes" / "caption.rst").read_text()
+    for state, level in (("steady sliding", "rises through 1;"), ("the steady state", "its level")):
+        words = {**dict.fromkeys(given, ""), "state": state, "signal": "v"}
+        caption = render(text, [], **words)
+        assert level in caption
+        assert ("a cross" in caption) == (state == "steady sliding")
+
+
 @pytest.mark.parametrize("text", ['{{ verdict("other") }}', "{{ other }}"])
 def test_claim_or_number_that_is_not_there_is_an_error(text):
     with pytest.raises(Exception, match="other"):

@@ -187,17 +187,23 @@ def test_sections_that_refuse_a_driven_model(config, path, entry, words):
     assert expected in str(refused.value)
 
 
-def test_exponents_and_classes_are_of_smooth_models(config):
+@pytest.mark.parametrize(
+    ("rough", "term"),
+    [
+        ({"equations": {"P": "-sign(P(t - 1))"}}, "sign(P(t - 1))"),
+        ({"equations": {"P": "1"}, "events": {"when": "P = 9", "set": {"P": 0}}}, "P = 9"),
+    ],
+)
+def test_exponents_and_classes_are_of_smooth_models(config, rough, term):
     """Read from the record of the first check, too."""
-    rough = {"parameters": {}, "states": {"P": ""}, "equations": {"P": "-sign(P(t - 1))"}}
-    config["models"] = {"rough": rough}
+    config["models"] = {"rough": {"parameters": {}, "states": {"P": ""}, **rough}}
     scene = {"model": "rough", "history": {"P": 1.0}, "t_end": 50.0, "exponents": {"count": 2}}
     config["scenes"]["mine"] = scene
     config["basins"]["places"]["mine"] = {"model": "rough", "histories": {"seed": 1, "P": [0, 1]}}
     for _ in range(2):
         with pytest.raises(ConfigError) as refused:
             checked(copy.deepcopy(config))
-        words = "model = 'rough'; expected a smooth model, without sign(P(t - 1))"
+        words = f"model = 'rough'; expected a smooth model, without {term}"
         assert f"scene 'mine' exponents: {words}" in str(refused.value)
         assert f"config basins places mine: {words}" in str(refused.value)
     del scene["exponents"], config["basins"]["places"]["mine"]

@@ -1,9 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The procedures of a compiled model.
 module model_code
-   use model_border, only: describe_line, expand, expand_tangents, find_delayed, find_exponents, &
-                           find_forms, find_jacobian, find_lags, find_rate, find_rhs, find_state, &
-                           list_terms
+   use model_border, only: change_state, describe_line, expand, expand_tangents, find_delayed, &
+                           find_exponents, find_forms, find_jacobian, find_lags, find_rate, &
+                           find_rhs, find_state, list_terms
    implicit none (type, external)
    private
    public :: code_type
@@ -14,6 +14,7 @@ module model_code
       procedure(find_rhs), pointer, nopass :: rhs => null()
       procedure(find_jacobian), pointer, nopass :: jacobian => null()
       procedure(find_exponents), pointer, nopass :: exponents => null(), switching => null()
+      procedure(change_state), pointer, nopass :: act => null()
       procedure(expand), pointer, nopass :: series => null(), slow_series => null()
       procedure(expand_tangents), pointer, nopass :: tangent_series => null(), &
                                                      slow_tangent_series => null()

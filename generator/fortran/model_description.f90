@@ -67,6 +67,8 @@ module model_description
       integer :: moving = 0
       !> Number of switches, where the equations are not smooth
       integer :: switches = 0
+      !> Number of these, the last, at which the state changes
+      integer :: acting = 0
       !> Equations of a chain with a second difference, and the states of which they take it, shape
       !> (2, couplings)
       integer, allocatable :: couplings(:, :)
@@ -134,6 +136,8 @@ contains
             description%sizes%observed = observed_of(words)
          case ("moving")
             read (words(2), *) description%sizes%moving
+         case ("acting")
+            read (words(2), *) description%sizes%acting
          case ("driven")
             description%sizes%driven = .true.
          case ("name")

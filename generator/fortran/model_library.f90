@@ -203,6 +203,7 @@ contains
       if (has(library, "switching")) then
          call c_f_procpointer(procedure_of(library, "switching"), code%switching)
       end if
+      if (has(library, "act")) call c_f_procpointer(procedure_of(library, "act"), code%act)
       if (has(library, "jacobian")) then
          call c_f_procpointer(procedure_of(library, "jacobian"), code%jacobian)
       end if

@@ -43,7 +43,7 @@ module model_problem
    contains
       procedure :: describe, set, put, number_of, states, is_chain
       procedure :: initial, history, past_series, rhs, jacobian, exponents, switching, take_sides
-      procedure :: name_of, series, tangent_series, relaxation_rate, slow_series
+      procedure :: act, name_of, series, tangent_series, relaxation_rate, slow_series
       procedure :: slow_tangent_series, moving_lags
       procedure :: delays, steady_state, derivative, characteristic_terms
    end type model_type
@@ -101,6 +101,7 @@ contains
       self%analytic_tangents = self%analytic
       self%numbers = parameters
       self%switches = self%sizes%switches
+      self%acting = self%sizes%acting
       self%moving = self%sizes%moving
       self%given = [parameters, (0.0_wp, k=1, self%switches)]
       call self%code%delayed(parameters, lag, component)
@@ -245,6 +246,21 @@ contains
 
       self%given(size(self%numbers) + 1:) = merge(1.0_wp, 0.0_wp, above)
    end subroutine take_sides
+
+   !> The state after an event.
+   pure subroutine act(self, number, rises, t, z, y, acts)
+      class(model_type), intent(in) :: self
+      integer, intent(in) :: number
+      logical, intent(in) :: rises
+      real(wp), intent(in) :: t, z(size(self%lag))
+      real(wp), intent(inout) :: y(self%n)
+      logical, intent(out) :: acts
+      integer(c_int) :: changes
+
+      call self%code%act(self%shape, self%given, self%place, self%left, self%right, t, z, number, &
+                         merge(1, 0, rises), y, changes)
+      acts = changes == 1
+   end subroutine act
 
    !> What the definition calls a value.
    function name_of(self, kind, number) result(name)

@@ -16,7 +16,7 @@ from delaykit.library import LIBRARY, address, open_object
 
 OPTIONS = {
     *("about", "kind", "source", "auxiliary", "definitions", "fast", "domain", "event", "section"),
-    *("integral", "coordinates", "steady_state", "longest_delay"),
+    *("integral", "coordinates", "steady_state", "longest_delay", "events"),
 }
 """Keys of a definition that may be given by name (generator/README.md explains them)."""
 MOST_DELAYED = 1 << 14
@@ -118,6 +118,12 @@ class Model:
         if sum(map(len, self.definition["equations"].values())) > LONG:
             other.extent = extent
         return other
+
+    @property
+    def own_events(self) -> int:
+        """How many events of its definition change the state."""
+        events = self.definition.get("events") or ()
+        return 1 if isinstance(events, Mapping) else len(events)
 
     @property
     def path(self) -> Path:

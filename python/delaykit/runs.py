@@ -38,9 +38,9 @@ class Solution:
     y: np.ndarray
     """States, shape (states, times), of a chain (blocks, states, times)"""
     t_events: list[np.ndarray]
-    """Times of each event"""
+    """Times of each event, then of each of the model's own, which change the state"""
     y_events: list[np.ndarray]
-    """States at each, shape (events, states)"""
+    """States at each, before they change, shape (events, states)"""
     status: int
     """0: reached the end; 1: an event ended the run"""
     counts: dict[str, int]
@@ -174,20 +174,17 @@ def solution_of(own: Arguments, found: Results, events: list[Event], before) -> 
     model, t = own.model, found.values("t")
     y = found.values("y").reshape(len(t), own.n).T
     counts = dict(zip(COUNTS, found.values("counts").astype(int).tolist(), strict=False))
-    t_events, y_events = [], []
-    if events:
-        which = found.values("event_which", np.int32)
-        times = found.values("event_time")
-        states = found.values("event_y").reshape(len(times), own.n)
-        t_events = [times[which == 1 + i] for i in range(len(events))]
-        y_events = [states[which == 1 + i] for i in range(len(events))]
+    numbers = range(1, 1 + len(events) + model.own_events)
+    which = found.values("event_which", np.int32)
+    times = found.values("event_time")
+    states = found.values("event_y").reshape(len(times), own.n)
     return Solution(
         model=model,
         numbers=own.numbers,
         t=t,
         y=y,
-        t_events=t_events,
-        y_events=y_events,
+        t_events=[times[which == i] for i in numbers],
+        y_events=[states[which == i] for i in numbers],
         status=counts.pop("status", -1),
         counts=counts,
         switches=switches_of(found) if counts.pop("switches", 0) else {},

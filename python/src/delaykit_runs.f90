@@ -206,11 +206,12 @@ contains
                             integers_at(request%event_direction, request%event_count), &
                             integers_at(request%event_terminal, request%event_count) /= 0, &
                             integers_at(request%event_of_slope, request%event_count) /= 0)
+      watcher%takes_acts = .true.
       from = request%t_start(1)
       do k = 1, request%dose_count + 1
          to = request%t_end
          if (k <= request%dose_count) to = doses(1, k)
-         if (request%event_count > 0) then
+         if (request%event_count + model%acting > 0) then
             call integrate(model, from, to, options, outcome, error, sampler, watcher, now)
          else
             call integrate(model, from, to, options, outcome, error, sampler, continuation=now)

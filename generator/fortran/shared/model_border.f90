@@ -3,8 +3,8 @@
 !> arrays. No type with procedures and no allocatable array crosses, so that the two may come from
 !> different compilers. A digest of this file is the first thing that a program asks of a model.
 !>
-!> A model gives these under the names `model_NAME`, of which `switching`, `moving_lags` and all
-!> from `relaxation_rate` on may be missing. Behind the parameters is, for each value of
+!> A model gives these under the names `model_NAME`, of which `switching`, `act`, `moving_lags` and
+!> all from `relaxation_rate` on may be missing. Behind the parameters is, for each value of
 !> `switching`, the side on which the equations are: 1 where it is > 0, else 0. Arrays are explained
 !> where `model_type` has them.
 module model_border
@@ -13,8 +13,8 @@ module model_border
    implicit none (type, external)
    private
    public :: copy_line, lanes, line_length, reciprocal, shape_type
-   public :: describe_line, expand, expand_tangents, find_delayed, find_exponents, find_forms, &
-             find_jacobian, find_lags, find_rate, find_rhs, find_state, list_terms
+   public :: change_state, describe_line, expand, expand_tangents, find_delayed, find_exponents, &
+             find_forms, find_jacobian, find_lags, find_rate, find_rhs, find_state, list_terms
 
    !> Disturbances computed at a time.
    integer, parameter :: lanes = 4
@@ -134,6 +134,21 @@ module model_border
          real(wp), intent(in) :: t, y(self%n), z(self%values)
          real(wp), intent(out) :: exponents(*)
       end subroutine find_exponents
+
+      !> The state after an event whose function rises (1) or falls (0) through zero, and whether it
+      !> changes.
+      pure subroutine change_state(self, parameters, place, left, right, t, z, number, rises, y, &
+                                   acts) bind(c)
+         import :: c_int, shape_type, wp
+         implicit none (type, external)
+         type(shape_type), intent(in) :: self
+         real(wp), intent(in) :: parameters(*)
+         integer(c_int), intent(in) :: place(*), left(*), right(*)
+         real(wp), intent(in) :: t, z(self%values)
+         integer(c_int), intent(in) :: number, rises
+         real(wp), intent(inout) :: y(self%n)
+         integer(c_int), intent(out) :: acts
+      end subroutine change_state
 
       !> Taylor coefficients of the solution, or better ones of the slow solution.
       pure subroutine expand(self, parameters, place, left, right, t, unit, degree, z, y) bind(c)

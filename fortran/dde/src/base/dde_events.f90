@@ -26,6 +26,9 @@ module dde_events
       !> Longest time between two looks at the functions, besides those that each step takes: for
       !> functions that change faster than the solution
       real(wp) :: look_every = huge(1.0_wp)
+      !> Whether changes of the state by the problem (`act`) are events, too, numbered in its order
+      !> behind the functions
+      logical :: takes_acts = .false.
    contains
       !> Components that the functions depend on, that one of them does, and that `take` needs at
       !> the events of one; reading less saves time
@@ -66,11 +69,11 @@ module dde_events
          import :: event_watcher_type, instant, wp
          implicit none (type, external)
          class(event_watcher_type), intent(inout) :: self
-         !> Number of the function
+         !> Number of the function, or behind these that of an act
          integer, intent(in) :: which
          !> Time of the event: t%hi, and t%lo beyond its last digit
          type(instant), intent(in) :: t
-         !> State there, of the components that `takes` names, shape (n)
+         !> State there, before it changes, of the components that `takes` names, shape (n)
          real(wp), intent(in) :: y(:)
          !> Time derivative of the state, of these components, shape (n)
          real(wp), intent(in) :: slope(:)

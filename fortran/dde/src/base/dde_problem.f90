@@ -11,7 +11,8 @@
 !> of delayed values, - for the method `taylor`: `series` and `past_series`, with `analytic` true, -
 !> for long Taylor steps where fast components are in balance: `relaxation_rate` and `slow_series`,
 !> - where f saturates: `exponents`, with their number in `exponentials`, - where f is not smooth:
-!> `switching` and `take_sides`, with the number of switching functions in `switches`.
+!> `switching` and `take_sides`, with the number of switching functions in `switches`, - where the
+!> state changes at zeros of such functions: `act`, with the number of these in `acting`.
 module dde_problem
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde_errors, only: text
@@ -49,6 +50,8 @@ module dde_problem
       logical :: delayed_exponents = .true.
       !> Number of switching functions: f is smooth while none of them passes zero
       integer :: switches = 0
+      !> Number of these, the last, at whose zeros the state may change
+      integer :: acting = 0
       !> Whether the extension gives `series` and `past_series`
       logical :: analytic = .false.
    contains
@@ -70,6 +73,8 @@ module dde_problem
       procedure :: switching => no_switching
       !> Go to other sides of the switching functions
       procedure :: take_sides => no_sides
+      !> Change the state where a switching function passes zero
+      procedure :: act => no_act
       !> What messages call a value of the problem
       procedure :: name_of => numbered
       !> Taylor series of the solution
@@ -206,6 +211,23 @@ contains
       !> Whether f is that where each function is > 0, shape (switches)
       logical, intent(in) :: above(:)
    end subroutine no_sides
+
+   !> Change the state where a switching function passes zero: a reset, a bounce. The solution jumps
+   !> there. Nothing changes unless the extension says so.
+   pure subroutine no_act(self, number, rises, t, z, y, acts)
+      class(dde_problem_type), intent(in) :: self
+      !> Which of the last `acting` functions, and whether it rises through zero or falls
+      integer, intent(in) :: number
+      logical, intent(in) :: rises
+      !> Time, and delayed values there
+      real(wp), intent(in) :: t, z(size(self%lag))
+      !> State before, then after it. Of functions that pass zero at one time the first acts first.
+      real(wp), intent(inout) :: y(self%n)
+      !> Whether the state changes where the function passes in this direction
+      logical, intent(out) :: acts
+
+      acts = .false.
+   end subroutine no_act
 
    !> What messages call a value: its kind and number, unless the extension names it.
    function numbered(self, kind, number) result(name)

@@ -26,6 +26,7 @@ module dde_sampler
       procedure :: check => check_wanted
       !> Receive the sample of time `next` and move `next` on
       procedure(take_sample), deferred :: take
+      procedure, non_overridable :: limit_next
    end type sampler_type
 
    abstract interface
@@ -57,6 +58,15 @@ module dde_sampler
    end interface table_sampler
 
 contains
+
+   !> Let the next sample follow a time by no more than the share of the step.
+   pure subroutine limit_next(self, time, step_size)
+      class(sampler_type), intent(inout) :: self
+      real(wp), intent(in) :: time, step_size
+
+      if (self%share_of_step >= huge(1.0_wp)) return
+      self%next = min(self%next, time + max(self%share_of_step*step_size, spacing(time)))
+   end subroutine limit_next
 
    !> Refuse components outside 1..n, and samples before the run.
    pure subroutine check_wanted(self, n, t_start, goes_on, error)

@@ -29,8 +29,7 @@ contains
          culprit = ""
          why = "interrupted"
       case (slides)
-         call name_slide(run, culprit)
-         why = "f pushes the solution back from both sides of "
+         call name_slide(run, why, culprit)
       case (out_of_memory)
          culprit = ""
          steps = run%context%past%newest - run%context%past%oldest + 1
@@ -56,14 +55,19 @@ contains
                  //" rejected): "//why//culprit)
    end subroutine explain
 
-   !> Along what the solution slides.
-   subroutine name_slide(run, words)
+   !> Along what the solution slides, or at what it jumps again and again.
+   subroutine name_slide(run, why, words)
       type(run_type), intent(in) :: run
-      character(len=:), allocatable, intent(out) :: words
+      character(len=:), allocatable, intent(out) :: why, words
 
+      why = "f pushes the solution back from both sides of "
       associate (problem => run%context%problem, slides => run%sides%slides)
          if (slides <= problem%switches) then
             words = "the zero of "//problem%name_of("switching", slides)
+            if (slides > problem%switches - problem%acting) then
+               why = "events follow each other without end: "
+               words = problem%name_of("switching", slides)
+            end if
             return
          end if
          associate (k => size(problem%lag) - problem%moving + (slides - problem%switches + 1)/2)

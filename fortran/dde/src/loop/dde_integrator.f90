@@ -193,6 +193,7 @@ contains
       if (ended) then
          call run%arrive()
          run%step%y = run%search%event%y
+         if (any(run%sides%passed)) call run%change_sides()
          outcome%reason = event_met
          return
       end if

@@ -39,7 +39,7 @@ contains
       value = size(run%context%past%kept) > 0 .or. associated(run%watcher) &
               .or. size(run%sides%above) > 0
       if (.not. associated(run%sampler)) return
-      call limit_next(run%sampler, run%now%hi, run%next%h)
+      call run%sampler%limit_next(run%now%hi, run%next%h)
       value = value .or. sample_is_due(run%sampler, run%next%finish)
    end function is_read
 
@@ -58,7 +58,7 @@ contains
       type(run_type), intent(inout) :: run
       !> Whether an event ends the run
       logical, intent(out) :: ended
-      real(wp) :: share
+      real(wp) :: last, share
 
       ended = .false.
       share = 1.0_wp
@@ -67,17 +67,27 @@ contains
             share = run%sides%share
             step_end = run%sides%finish
          end if
-         if (associated(run%watcher) .and. share > 0.0_wp) then
-            call run%search%search_step(run%watcher, run%step, run%now, step_end, share, ended)
-            if (ended) run%sides%passed = .false.
+         if (associated(run%watcher) .and. share + run%sides%margin > 0.0_wp) then
+            call run%search%search_step(run%watcher, run%step, run%now, step_end, share, &
+                                        run%sides%margin/run%step%h, ended)
+            ! an event that changes the state there does so yet
+            if (ended .and. (share < run%sides%share .or. .not. run%sides%margin > 0.0_wp)) then
+               run%sides%passed = .false.
+            end if
          end if
          if (any(run%sides%passed)) then
             landing = landing .and. .not. elapsed(step_end, run%points%at(run%next%goal)) > 0.0_wp
          end if
          landing = landing .and. .not. ended
          if (associated(run%sampler)) then
+            last = -huge(1.0_wp)
+            if (run%sides%margin > 0.0_wp) then
+               ! the state may jump there: a sample just before it
+               last = step_end%hi - 2.0_wp*spacing(step_end%hi)
+               call run%sampler%limit_next(last, 0.0_wp)
+            end if
             if (sample_is_due(run%sampler, step_end)) then
-               call sample(run%sampler, run%step, run%now, step_end)
+               call sample(run%sampler, run%step, run%now, step_end, last)
             end if
          end if
          if (size(run%context%past%kept) > 0 .and. share > 0.0_wp) then
@@ -117,12 +127,14 @@ contains
    end subroutine remember
 
    !> The samples that lie in an accepted step.
-   subroutine sample(sampler, step, start, step_end)
+   subroutine sample(sampler, step, start, step_end, last)
       class(sampler_type), intent(inout) :: sampler
       class(step_type), intent(in) :: step
       type(instant), intent(in) :: start
       !> Where the run stands after it
       type(instant), intent(in) :: step_end
+      !> A sampler that follows the steps takes one behind this time
+      real(wp), intent(in) :: last
       real(wp) :: s, slope, time
       integer :: degree, i
 
@@ -142,16 +154,8 @@ contains
                               slope)
          end do
          call sampler%take(sampler%values_here)
-         call limit_next(sampler, time, step%h)
+         call sampler%limit_next(time, step%h)
+         if (time < last) call sampler%limit_next(last, 0.0_wp)
       end do
    end subroutine sample
-
-   !> Let the next sample follow a time by no more than the sampler's share of the step.
-   pure subroutine limit_next(sampler, time, step_size)
-      class(sampler_type), intent(inout) :: sampler
-      real(wp), intent(in) :: time, step_size
-
-      if (sampler%share_of_step >= huge(1.0_wp)) return
-      sampler%next = min(sampler%next, time + max(sampler%share_of_step*step_size, spacing(time)))
-   end subroutine limit_next
 end module dde_output

@@ -229,9 +229,30 @@ contains
       call self%context%go_to(self%now, min(self%step%h, self%context%problem%shortest_lag()))
       call self%sides%change(self%context, self%step%y)
       call add_piece(self, self%sides%kink)
+      if (any(self%sides%acted)) then
+         call tell_acts(self)
+         call self%context%tolerance%take_in(self%step%y)
+         ! one sample was taken before the jump
+         if (associated(self%sampler)) call self%sampler%limit_next(self%now%hi, 0.0_wp)
+      end if
       call self%prepare_start()
-      call self%points%add(self%sides%kink)
+      if (self%sides%kink%passages < huge(1)) call self%points%add(self%sides%kink)
    end subroutine change_sides
+
+   !> Tell the watcher which events changed the state, if it wants to know.
+   subroutine tell_acts(self)
+      type(run_type), intent(inout) :: self
+      integer :: i
+
+      if (.not. associated(self%watcher)) return
+      associate (watcher => self%watcher, problem => self%context%problem, sides => self%sides)
+         if (.not. watcher%takes_acts) return
+         do i = 1, problem%acting
+            if (.not. sides%acted(problem%switches - problem%acting + i)) cycle
+            call watcher%take(size(watcher%direction) + i, self%now, sides%y, self%step%slope)
+         end do
+      end associate
+   end subroutine tell_acts
 
    !> Go to the end of an accepted step.
    pure subroutine arrive(self)

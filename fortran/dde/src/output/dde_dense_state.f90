@@ -106,7 +106,7 @@ contains
 
       self%t = later(self%start, place*self%h)
       ! at the end of the step time and state are those of the next start, without rounding
-      if (.not. place < 1.0_wp) self%t = self%finish
+      if (.not. abs(place - 1.0_wp) > 0.0_wp) self%t = self%finish
       if (present(only)) then
          call place_components(self, place, only)
       else
@@ -126,7 +126,7 @@ contains
          i = components(k)
          j = self%row(i)
          call newton_state(self%nodes, self%coefficients(:, j), place, self%y(i), slope)
-         if (.not. place < 1.0_wp) self%y(i) = self%y_end(j)
+         if (.not. abs(place - 1.0_wp) > 0.0_wp) self%y(i) = self%y_end(j)
          if (self%straight(j)) slope = (1.0_wp - place)*self%ends(1, j) + place*self%ends(2, j)
          self%slope(i) = slope/self%h
       end do

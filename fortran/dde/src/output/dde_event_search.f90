@@ -63,7 +63,7 @@ contains
 
    !> Report the events of an accepted step, up to a share of it, to the watcher. On return the
    !> search is there, or at the event that ends the run.
-   subroutine search_step(self, watcher, step, start, step_end, share, ended)
+   subroutine search_step(self, watcher, step, start, step_end, share, beyond, ended)
       class(event_search), intent(inout) :: self
       class(event_watcher_type), intent(inout) :: watcher
       class(step_type), intent(in) :: step
@@ -72,6 +72,8 @@ contains
       type(instant), intent(inout) :: step_end
       !> Share of the step up to there, 0..1
       real(wp), intent(inout) :: share
+      !> Share beyond it in which functions pass zero that would there but for rounding
+      real(wp), intent(in) :: beyond
       logical, intent(out) :: ended
       integer, allocatable :: which(:)
       real(wp), allocatable :: grid(:, :), root(:)
@@ -79,8 +81,8 @@ contains
 
       call self%here%take_up(step, start, step_end)
       ended = .false.
-      self%reach = share
-      if (share < 1.0_wp) call self%here%go_to(share)
+      self%reach = share + beyond
+      if (share < 1.0_wp .or. beyond > 0.0_wp) call self%here%go_to(self%reach)
       call watcher%values(self%here%t%hi, self%here%y, self%here%slope, self%g)
       if (self%stays(watcher)) return
       call self%fill_grid(watcher, grid)
@@ -90,6 +92,11 @@ contains
       do i = 1, size(self%g)
          call self%find_passages(watcher, i, grid(:, i), root, which, found)
       end do
+      if (beyond > 0.0_wp) then
+         ! these are at zero there, and on no side
+         self%side(pack(which(:found), root(:found) >= share - beyond)) = 0
+         where (root(:found) >= share - beyond) root(:found) = share
+      end if
       if (found > 0) then
          call self%event%take_up(step, start, step_end)
          call self%report(watcher, root(:found), which(:found), share)

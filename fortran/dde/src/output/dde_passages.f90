@@ -23,6 +23,8 @@ module dde_passages
       logical, allocatable :: above(:), passed(:)
       !> Size up to which each function may be beyond zero by rounding, shape (functions)
       real(wp), allocatable :: slack(:)
+      !> What is added to each: how far beyond zero it was where the state changed last
+      real(wp), allocatable :: shift(:)
    contains
       procedure :: values, take
    end type passages_type
@@ -30,9 +32,11 @@ module dde_passages
 contains
 
    !> The functions over a step.
-   function new_passages(above, own, context, step) result(passages)
-      !> The sides at the start of the step, and the number of functions that are the problem's own
+   function new_passages(above, beyond, own, context, step) result(passages)
+      !> The sides at the start of the step, and how far beyond zero functions are by rounding where
+      !> the state changed; the number of functions that are the problem's own
       logical, intent(in) :: above(:)
+      real(wp), intent(in) :: beyond(:)
       integer, intent(in) :: own
       type(step_context), intent(in), target :: context
       class(step_type), intent(in), target :: step
@@ -43,9 +47,12 @@ contains
       passages%step => step
       passages%above = above
       allocate (passages%passed(size(above)), source=.false.)
-      allocate (passages%slack(size(above)), source=0.0_wp)
+      allocate (passages%slack(size(above)), passages%shift(size(above)), source=0.0_wp)
       ! where the last step ended at a zero
       call passages%values(step%t, step%y, step%slope, g)
+      passages%shift = merge(sign(beyond, merge(1.0_wp, -1.0_wp, above)), 0.0_wp, &
+                             above .neqv. g > 0.0_wp)
+      g = g + passages%shift
       passages%slack = merge(2.0_wp*abs(g), 0.0_wp, above .neqv. g > 0.0_wp)
       if (size(g) == own) return
       ! t - lag is rounded
@@ -104,6 +111,7 @@ contains
          call find_functions(context, at%inside(t), place, y, z(:, 1), g)
       end associate
       where (ieee_is_nan(g)) g = 0.0_wp
+      g = g + self%shift
       where ((self%above .neqv. g > 0.0_wp) .and. .not. abs(g) > self%slack)
          g = merge(tiny(g), -tiny(g), self%above)
       end where

@@ -9,6 +9,7 @@ module dde_sides
    use dde_event_search, only: event_search
    use dde_kink, only: kink_type
    use dde_passages, only: find_functions, new_passages, passages_type, rounding
+   use dde_problem, only: dde_problem_type
    use dde_step, only: step_type
    use dde_step_context, only: step_context
    use dde_time, only: elapsed, instant
@@ -34,6 +35,10 @@ module dde_sides
    !> most.
    real(wp), parameter :: least_part = 1.0e-9_wp
    integer, parameter :: most_times = 8
+   !> So many changes of the state by one function within so many spacings of times have no end: a
+   !> bouncing ball comes to rest.
+   integer, parameter :: most_repeats = 10
+   real(wp), parameter :: crowd = 1.0e7_wp
    !> Least rate at which a solution is pushed back, over that at which it came.
    real(wp), parameter :: least_push = 1.0e-6_wp
 
@@ -48,11 +53,21 @@ module dde_sides
       !> The end of the step, and its share up to there
       type(instant) :: finish
       real(wp) :: share = 1.0_wp
+      !> Time beyond it in which functions pass zero that would there but for rounding, where the
+      !> state may jump
+      real(wp) :: margin = 0.0_wp
       !> Functions that pass zero there, and the state
       logical, allocatable :: passed(:)
       real(wp), allocatable :: y(:)
       !> The kink of the solution there
       type(kink_type) :: kink
+      !> Functions at whose zeros the state changed there
+      logical, allocatable :: acted(:)
+      !> When each that changes the state began to do so again and again, and how often it did since
+      type(instant), allocatable, private :: first(:)
+      integer, allocatable, private :: repeats(:)
+      !> How far beyond zero each was there, if it went back, shape (functions)
+      real(wp), allocatable, private :: beyond(:)
       !> Number of the function along whose zero the solution slides; 0 if it does not
       integer :: slides = 0
       !> Functions that should pass zero at the end of a step that is made again
@@ -79,10 +94,15 @@ contains
       integer, intent(in) :: switches
       real(wp), dimension(switches + 2*context%problem%moving) :: g, rate
       real(wp) :: lag(context%problem%moving)
+      logical :: acts(switches)
       integer :: j, k
 
       associate (functions => size(g), moving => size(lag), cursor => context%cursor)
-         allocate (self%above(functions), self%passed(functions), source=.false.)
+         allocate (self%above(functions), self%passed(functions), self%acted(functions), &
+                   source=.false.)
+         allocate (self%beyond(functions), source=0.0_wp)
+         allocate (self%repeats(functions), source=0)
+         allocate (self%first(functions), source=cursor%start)
          allocate (self%changes(switches), source=0_int64)
          self%own = switches
          if (moving > 0) then
@@ -94,12 +114,13 @@ contains
          end if
       end associate
       if (switches == 0) return
+      acts = pack(acting(self, context%problem), [(k <= switches, k=1, size(g))])
       ! a function may depend on the sides of those before it
       do k = 0, switches
          call find_rates(context, y, ahead_of_start, g, rate)
          associate (own => self%above(:switches))
             own = g(:switches) > 0.0_wp &
-                  .or. .not. abs(g(:switches)) > 0.0_wp .and. rate(:switches) > 0.0_wp
+                  .or. .not. abs(g(:switches)) > 0.0_wp .and. goes_up(rate(:switches), acts)
             call context%problem%take_sides(own)
          end associate
       end do
@@ -125,7 +146,7 @@ contains
       self%quiet = .false.
       if (self%own == 0) self%quiet = .not. context%cursor%is_near_kink(context%past)
       if (self%quiet) return
-      passages = new_passages(self%above, self%own, context, step)
+      passages = new_passages(self%above, self%beyond, self%own, context, step)
       noise = merge(0.0_wp, passages%slack, [(i, i=1, size(noise))] <= self%own)
       between = reshape([(functions_at(odd(i)), i=1, size(odd))], shape(between))
       stride = most_places/least_places
@@ -218,6 +239,7 @@ contains
       type(event_search) :: search
       real(wp) :: beside
       real(wp), dimension(size(self%above)) :: g, g_end
+      real(wp) :: y(size(step%y))
       logical :: ended, repeated
 
       repeated = again
@@ -227,12 +249,12 @@ contains
       self%share = 1.0_wp
       self%finish = whole
       if (.not. self%quiet) then
-         passages = new_passages(self%above, self%own, context, step)
+         passages = new_passages(self%above, self%beyond, self%own, context, step)
          passages%look_every = step%h/self%places
          allocate (passages%direction(size(self%above)), source=0)
          allocate (passages%terminal(size(self%above)), source=.true.)
          call search%begin(passages, start, step%y, step%slope, merge(1, -1, self%above))
-         call search%search_step(passages, step, start, self%finish, self%share, ended)
+         call search%search_step(passages, step, start, self%finish, self%share, 0.0_wp, ended)
          if (ended) then
             self%passed = passages%passed
             self%y = search%event%y
@@ -258,6 +280,15 @@ contains
          self%due = self%passed
          self%due(:self%own) = .false.
       end if
+      self%margin = 0.0_wp
+      if (context%problem%acting > 0) then
+         associate (acts => acting(self, context%problem))
+            call step%state_at(self%share + beside/step%h, y)
+            call passages%values(step%t + self%share*step%h + beside, y, step%slope, g)
+            self%passed = self%passed .or. acts .and. (self%above .neqv. g > 0.0_wp)
+            if (any(self%passed .and. acts)) self%margin = beside
+         end associate
+      end if
       if (.not. self%share < 1.0_wp) then
          self%finish = whole
          if (any(self%passed)) self%y = step%y_new
@@ -265,26 +296,49 @@ contains
       self%idle = merge(0, self%idle + 1, self%share > 0.0_wp)
    end subroutine find_end
 
+   !> Whether the state may change at zeros of each function.
+   pure function acting(self, problem) result(values)
+      class(sides_type), intent(in) :: self
+      class(dde_problem_type), intent(in) :: problem
+      logical :: values(size(self%above))
+
+      values = .false.
+      values(self%own - problem%acting + 1:self%own) = .true.
+   end function acting
+
+   !> Whether a function goes above its zero. One that acts and stays there has passed it.
+   elemental logical function goes_up(rate, acts) result(value)
+      real(wp), intent(in) :: rate
+      logical, intent(in) :: acts
+
+      value = rate > 0.0_wp .or. acts .and. rate >= 0.0_wp
+   end function goes_up
+
    !> Go to the other side of the functions that passed zero where the step ended, and to the next
-   !> pieces of the past.
+   !> pieces of the past. Where the state changes, the side is that of the new state.
    subroutine change(self, context, y)
       class(sides_type), intent(inout) :: self
       !> The context, there
       type(step_context), intent(inout) :: context
-      real(wp), intent(in) :: y(:)
+      real(wp), intent(inout) :: y(:)
       real(wp), dimension(size(self%above)) :: g, g_before, before, after
-      logical, dimension(size(self%above)) :: back, changed
+      logical, dimension(size(self%above)) :: acts, back, changed
       integer :: k
 
       call find_rates(context, y, ahead, g_before, before)
+      acts = acting(self, context%problem)
       self%kink = kink_type(context%cursor%start)
-      if (.not. any(self%passed(:self%own))) self%kink%passages = huge(1)
+      if (.not. any(self%passed(:self%own) .and. .not. acts(:self%own))) then
+         self%kink%passages = huge(1)
+      end if
       call change_pieces(self, context)
+      self%acted = .false.
+      if (any(self%passed .and. acts)) call act(self, context, y)
       changed = self%passed
       changed(self%own + 1:) = .false.
       do k = 1, size(self%above)
          self%above = self%above .neqv. changed
-         self%changes = self%changes + merge(1, 0, changed(:self%own))
+         self%changes = self%changes + merge(1, 0, changed(:self%own) .and. .not. acts(:self%own))
          call context%problem%take_sides(self%above(:self%own))
          call find_rates(context, y, ahead, g, after)
          ! a function that depends on a side may jump beyond zero
@@ -293,16 +347,58 @@ contains
          changed(self%own + 1:) = .false.
          if (.not. any(changed)) exit
       end do
+      if (any(self%acted)) then
+         self%changes = self%changes + merge(1, 0, self%acted(:self%own))
+         ! a bounce leaves the function at its zero
+         where (self%acted)
+            self%above = merge(goes_up(after, acts), g > 0.0_wp, abs(g) <= abs(g_before))
+            self%beyond = merge(abs(g), 0.0_wp, self%above .neqv. g > 0.0_wp)
+         end where
+         call context%problem%take_sides(self%above(:self%own))
+         do k = 1, self%own
+            if (.not. self%acted(k)) cycle
+            self%repeats(k) = self%repeats(k) + 1
+            associate (now => context%cursor%start)
+               if (elapsed(self%first(k), now) <= crowd*spacing(now%hi)) cycle
+               self%first(k) = now
+            end associate
+            self%repeats(k) = 0
+         end do
+      end if
       ! an end of a piece is then the other end of the next
       after(self%own + 1:) = [(after(k + 1), after(k), k=self%own + 1, size(after), 2)]
       ! beyond it t - lag is on the other side of the function
       associate (on => [merge(1.0_wp, -1.0_wp, self%above(:self%own)), &
                         merge(-1.0_wp, 1.0_wp, self%above(self%own + 1:))])
-         back = self%passed .and. on*before > 0.0_wp .and. on*after < -least_push*abs(before)
+         back = self%passed .and. .not. acts .and. on*before > 0.0_wp &
+                .and. on*after < -least_push*abs(before)
          if (self%idle > size(self%above)) back = self%passed
+         back = back .or. self%repeats >= most_repeats
       end associate
       self%slides = findloc(back, .true., dim=1)
    end subroutine change
+
+   !> Let the functions that passed zero change the state, in their order.
+   pure subroutine act(self, context, y)
+      type(sides_type), intent(inout) :: self
+      !> The context, there
+      type(step_context), intent(inout) :: context
+      real(wp), intent(inout) :: y(:)
+      real(wp) :: slope(size(y)), z(size(context%problem%lag), 1)
+      integer :: i
+
+      associate (problem => context%problem, t => context%cursor%inside(context%cursor%t))
+         call context%delayed_values([0.0_wp], z)
+         ! sets those of delays that move
+         call context%evaluate(t, y, z(:, 1), slope)
+         do i = self%own - problem%acting + 1, self%own
+            if (.not. self%passed(i)) cycle
+            call problem%act(i - self%own + problem%acting, .not. self%above(i), t, z(:, 1), y, &
+                             self%acted(i))
+         end do
+      end associate
+      if (any(self%acted)) self%kink%passages = -1
+   end subroutine act
 
    !> Whether a delay that moves meets a kink at the end of the step.
    pure logical function meets_kink(self) result(value)

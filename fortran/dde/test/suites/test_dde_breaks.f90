@@ -35,7 +35,8 @@ contains
                    new_unittest("many doses", test_doses), &
                    new_unittest("many delays", test_many_delays), &
                    new_unittest("a relay that goes on from an event", test_relay), &
-                   new_unittest("dry friction", test_friction)]
+                   new_unittest("dry friction", test_friction), &
+                   new_unittest("events that change the state", test_acts)]
    end subroutine collect_dde_breaks
 
    !> A method of order 8 needs a continuous eighth derivative: a kink is landed on 7 times, a jump
@@ -269,6 +270,43 @@ contains
          call expect_close(error, outcome%y, [-0.25_wp], 1.0e-12_wp, methods(i)//" continued")
       end do
    end subroutine test_relay
+
+   !> Events that change the state: after five bounces, each half as fast, a delayed velocity has
+   !> followed; after ten resets a delayed state; two at one time but for rounding keep their order.
+   !> A ball that bounces faster and faster, and a relay without a delay, cannot go on.
+   subroutine test_acts(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_options) :: options
+      type(integration_result) :: outcome
+      real(wp), parameter :: period = log(2.0_wp), late = 10.4_wp*period - 0.5_wp
+      real(wp) :: since
+      integer :: i
+
+      do i = 1, size(methods)
+         options = at_tolerance(1.0e-9_wp, methods(i))
+         call run(error, sided("ball"), 0.0_wp, 2.9_wp, options, outcome)
+         call expect(error, outcome%switched(1) == 5, methods(i)//" bounces 5 times")
+         call expect_close(error, outcome%y, [0.025_wp/32 - 0.025_wp**2/2, 1.0_wp/32 - 0.025_wp, &
+                                              0.15_wp/8 - 0.15_wp**2/2 - 0.5_wp], 1.0e-8_wp, &
+                           methods(i)//" bounces")
+         call integrate(sided("ball"), 0.0_wp, 4.0_wp, options, outcome, failure)
+         call expect_failure(error, failure, "events follow each other without end: switching(")
+         call expect_close(error, outcome%t, 3.0_wp, 1.0e-7_wp, methods(i)//" comes to rest")
+         call run(error, sided("neuron"), 0.0_wp, 10.4_wp*period, options, outcome)
+         call expect(error, outcome%switched(1) == 10, methods(i)//" fires 10 times")
+         since = late - 9.0_wp*period
+         call expect_close(error, outcome%y, [2.0_wp - 2.0_wp*exp(-0.4_wp*period), &
+                                              9.0_wp*(2.0_wp*period - 1.0_wp) + 2.0_wp*since &
+                                              - 2.0_wp*(1.0_wp - exp(-since))], 1.0e-7_wp, &
+                           methods(i)//" is reset")
+         call run(error, sided("order"), 0.0_wp, 1.0_wp, options, outcome)
+         call expect_close(error, outcome%y, [1.0_wp, 4.0_wp], 1.0e-12_wp, methods(i)//" in order")
+         call integrate(sided("chatter"), 0.0_wp, 2.0_wp, options, outcome, failure)
+         call expect_failure(error, failure, "events follow each other without end: switching(")
+         call expect_close(error, outcome%t, 1.0_wp, 1.0e-12_wp, methods(i)//" chatters")
+      end do
+   end subroutine test_acts
 
    !> Two oscillators change sides at one time, and stay at rest after five half periods.
    subroutine test_friction(error)

@@ -18,7 +18,7 @@ module piecewise_problems
       !> -1 or 1 for each of them
       real(wp), allocatable :: side(:)
    contains
-      procedure :: rhs, switching, take_sides
+      procedure :: rhs, switching, take_sides, act
    end type sided
 
    interface sided
@@ -75,7 +75,10 @@ contains
 
    !> relay: y' = -sign(y(t - 1)), from 1 a triangle of period 4. pulses: y' = 1 where sin(40 t) >
    !> 0, else 0. friction: twice y1' = y2, y2' = -y1 - sign(y2)/10 (Coulomb): each half period takes
-   !> 1/5 of the amplitude, and it stays at rest where |y1| <= 1/10.
+   !> 1/5 of the amplitude, and it stays at rest where |y1| <= 1/10. ball: y1' = y2, y2' = -1, y3' =
+   !> y2(t - 1/4), and y2 becomes -y2/2 where y1 falls to 0, at 3 - 2, 3 - 1, 3 - 1/2 and so on.
+   !> neuron: y1' = 2 - y1, 0 again at 1, after log 2, and y2' = y1(t - 1/2). order: y1' = 1, and at
+   !> 1/3 y2 grows by 1, then is doubled. chatter: y1' = y2, -1 where y1 rises to 0, else 1.
    type(sided) function new_sided(kind) result(problem)
       character(len=*), intent(in) :: kind
 
@@ -85,10 +88,20 @@ contains
          call fill(problem, 1, [1.0_wp], [1.0_wp], [1.0_wp], [1])
       case ("pulses")
          call fill(problem, 1, first=[0.0_wp])
+      case ("ball")
+         call fill(problem, 3, [0.5_wp, 0.0_wp, 0.0_wp], [0.5_wp, 0.0_wp, 0.0_wp], [0.25_wp], [2])
+         problem%acting = 1
+      case ("neuron")
+         call fill(problem, 2, [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp], [0.5_wp], [1])
+         problem%acting = 1
+      case ("order", "chatter")
+         call fill(problem, 2, first=[merge(0.0_wp, -1.0_wp, kind == "order"), 1.0_wp])
+         problem%acting = 2
       case default
          call fill(problem, 4, first=[1.0_wp, 0.0_wp, 1.0_wp, 0.0_wp])
       end select
       problem%switches = (problem%n + 1)/2
+      if (problem%acting > 0) problem%switches = problem%acting
       allocate (problem%side(problem%switches), source=0.0_wp)
    end function new_sided
 
@@ -177,6 +190,12 @@ contains
          dydt = -self%side
       case ("pulses")
          dydt = 0.5_wp*(1.0_wp + self%side)
+      case ("ball")
+         dydt = [y(2), -1.0_wp, z(1)]
+      case ("neuron")
+         dydt = [2.0_wp - y(1), z(1)]
+      case ("order", "chatter")
+         dydt = [merge(1.0_wp, y(2), self%kind == "order"), 0.0_wp]
       case default
          dydt(1::2) = y(2::2)
          dydt(2::2) = -y(1::2) - 0.1_wp*self%side
@@ -191,7 +210,26 @@ contains
       if (self%kind == "relay") values = z
       if (self%kind == "pulses") values = sin(40.0_wp*t)
       if (self%kind == "friction") values = y(2::2)
+      if (self%kind == "ball" .or. self%kind == "chatter") values = y(1)
+      if (self%kind == "neuron") values = y(1) - 1.0_wp
+      if (self%kind == "order") values = [y(1) - 1.0_wp/3.0_wp, 3.0_wp*y(1) - 1.0_wp]
    end subroutine switching
+
+   pure subroutine act(self, number, rises, t, z, y, acts)
+      class(sided), intent(in) :: self
+      integer, intent(in) :: number
+      logical, intent(in) :: rises
+      real(wp), intent(in) :: t, z(size(self%lag))
+      real(wp), intent(inout) :: y(self%n)
+      logical, intent(out) :: acts
+
+      acts = rises .neqv. (self%kind == "ball" .or. self%kind == "chatter" .and. number == 2)
+      if (.not. acts) return
+      if (self%kind == "ball") y(2) = -0.5_wp*y(2)
+      if (self%kind == "neuron") y(1) = 0.0_wp
+      if (self%kind == "order") y(2) = merge(y(2) + 1.0_wp, 2.0_wp*y(2), number == 1)
+      if (self%kind == "chatter") y(2) = merge(-1.0_wp, 1.0_wp, number == 1)
+   end subroutine act
 
    pure subroutine take_sides(self, above)
       class(sided), intent(inout) :: self
