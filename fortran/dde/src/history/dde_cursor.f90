@@ -300,20 +300,22 @@ contains
    end subroutine read_piece
 
    !> Whether a delay that moves came near an end of the piece that it reads: nearer than the range
-   !> of times that it read in the step.
+   !> of times that it read in the step. One that stays where the piece begins must be before it by
+   !> more than rounding.
    pure logical function is_near_kink(self, past) result(value)
       class(cursor_type), intent(in) :: self
       type(history_type), intent(in) :: past
-      real(wp) :: range
+      real(wp) :: range, rounding
       integer :: j
 
       value = .false.
+      rounding = spacings*spacing(abs(self%t) + self%h)
       associate (pieces => past%pieces)
          do j = 1, size(pieces%begin)
             range = self%read(2, j) - self%read(1, j)
             associate (begin => pieces%begin(j))
                if (begin > 0) then
-                  value = value .or. self%read(1, j) - range &
+                  value = value .or. self%read(1, j) - merge(range, -rounding, range > rounding) &
                                      <= elapsed(self%start, pieces%kinks(begin)%at)
                end if
                if (begin < size(pieces%kinks)) then
