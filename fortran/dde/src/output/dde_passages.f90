@@ -11,10 +11,19 @@ module dde_passages
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: find_functions, new_passages, passages_type, rounding
+   public :: below_zero, find_rates, new_passages, odd, passages_type, straight
 
    !> Rounding error of t - lag near a kink, in units of the spacing of times.
    real(wp), parameter :: rounding = 4.0_wp
+
+   !> Tolerances of the state by whose errors a delay may be below 0.
+   real(wp), parameter :: most_tolerances = 100.0_wp
+   !> Odd places of a step. A sine of many periods may look straight at even ones, hardly ever at
+   !> these, too: fractions of roots of primes.
+   real(wp), parameter :: odd(6) = sqrt([2.0_wp, 3.0_wp, 5.0_wp, 7.0_wp, 11.0_wp, 13.0_wp]) &
+                                   - [1.0_wp, 1.0_wp, 2.0_wp, 2.0_wp, 3.0_wp, 3.0_wp]
+   !> Largest distance of functions from a line, over their largest value.
+   real(wp), parameter :: most_bend = 0.1_wp
 
    !> The functions over a step, and those that pass zero.
    type, extends(event_watcher_type) :: passages_type
@@ -126,4 +135,80 @@ contains
 
       self%passed(which) = .true.
    end subroutine take
+
+   !> Whether functions are near lines between even places: at every other place, and at odd ones.
+   pure logical function straight(g, between, noise) result(value)
+      !> Functions at even places, shape (switches, 0:last), and at the odd ones
+      real(wp), intent(in) :: g(:, 0:), between(:, :)
+      !> What rounding may make of each, shape (switches)
+      real(wp), intent(in) :: noise(:)
+      real(wp) :: bend(size(g, 1)), largest(size(g, 1))
+      integer :: i, last
+
+      last = ubound(g, 2)
+      largest = max(noise, most_bend*maxval(abs(g), dim=2))
+      value = .true.
+      do i = 1, last - 1, 2
+         bend = g(:, i) - 0.5_wp*(g(:, i - 1) + g(:, i + 1))
+         value = value .and. .not. any(abs(bend) > largest)
+      end do
+      do i = 1, size(odd)
+         associate (left => int(last*odd(i)), share => last*odd(i) - int(last*odd(i)))
+            bend = between(:, i) - (1.0_wp - share)*g(:, left) - share*g(:, left + 1)
+         end associate
+         value = value .and. .not. any(abs(bend) > largest)
+      end do
+   end function straight
+
+   !> The functions where the step of the context starts, and their rates.
+   subroutine find_rates(context, y, share, g, rate)
+      type(step_context), intent(inout) :: context
+      real(wp), intent(in) :: y(:)
+      !> Share of the step over which rates are found
+      real(wp), intent(in) :: share
+      real(wp), intent(out) :: g(:), rate(:)
+      real(wp) :: h, slope(size(y)), z(size(context%problem%lag), 2)
+      logical :: good
+
+      associate (problem => context%problem, cursor => context%cursor)
+         h = share*cursor%h
+         call context%delayed_values([0.0_wp, h], z)
+         call context%evaluate(cursor%inside(cursor%t), y, z(:, 1), slope)
+         call find_functions(context, cursor%inside(cursor%t), 0.0_wp, y, z(:, 1), g)
+         if (problem%moving > 0) then
+            call context%moving_values(cursor%inside(cursor%t + h), y + h*slope, z(:, 2), good)
+         end if
+         call find_functions(context, cursor%inside(cursor%t + h), h, y + h*slope, z(:, 2), rate)
+         where (ieee_is_nan(g) .or. ieee_is_nan(rate))
+            g = 0.0_wp
+            rate = 0.0_wp
+         end where
+         rate = (rate - g)/h
+      end associate
+   end subroutine find_rates
+
+   !> Whether a delay that moves is below 0 at the end of a step, by more than rounding and some
+   !> tolerances of the state change it.
+   pure logical function below_zero(context, step) result(value)
+      type(step_context), intent(in) :: context
+      class(step_type), intent(in) :: step
+      real(wp), dimension(context%problem%moving) :: allowed, lag, moved
+      real(wp) :: t_end, y(size(step%y))
+      integer :: i
+
+      value = .false.
+      if (size(lag) == 0) return
+      t_end = context%cursor%inside(step%t + step%h)
+      call context%problem%moving_lags(t_end, step%y_new, lag)
+      if (.not. any(lag < 0.0_wp)) return
+      allowed = rounding*spacing(t_end)
+      y = step%y_new
+      do i = 1, size(y)
+         y(i) = step%y_new(i) + most_tolerances*step%scale(i)
+         call context%problem%moving_lags(t_end, y, moved)
+         allowed = allowed + abs(moved - lag)
+         y(i) = step%y_new(i)
+      end do
+      value = any(lag < -allowed)
+   end function below_zero
 end module dde_passages

@@ -5,10 +5,10 @@
 !> would slide along the zero (Filippov 1988, "Differential Equations with Discontinuous Righthand
 !> Sides", sec. 4): it cannot go on by steps.
 module dde_sides
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde_event_search, only: event_search
    use dde_kink, only: kink_type
-   use dde_passages, only: find_functions, new_passages, passages_type, rounding
+   use dde_passages, only: below_zero, find_rates, new_passages, odd, passages_type, straight
    use dde_problem, only: dde_problem_type
    use dde_step, only: step_type
    use dde_step_context, only: step_context
@@ -22,15 +22,8 @@ module dde_sides
    real(wp), parameter :: ahead = 1.0e-4_wp, ahead_of_start = 1.0e-10_wp
    !> A passage as near to an end of the step, in units of the spacing of times, is there.
    real(wp), parameter :: near = 16.0_wp
-   !> Tolerances of the state by whose errors a delay may be below 0.
-   real(wp), parameter :: most_tolerances = 100.0_wp
-   !> Even places of a step at which the functions are looked at, powers of two. A sine of many
-   !> periods may look straight there, hardly ever at odd ones, too: fractions of roots of primes.
+   !> Even places of a step at which the functions are looked at, powers of two.
    integer, parameter :: least_places = 8, most_places = 128
-   real(wp), parameter :: odd(6) = sqrt([2.0_wp, 3.0_wp, 5.0_wp, 7.0_wp, 11.0_wp, 13.0_wp]) &
-                                   - [1.0_wp, 1.0_wp, 2.0_wp, 2.0_wp, 3.0_wp, 3.0_wp]
-   !> Largest distance of functions from a line, over their largest value.
-   real(wp), parameter :: most_bend = 0.1_wp
    !> Part of a step that is made again up to which it may miss a kink, and how often it is made at
    !> most.
    real(wp), parameter :: least_part = 1.0e-9_wp
@@ -176,55 +169,6 @@ contains
       end function functions_at
    end subroutine judge
 
-   !> Whether a delay that moves is below 0 at the end of a step, by more than rounding and some
-   !> tolerances of the state change it.
-   pure logical function below_zero(context, step) result(value)
-      type(step_context), intent(in) :: context
-      class(step_type), intent(in) :: step
-      real(wp), dimension(context%problem%moving) :: allowed, lag, moved
-      real(wp) :: t_end, y(size(step%y))
-      integer :: i
-
-      value = .false.
-      if (size(lag) == 0) return
-      t_end = context%cursor%inside(step%t + step%h)
-      call context%problem%moving_lags(t_end, step%y_new, lag)
-      if (.not. any(lag < 0.0_wp)) return
-      allowed = rounding*spacing(t_end)
-      y = step%y_new
-      do i = 1, size(y)
-         y(i) = step%y_new(i) + most_tolerances*step%scale(i)
-         call context%problem%moving_lags(t_end, y, moved)
-         allowed = allowed + abs(moved - lag)
-         y(i) = step%y_new(i)
-      end do
-      value = any(lag < -allowed)
-   end function below_zero
-
-   !> Whether functions are near lines between even places: at every other place, and at odd ones.
-   pure logical function straight(g, between, noise) result(value)
-      !> Functions at even places, shape (switches, 0:last), and at the odd ones
-      real(wp), intent(in) :: g(:, 0:), between(:, :)
-      !> What rounding may make of each, shape (switches)
-      real(wp), intent(in) :: noise(:)
-      real(wp) :: bend(size(g, 1)), largest(size(g, 1))
-      integer :: i, last
-
-      last = ubound(g, 2)
-      largest = max(noise, most_bend*maxval(abs(g), dim=2))
-      value = .true.
-      do i = 1, last - 1, 2
-         bend = g(:, i) - 0.5_wp*(g(:, i - 1) + g(:, i + 1))
-         value = value .and. .not. any(abs(bend) > largest)
-      end do
-      do i = 1, size(odd)
-         associate (left => int(last*odd(i)), share => last*odd(i) - int(last*odd(i)))
-            bend = between(:, i) - (1.0_wp - share)*g(:, left) - share*g(:, left + 1)
-         end associate
-         value = value .and. .not. any(abs(bend) > largest)
-      end do
-   end function straight
-
    !> Where an accepted step ends: where the first function passes zero, if one does. If that is the
    !> end of a piece, the step is made again up to there: it read the piece beyond its end.
    subroutine find_end(self, context, step, start, whole, again)
@@ -294,6 +238,8 @@ contains
          if (any(self%passed)) self%y = step%y_new
       end if
       self%idle = merge(0, self%idle + 1, self%share > 0.0_wp)
+      ! what acted at another time
+      if (self%idle == 0) self%acted = .false.
    end subroutine find_end
 
    !> Whether the state may change at zeros of each function.
@@ -322,7 +268,7 @@ contains
       type(step_context), intent(inout) :: context
       real(wp), intent(inout) :: y(:)
       real(wp), dimension(size(self%above)) :: g, g_before, before, after
-      logical, dimension(size(self%above)) :: acts, back, changed
+      logical, dimension(size(self%above)) :: acts, again, back, changed
       integer :: k
 
       call find_rates(context, y, ahead, g_before, before)
@@ -332,6 +278,7 @@ contains
          self%kink%passages = huge(1)
       end if
       call change_pieces(self, context)
+      again = self%acted
       self%acted = .false.
       if (any(self%passed .and. acts)) call act(self, context, y)
       changed = self%passed
@@ -355,15 +302,12 @@ contains
             self%beyond = merge(abs(g), 0.0_wp, self%above .neqv. g > 0.0_wp)
          end where
          call context%problem%take_sides(self%above(:self%own))
-         do k = 1, self%own
-            if (.not. self%acted(k)) cycle
-            self%repeats(k) = self%repeats(k) + 1
-            associate (now => context%cursor%start)
-               if (elapsed(self%first(k), now) <= crowd*spacing(now%hi)) cycle
-               self%first(k) = now
-            end associate
-            self%repeats(k) = 0
-         end do
+         associate (now => context%cursor%start)
+            where (self%acted) self%repeats = self%repeats + 1
+            acts = self%acted .and. elapsed(self%first, now) > crowd*spacing(now%hi)
+            where (acts) self%repeats = 0
+            self%first = merge(now, self%first, acts)
+         end associate
       end if
       ! an end of a piece is then the other end of the next
       after(self%own + 1:) = [(after(k + 1), after(k), k=self%own + 1, size(after), 2)]
@@ -373,7 +317,7 @@ contains
          back = self%passed .and. .not. acts .and. on*before > 0.0_wp &
                 .and. on*after < -least_push*abs(before)
          if (self%idle > size(self%above)) back = self%passed
-         back = back .or. self%repeats >= most_repeats
+         back = back .or. again .and. self%acted .or. self%repeats >= most_repeats
       end associate
       self%slides = findloc(back, .true., dim=1)
    end subroutine change
@@ -432,31 +376,4 @@ contains
          end do
       end associate
    end subroutine change_pieces
-
-   !> The functions where the step of the context starts, and their rates.
-   subroutine find_rates(context, y, share, g, rate)
-      type(step_context), intent(inout) :: context
-      real(wp), intent(in) :: y(:)
-      !> Share of the step over which rates are found
-      real(wp), intent(in) :: share
-      real(wp), intent(out) :: g(:), rate(:)
-      real(wp) :: h, slope(size(y)), z(size(context%problem%lag), 2)
-      logical :: good
-
-      associate (problem => context%problem, cursor => context%cursor)
-         h = share*cursor%h
-         call context%delayed_values([0.0_wp, h], z)
-         call context%evaluate(cursor%inside(cursor%t), y, z(:, 1), slope)
-         call find_functions(context, cursor%inside(cursor%t), 0.0_wp, y, z(:, 1), g)
-         if (problem%moving > 0) then
-            call context%moving_values(cursor%inside(cursor%t + h), y + h*slope, z(:, 2), good)
-         end if
-         call find_functions(context, cursor%inside(cursor%t + h), h, y + h*slope, z(:, 2), rate)
-         where (ieee_is_nan(g) .or. ieee_is_nan(rate))
-            g = 0.0_wp
-            rate = 0.0_wp
-         end where
-         rate = (rate - g)/h
-      end associate
-   end subroutine find_rates
 end module dde_sides
