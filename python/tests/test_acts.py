@@ -91,6 +91,19 @@ def test_two_at_one_time_keep_their_order(cache):
         assert model.integrate(1.0, 1).y[0, -1] == known
 
 
+def test_event_at_the_level_of_another_one(cache):
+    """A wall at 1 that counts from both sides: x turns back there, which is a passage, too."""
+    walls = [
+        {"when": "x = 1 rising", "set": {"v": "-v", "n": "n + 1"}},
+        {"when": "x = 1 falling", "set": {"m": "m + 1"}},
+        {"when": "x = 0 falling", "set": {"v": "-v"}},
+    ]
+    model = dk.Model({"x": "v", "v": "0", "n": "0", "m": "0"}, events=walls, name="walls")
+    run = model.integrate({"x": 0.5, "v": 1, "n": 0, "m": 0}, 10)
+    assert np.allclose(run.y[:, -1], [0.5, 1, 5, 5], atol=1e-9)
+    assert np.allclose(run.t_events[0], 0.5 + 2 * np.arange(5), atol=1e-9)
+
+
 def test_values_before_an_event_and_delayed_ones(cache):
     model = dk.Model(
         {"x": "1", "y": "0", "z": "0"},

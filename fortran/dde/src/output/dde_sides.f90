@@ -304,9 +304,9 @@ contains
          call context%problem%take_sides(self%above(:self%own))
          associate (now => context%cursor%start)
             where (self%acted) self%repeats = self%repeats + 1
-            acts = self%acted .and. elapsed(self%first, now) > crowd*spacing(now%hi)
-            where (acts) self%repeats = 0
-            self%first = merge(now, self%first, acts)
+            changed = self%acted .and. elapsed(self%first, now) > crowd*spacing(now%hi)
+            where (changed) self%repeats = 0
+            self%first = merge(now, self%first, changed)
          end associate
       end if
       ! an end of a piece is then the other end of the next
