@@ -16,6 +16,7 @@ import sympy
 from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
 
+from .events import entries_of, read_events
 from .expressions import Expression
 from .fortran import FUNCTIONS, WORD, in_words
 from .model import TIME, Delayed, Model, ModelError, Observed, Parameter, Switch
@@ -34,7 +35,6 @@ KEYS = {
 }
 EVENT, SECTION = re.compile(r"(\w+) ?> ?(\S+)"), re.compile(r"(\w+) ?= ?(\S+)")
 """A signal above a level, and one at a level."""
-WHEN = re.compile(r"([^=<>]+)=([^=<>]+?)(?:\s+(rising|falling))?\s*")
 INTEGRAL = re.compile(r"(\w+)( ?\+ ?t)?")
 NUMBER = re.compile(r"-?\d+\.?\d*(e[+-]?\d+)?")
 TEXTS = ("fast", "event", "section", "integral", "longest_delay")
@@ -144,7 +144,7 @@ class _Reader:
                 f"equation of {state}", values["equations"][state], LONGEST_EQUATION
             )
             model.equations[state] = self.expression(f"equation of {state}", model.texts[state])
-        self.read_events(values["events"])
+        model.switches += read_events(self, values["events"])
         self.expect_smooth("second_difference", ", ".join(model.differences))
         self.expect_constant("second_difference", ", ".join(model.differences))
         self.read_longest_delay(values.get("longest_delay"))
@@ -172,34 +172,6 @@ class _Reader:
         if value and (moving := self.model.moving):
             text = f"none where a delay depends on t or the states: {moving[0].lag}"
             self.refuse(what, value, text)
-
-    def read_events(self, entries: list[dict]) -> None:
-        """Where the state changes, and what it is then: all from the values before."""
-        model, found = self.model, {}
-        for entry in entries:
-            when = self.line("when of an event", entry["when"])
-            match = WHEN.fullmatch(when)
-            if not match or when in found:
-                self.refuse("when of an event", when, "LEFT = RIGHT, rising or falling, once")
-            left, right = (self.expression(f"event {when}", x.strip()) for x in match.groups()[:2])
-            value = left - right
-            if not value.free_symbols & model.variables:
-                self.refuse("when of an event", when, "an equation with t or the states")
-            if unknown := set(entry["set"]) - set(model.states):
-                expected = (
-                    f"states, {', '.join(model.states)}; one whose slope is 0 for a parameter"
-                )
-                self.refuse(f"set of event {when}", ", ".join(sorted(unknown)), expected)
-            changes = {
-                state: self.expression(f"event {when}: {state}", text)
-                for state, text in entry["set"].items()
-            }
-            symbol = sympy.Symbol(f"event_{len(found) + 1}", real=True)
-            direction = {"rising": 1, "falling": -1, None: 0}[match[3]]
-            new = ", ".join(f"{state} = {text}" for state, text in entry["set"].items())
-            said = self.line(f"event {when}", f"{when}: {new}")
-            found[when] = Switch(value, when, symbol, changes, direction, said)
-        model.switches += found.values()
 
     def read_longest_delay(self, text) -> None:
         """A bound of the delays that move, which stand last."""
@@ -256,7 +228,7 @@ class _Reader:
                 "when": in_words(str(one["when"]), safe),
                 "set": entries_in_words(one["set"], safe, safe),
             }
-            for one in self.events(values.get("events"))
+            for one in entries_of(self, values.get("events"))
         ]
         for key, section in values.items():
             if isinstance(section, dict) and key != "events":
@@ -266,17 +238,6 @@ class _Reader:
             whole = {**values["steady_state"], "near": entries_in_words(near, safe, safe)}
             said["steady_state"] = whole
         return said
-
-    def events(self, entries) -> list[dict]:
-        """Entries of the shape that events have; a single one need not stand in a list."""
-        entries = [entries] if isinstance(entries, dict) else entries or []
-        for one in entries if isinstance(entries, list) else [entries]:
-            is_event = isinstance(one, dict) and set(one) == {"when", "set"}
-            if not is_event or not isinstance(one["set"], dict) or not one["set"]:
-                self.refuse(
-                    "events", one, "{when: 'v = 1 rising', set: {v: 0}}, or a list of these"
-                )
-        return entries
 
     def read_rest(self, values: dict) -> None:
         """What a definition may leave out."""

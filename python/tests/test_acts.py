@@ -115,7 +115,7 @@ def test_values_before_an_event_and_delayed_ones(cache):
 
 
 def test_event_with_a_delay_that_moves(cache):
-    """y' = y(t/2) from 1, doubled where y = 2: delayed values jump at twice the time."""
+    """y' = y(t/2) from 1, doubled at the time T where y = 2: its slope jumps at 2 T."""
     model = dk.Model(
         {"y": "y(t/2)"}, events={"when": "y = 2 rising", "set": {"y": "2*y"}}, name="both"
     )
@@ -126,11 +126,16 @@ def test_event_with_a_delay_that_moves(cache):
     run = model.integrate(1.0, times[-1], t_eval=times, rtol=1e-11)
     nodes, weights = np.polynomial.legendre.leggauss(40)
 
-    def integral(left, right, scale=1.0):
-        s = left + (right - left) * (nodes + 1) / 2
-        return scale * (right - left) / 2 * weights @ start.sol(s / 2)[0]
+    def integral(left, right, late):
+        half = (right - left) / 2
+        return half * weights @ late((left + half * (nodes + 1)) / 2)
 
-    assert run.y[0, 0] == pytest.approx(4 + integral(at, 1.5 * at), abs=1e-9)
+    def doubled(t):
+        return np.array([4 + integral(at, one, lambda s: start.sol(s)[0]) for one in np.ravel(t)])
+
+    assert run.y[0, 0] == pytest.approx(doubled(1.5 * at)[0], abs=1e-9)
+    known = doubled(2 * at)[0] + integral(2 * at, 2.5 * at, doubled)
+    assert run.y[0, 1] == pytest.approx(known, abs=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -107,7 +107,7 @@ contains
          end if
       end associate
       if (switches == 0) return
-      acts = pack(acting(self, context%problem), [(k <= switches, k=1, size(g))])
+      acts = [(k > switches - context%problem%acting, k=1, switches)]
       ! a function may depend on the sides of those before it
       do k = 0, switches
          call find_rates(context, y, ahead_of_start, g, rate)
