@@ -34,7 +34,7 @@ def numbers() -> dict[str, float]:
 
 
 def plot():
-    MODEL.run(START, 10).x.plot()
+    MODEL.run(START, 10, samples_per_step=20).v.plot()
 
 
 if __name__ == "__main__":
