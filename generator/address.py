@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Where a block has its states and what is kept of it: alone, or at its turn in a chain.
 
-A model is a chain where an equation has the second difference of a state. The states of its blocks
-stand one after another, so that the Jacobian is banded: those of a block are behind `at`. Delayed
-values are in the same order. What blocks keep between orders has a slot for each block at work.
+A model is a chain where an equation has the second difference of a state, or a network, whose nodes
+are its blocks. The states of blocks stand one after another, so that the Jacobian is banded: those
+of a block are behind `at`. Delayed values of a chain are in the same order. What blocks keep between
+orders has a slot for each block at work.
 """
 
 from collections.abc import Callable
@@ -21,7 +22,7 @@ class Address:
     @property
     def in_chain(self) -> bool:
         """Whether the block has others beside it."""
-        return bool(self.model.differences)
+        return bool(self.model.differences or self.model.index)
 
     def state(self, array: str, *index: str, state: str, rest: str = "") -> str:
         """An element of an array of states."""

@@ -19,6 +19,7 @@ from ruamel.yaml.error import YAMLError
 from .events import entries_of, read_events
 from .expressions import Expression
 from .fortran import FUNCTIONS, WORD, in_words
+from .indices import take_parameters, without_indices
 from .model import TIME, Delayed, Model, ModelError, Observed, Parameter, Switch
 from .saturation import limited
 
@@ -30,7 +31,7 @@ RESERVED = {"t", "derivative", "second_difference", *FUNCTIONS} - {"atan2", "erf
 names of a definition."""
 KEYS = {
     *("name", "about", "kind", "source", "parameters", "states", "auxiliary", "definitions"),
-    *("equations", "steady_state", "fast", "domain"),
+    *("equations", "size", "steady_state", "fast", "domain"),
     *("event", "events", "section", "integral", "coordinates", "longest_delay"),
 }
 EVENT, SECTION = re.compile(r"(\w+) ?> ?(\S+)"), re.compile(r"(\w+) ?= ?(\S+)")
@@ -109,9 +110,12 @@ class _Reader:
         for key in ("states", "equations"):
             if not isinstance(values.get(key), dict) or not values[key]:
                 self.refuse(key, values.get(key), "at least one entry")
+        values, index = without_indices(self, values)
         values = self.with_safe_names(values)
+        self.uses, self.bound = {}, ""
         self.model = Model(
             name=name,
+            index=index,
             written=self.written,
             about=self.line("about", values.get("about", f"The model {name}.")),
             kind=self.line("kind", values.get("kind", "")),
@@ -144,6 +148,8 @@ class _Reader:
                 f"equation of {state}", values["equations"][state], LONGEST_EQUATION
             )
             model.equations[state] = self.expression(f"equation of {state}", model.texts[state])
+        if index:
+            take_parameters(self)
         model.switches += read_events(self, values["events"])
         self.expect_smooth("second_difference", ", ".join(model.differences))
         self.expect_constant("second_difference", ", ".join(model.differences))
@@ -153,6 +159,7 @@ class _Reader:
         if not model.domain:
             for state, equation in model.equations.items():
                 model.equations[state] = limited(equation, model.variables)
+            model.sums = [replace(s, term=limited(s.term, model.variables)) for s in model.sums]
             for place, one in enumerate(model.switches):
                 value = limited(one.value, model.variables)
                 new = {state: limited(x, model.variables) for state, x in one.changes.items()}

@@ -12,6 +12,7 @@ import sympy
 
 from .branches import NAMES, either
 from .fortran import CONSTANTS, FUNCTIONS, SHORT
+from .indices import expect_unindexed, indexed, indexed_before, summed
 from .model import TIME
 
 LARGEST_POWER = 256
@@ -53,6 +54,10 @@ class Expression:
                 return self.combined(node, operator, self.value(left), self.value(right))
             case ast.Call(func=ast.Name(id=name), args=args, keywords=[]):
                 return self.called(node, name, args)
+            case ast.Subscript():
+                return indexed(self, node)
+            case ast.Call(func=ast.Subscript() as one, args=[time], keywords=[]):
+                return indexed_before(self, node, one, time)
         self.refuse(node, "numbers, names, + - * / **, and functions")
 
     def named(self, node: ast.Name, name: str) -> sympy.Expr:
@@ -63,6 +68,7 @@ class Expression:
             return self.reader.definition(name)
         known = [*(one.name for one in model.parameters), *model.states, *model.auxiliary]
         if name in known:
+            expect_unindexed(self, node, name)
             return model.symbol(name)
         if name in CONSTANTS:
             return CONSTANTS[name]
@@ -83,6 +89,8 @@ class Expression:
 
     def called(self, node: ast.Call, name: str, args: list[ast.AST]) -> sympy.Expr:
         model = self.reader.model
+        if model.index and name == "sum":
+            return summed(self, node, args)
         if name in {*model.states, *model.auxiliary}:
             return self.delayed(node, name, args)
         if name == "derivative" and len(args) == 2 and isinstance(args[1], ast.Name):

@@ -12,6 +12,11 @@ MODE = sympy.Symbol("self%mode", real=True)
 """Of a chain whose blocks move alike: minus a second difference over the state."""
 
 
+NODE, FAR, NEAR = "node", "far", "near"
+"""Delayed values of networks: of each node by its own delays, and, for each edge by its delays, of
+the other node or of the node itself."""
+
+
 class ModelError(ValueError):
     """What is wrong with a definition: what, where, and what is expected."""
 
@@ -37,6 +42,18 @@ class Delayed:
     symbol: sympy.Symbol
     moves: bool = False
     """Whether the delay depends on t or the states."""
+    read: str = NODE
+    """Of a network, by whose delays the value of which node is read."""
+
+
+@dataclass(frozen=True)
+class Sum:
+    """A sum over all nodes of a network."""
+
+    symbol: sympy.Symbol
+    term: sympy.Expr
+    """Of what belongs to the node, to the other one, and to the edge between them."""
+    text: str
 
 
 @dataclass(frozen=True)
@@ -54,6 +71,11 @@ class Switch:
     """Of an event, 1 where the expression rises, -1 where it falls, 0 for both."""
     said: str = ""
     """Of an event, it and its changes as written."""
+
+
+def of_other(symbol: sympy.Symbol) -> sympy.Symbol:
+    """What the other node of an edge has, by the symbol of the node."""
+    return sympy.Symbol(f"{symbol.name}_other", real=True)
 
 
 @dataclass
@@ -105,6 +127,12 @@ class Model:
     """Second difference along the chain of each state of which the equations take one."""
     switches: list[Switch] = field(default_factory=list)
     """Events stand last."""
+    index: str = ""
+    """Of a network, the index of its nodes in the equations of each of them."""
+    vectors: list[Parameter] = field(default_factory=list)
+    """Parameters that each node of a network has, and those that each edge has."""
+    matrices: list[Parameter] = field(default_factory=list)
+    sums: list[Sum] = field(default_factory=list)
     written: dict[str, str] = field(default_factory=dict)
     """Names of the definition by those that stand for them here and in the generated code."""
 
@@ -127,7 +155,9 @@ class Model:
         """Symbols that change in time."""
         names = [*self.states, *self.auxiliary]
         others = [*(one.symbol for one in self.delayed), *self.differences.values()]
-        return {TIME, *map(self.symbol, names), *others}
+        known = {*map(self.symbol, names), *others}
+        of_others = map(of_other, known) if self.index else ()
+        return {TIME, *known, *of_others, *(one.symbol for one in self.sums)}
 
     @property
     def moving(self) -> list[Delayed]:

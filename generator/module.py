@@ -7,7 +7,7 @@ from pathlib import Path
 import jinja2
 import sympy
 
-from . import pointwise, rest
+from . import network, pointwise, rest
 from .address import couplings
 from .definition import LONGEST_TEXT
 from .exponents import exponents_of, exponents_procedure
@@ -37,15 +37,15 @@ TEMPLATES = jinja2.Environment(
 
 def write_module(model: Model, extent: str = WHOLE) -> str:
     """The text of the module with all procedures, or those of an extent alone."""
-    whole = extent == WHOLE
+    whole = extent == WHOLE and not model.index
     balance = balance_of(model) if whole else None
-    exponents = exponents_of(model)
+    exponents = [] if model.index else exponents_of(model)
     plain = sympy.Tuple(*map(model.plain, model.equations.values()))
     parts = {
         "more": [name for name in ("atan2", "erf") if plain.has(FUNCTIONS[name])],
         "made": procedures(model, exponents, balance, extent),
         "description": description_lines(model, exponents, whole),
-        "delayed": delayed_procedure(model),
+        "delayed": delayed_procedure(model) if not model.index else Procedure({}, []),
         "moving": pointwise.moving_procedure(model),
         "exponents": exponents,
         "flow_texts": flow_texts(model, flow_of(model)) if whole and not model.moving else {},
@@ -67,6 +67,13 @@ def procedures(
     model: Model, exponents: list[str], balance: Balance | None, extent: str
 ) -> dict[str, Procedure]:
     """Those for the solver."""
+    if model.index:
+        return {
+            "rhs": network.rhs_procedure(model),
+            "exponents": Procedure({}, []),
+            "lags": network.lags_procedure(model),
+            "jacobian": network.jacobian_procedure(model),
+        }
     parts = {
         "rhs": pointwise.rhs_procedure(model),
         "exponents": exponents_procedure(model, exponents),
@@ -119,7 +126,8 @@ def description_lines(model: Model, exponents: list[str], whole: bool) -> list[s
     states = list(model.states)
     rest_at = model.near or model.steady_state or {}
     where = ", ".join(f"{state} = {value}" for state, value in rest_at.items())
-    counted = (model.parameters, equations, model.states, model.delayed, terms, exponents)
+    own = [] if model.index else model.delayed
+    counted = (model.parameters, equations, model.states, own, terms, exponents)
     delayed = sum(any(one.symbol.name in text for one in model.delayed) for text in exponents)
     taken = [*model.equations.values(), *(one.value for one in model.switches)]
     sizes = [*map(len, counted), delayed, len(model.switches)]
@@ -127,6 +135,7 @@ def description_lines(model: Model, exponents: list[str], whole: bool) -> list[s
         ("sizes", *map(str, sizes)),
         *(("coupling", str(row), str(column)) for row, column in couplings(model)),
         observed_line(model),
+        *(network.network_lines(model) if model.index else ()),
         *([("moving", str(len(model.moving)))] if model.moving else ()),
         *([("acting", str(len(model.events)))] if model.events else ()),
         *([("driven",)] if any(one.has(TIME) for one in taken) else ()),

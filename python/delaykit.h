@@ -59,8 +59,11 @@ typedef struct {
 } dk_request;
 
 /* The message has room for `length` letters with its null character. */
-int32_t dk_open(const char *path, dk_model **model, char *message, int32_t length);
+/* network: the path of the file with the nodes and edges of a network, otherwise not read. */
+int32_t dk_open(const char *path, const char *network, dk_model **model, char *message,
+                int32_t length);
 void dk_close(dk_model *model);
+/* Their number; with room for them, and not NULL, the delays. */
 void dk_delays(const dk_model *model, const double *parameters, double *lag, int32_t *number);
 /* The longest delay or, without one, the inverse of the fastest rate at the start. */
 double dk_unit_of_time(const dk_model *model, const dk_request *request);

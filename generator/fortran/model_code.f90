@@ -2,8 +2,8 @@
 !> The procedures of a compiled model.
 module model_code
    use model_border, only: change_state, describe_line, expand, expand_tangents, find_delayed, &
-                           find_exponents, find_forms, find_jacobian, find_lags, find_rate, &
-                           find_rhs, find_state, list_terms
+                           find_exponents, find_forms, find_jacobian, find_lags, &
+                           find_network_lags, find_rate, find_rhs, find_state, list_terms
    implicit none (type, external)
    private
    public :: code_type
@@ -21,6 +21,7 @@ module model_code
       procedure(find_rate), pointer, nopass :: relaxation_rate => null()
       procedure(find_delayed), pointer, nopass :: delayed => null()
       procedure(find_lags), pointer, nopass :: moving_lags => null()
+      procedure(find_network_lags), pointer, nopass :: network_lags => null()
       procedure(find_state), pointer, nopass :: steady_state => null()
       procedure(find_forms), pointer, nopass :: derivative => null()
       procedure(list_terms), pointer, nopass :: characteristic_terms => null()

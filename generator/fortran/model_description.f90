@@ -8,7 +8,8 @@ module model_description
    implicit none (type, external)
    private
    public :: at_rest, auxiliary_type, description_of, description_type, line_length, &
-             observed_type, parameter_type, sizes_type, unbounded, word_length
+             observed_type, of_far_node, of_near_node, of_node, parameter_type, sizes_type, &
+             unbounded, word_length
 
    !> Letters of names; of meanings and equations.
    integer, parameter :: word_length = 64, line_length = 512
@@ -17,6 +18,10 @@ module model_description
 
    !> A level that is the value at rest.
    real(wp), parameter :: at_rest = huge(1.0_wp)
+
+   !> Whose a delayed value of a network is: of each node by its own delays or, for each edge by its
+   !> delays, of the node at which it begins or ends.
+   integer, parameter :: of_node = 1, of_far_node = 2, of_near_node = 3
 
    !> A parameter.
    type :: parameter_type
@@ -72,6 +77,15 @@ module model_description
       !> Equations of a chain with a second difference, and the states of which they take it, shape
       !> (2, couplings)
       integer, allocatable :: couplings(:, :)
+      !> Of a network, parameters of each node and of each edge
+      integer :: vectors = 0, matrices = 0
+      !> Whether an edge takes part, by the set of its parameters that are 0, shape (0:); none of a
+      !> model that is no network
+      logical, allocatable :: needed(:)
+      !> Whether all nodes depend on all
+      logical :: full = .false.
+      !> Of the delayed values of a network whose they are, and the numbers of the states
+      integer, allocatable :: read(:), read_states(:)
       !> What is looked at in motions
       type(observed_type) :: observed
       !> Whether time is in the equations: then no disturbance along the flow stays as it is
@@ -109,10 +123,12 @@ contains
       !> The lines of the description
       procedure(describe_line), pointer, intent(in) :: lines
       character(len=line_length) :: words(9)
-      integer :: equation, number, pair(2), parameter, place
+      character(len=*), parameter :: read_of(3) = ["node", "far ", "near"]
+      integer :: equation, i, number, pair(2), parameter, place
 
       allocate (description%states(0), description%meanings(0), description%auxiliaries(0))
       allocate (description%switches(0), description%sizes%couplings(2, 0))
+      allocate (description%sizes%read(0), description%sizes%read_states(0))
       equation = 0
       parameter = 0
       ! behind the line of the interface
@@ -131,6 +147,19 @@ contains
             read (words(2:3), *) pair
             associate (sizes => description%sizes)
                sizes%couplings = reshape([sizes%couplings, pair], [2, size(sizes%couplings, 2) + 1])
+            end associate
+         case ("network")
+            associate (sizes => description%sizes)
+               read (words(2:3), *) sizes%vectors, sizes%matrices
+               allocate (sizes%needed(0:2**sizes%matrices - 1))
+               sizes%needed = [(words(4) (i:i) == "1", i=1, size(sizes%needed))]
+               sizes%full = words(5) == "1"
+            end associate
+         case ("delayed")
+            associate (sizes => description%sizes)
+               read (words(3), *) place
+               sizes%read = [sizes%read, findloc(read_of, words(2), dim=1)]
+               sizes%read_states = [sizes%read_states, place]
             end associate
          case ("observed")
             description%sizes%observed = observed_of(words)
@@ -219,7 +248,11 @@ contains
       else
          name = trim(self%states(number - place*size(self%states)))
          if (kind == "f") name = name//"'"
-         if (size(blocks) > 1) name = name//" of block "//text_of(blocks(1 + place))
+         if (allocated(self%sizes%needed)) then
+            name = name//"["//text_of(blocks(1 + place) - 1)//"]"
+         else if (size(blocks) > 1) then
+            name = name//" of block "//text_of(blocks(1 + place))
+         end if
       end if
    end function name_of
 

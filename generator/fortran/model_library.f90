@@ -8,10 +8,11 @@ module model_library
    use dde_errors, only: error_type, raise
    use dde_kinds, only: wp
    use model_border, only: describe_line, expand, expand_tangents, find_delayed, find_exponents, &
-                           find_forms, find_jacobian, find_rate, find_rhs, find_state, list_terms, &
-                           letters => line_length
+                           find_forms, find_jacobian, find_network_lags, find_rate, find_rhs, &
+                           find_state, letters => line_length, list_terms
    use model_code, only: code_type
    use model_description, only: description_type, word_length
+   use model_network, only: read_network
    use model_interface, only: interface_digest
    use model_problem, only: model_type
    implicit none (type, external)
@@ -76,14 +77,17 @@ contains
       call open_object(path, model, error)
    end subroutine open_model
 
-   !> Open a compiled model by the path of its object. It has no parameters yet.
-   subroutine open_object(path, model, error)
+   !> Open a compiled model by the path of its object. It has no parameters yet. The nodes and edges
+   !> of a network are in a file NAME.network beside the object NAME.so, or in another one.
+   subroutine open_object(path, model, error, network)
       !> Path of the object
       character(len=*), intent(in) :: path
       !> The model
       type(model_type), intent(out) :: model
       !> Error if it cannot be opened, or does not fit this program
       type(error_type), allocatable, intent(out) :: error
+      !> Path of the file of its network
+      character(len=*), intent(in), optional :: network
       character(kind=c_char, len=path_length) :: reason
       type(c_ptr) :: library
       type(description_type) :: about
@@ -107,6 +111,13 @@ contains
       model%names = about%parameters%name
       model%above = about%parameters%above
       model%at_least = about%parameters%at_least
+      if (.not. allocated(model%sizes%needed)) return
+      if (present(network)) then
+         call read_network(network, model%sizes, model%left, model%right, model%of_network, error)
+      else
+         call read_network(path(:index(path, ".so", back=.true.))//"network", model%sizes, &
+                           model%left, model%right, model%of_network, error)
+      end if
    end subroutine open_object
 
    !> Names of the models that there are with a beginning, without this.
@@ -199,6 +210,9 @@ contains
       call c_f_procpointer(procedure_of(library, "exponents"), code%exponents)
       if (has(library, "moving_lags")) then
          call c_f_procpointer(procedure_of(library, "moving_lags"), code%moving_lags)
+      end if
+      if (has(library, "network_lags")) then
+         call c_f_procpointer(procedure_of(library, "network_lags"), code%network_lags)
       end if
       if (has(library, "switching")) then
          call c_f_procpointer(procedure_of(library, "switching"), code%switching)

@@ -8,9 +8,10 @@ module model_problem
    use dde, only: not_given, problem_with_tangents
    use dde_kinds, only: wp
    use model_border, only: shape_type
-   use model_chain, only: blocks_in_order, find_band
+   use model_chain, only: blocks_in_order, find_band, find_neighbours
    use model_code, only: code_type
    use model_description, only: description_of, description_type, sizes_type, word_length
+   use model_network, only: count_lags, place_values
    implicit none (type, external)
    private
    public :: model_type
@@ -32,8 +33,11 @@ module model_problem
       integer(c_int), allocatable :: place(:)
       !> Sizes, and the eigenvalue of disturbances of blocks that move alike
       type(shape_type) :: shape
-      !> Neighbours of the blocks of a chain on both sides; 0: the plate, at rest. Empty for others
+      !> Neighbours of the blocks of a chain on both sides; 0: the plate, at rest. Of a network the
+      !> first edge of each node, and where edges begin, see `model_network`. Empty for others
       integer(c_int), allocatable :: left(:), right(:)
+      !> Parameters of the nodes and edges of a network
+      real(wp), allocatable :: of_network(:)
       !> What is beyond the last block of a chain, see `chain_ends`
       character(len=word_length) :: ends = "free"
       !> Whether delays of 0 are delayed values, too
@@ -41,7 +45,7 @@ module model_problem
       !> Whether thresholds count in units of its motion; otherwise its numbers are of order 1
       logical :: own_units = .false.
    contains
-      procedure :: describe, set, put, number_of, states, is_chain
+      procedure :: describe, set, put, set_blocks, number_of, states, is_chain, is_network
       procedure :: initial, history, past_series, rhs, jacobian, exponents, switching, take_sides
       procedure :: act, name_of, series, tangent_series, relaxation_rate, slow_series
       procedure :: slow_tangent_series, moving_lags
@@ -58,16 +62,41 @@ contains
       description = description_of(self%code%description)
    end function describe
 
-   !> Delays of a block with these parameters, some of them 0.
+   !> Delays of a block with these parameters, or of all nodes and edges of a network, some of them 0.
    pure function delays(self, parameters) result(lag)
       class(model_type), intent(in) :: self
       !> Parameters, in the order of the definition
       real(wp), intent(in) :: parameters(:)
-      real(wp) :: lag(self%sizes%delayed)
+      real(wp), allocatable :: lag(:)
       integer(c_int) :: state(self%sizes%delayed)
+      type(shape_type) :: shape
 
-      call self%code%delayed(parameters, lag, state)
+      if (self%is_network()) then
+         shape%blocks = size(self%left) - 1
+         allocate (lag(count_lags(self%sizes, shape%blocks, size(self%right))))
+         call self%code%network_lags(shape, [parameters, self%of_network], self%left, &
+                                     self%right, lag)
+      else
+         allocate (lag(self%sizes%delayed))
+         call self%code%delayed(parameters, lag, state)
+      end if
    end function delays
+
+   !> Give a chain its blocks, before its parameters. Other models have as many as they have.
+   pure subroutine set_blocks(self, blocks, ends)
+      class(model_type), intent(inout) :: self
+      !> Number of blocks; of other models the number they have
+      integer, intent(inout) :: blocks
+      !> What is beyond the ends of a chain
+      character(len=*), intent(in) :: ends
+
+      self%ends = ends
+      if (size(self%sizes%couplings) > 0) then
+         call find_neighbours(blocks, trim(ends), self%left, self%right)
+      else if (self%is_network()) then
+         blocks = size(self%left) - 1
+      end if
+   end subroutine set_blocks
 
    !> Give a model its parameters and its past. A delay of 0 is none unless it is kept. A chain has
    !> its neighbours before.
@@ -91,10 +120,8 @@ contains
       class(model_type), intent(inout) :: self
       !> Parameters, in the order of the definition
       real(wp), intent(in) :: parameters(:)
-      integer(c_int) :: component(self%sizes%delayed)
-      real(wp) :: lag(self%sizes%delayed), values(self%sizes%switches)
-      logical, allocatable :: kept(:)
-      integer :: block, k, states
+      real(wp) :: values(self%sizes%switches)
+      integer :: k
 
       self%n = size(self%past)
       self%analytic = associated(self%code%series)
@@ -104,25 +131,19 @@ contains
       self%acting = self%sizes%acting
       self%moving = self%sizes%moving
       self%given = [parameters, (0.0_wp, k=1, self%switches)]
-      call self%code%delayed(parameters, lag, component)
-      kept = lag > 0.0_wp .or. self%keeps_delays
-      self%place = merge([(count(kept(:k)), k=1, size(lag))], 0, kept)
       if (.not. allocated(self%left)) allocate (self%left(0), self%right(0))
       self%delayed_exponents = self%sizes%delayed_exponents > 0
-      associate (blocks => self%shape%blocks)
-         blocks = max(1, size(self%left))
-         states = self%n/blocks
-         self%component = [(pack(component, kept) + states*(block - 1), block=1, blocks)]
-         self%lag = [(pack(lag, kept), block=1, blocks)]
-         self%exponentials = self%sizes%exponentials*blocks
-      end associate
+      if (self%is_network()) then
+         self%shape%blocks = size(self%left) - 1
+         self%given = [self%given, self%of_network]
+         call place_values(self%sizes, self%left, self%right, self%delays(parameters), &
+                           self%keeps_delays, self%place, self%lag, self%component, self%rows, self%lower, &
+                           self%upper)
+      else
+         call place_in_blocks(self)
+      end if
       self%shape%n = self%n
       self%shape%values = size(self%lag)
-      self%shape%delays = count(kept)
-      if (self%is_chain()) then
-         call find_band(self%left, self%right, self%sizes%couplings, states, self%shape%delays, &
-                        self%shape%reach, self%lower, self%upper, self%rows)
-      end if
       self%shape%upper = self%upper
       do k = 1, self%switches
          ! a side may depend on those before it
@@ -130,6 +151,31 @@ contains
          call self%take_sides(values > 0.0_wp)
       end do
    end subroutine put
+
+   !> The delayed values of a block, or of all blocks of a chain.
+   pure subroutine place_in_blocks(self)
+      type(model_type), intent(inout) :: self
+      integer(c_int) :: component(self%sizes%delayed)
+      real(wp) :: lag(self%sizes%delayed)
+      logical, allocatable :: kept(:)
+      integer :: block, k, states
+
+      call self%code%delayed(self%numbers, lag, component)
+      kept = lag > 0.0_wp .or. self%keeps_delays
+      self%place = merge([(count(kept(:k)), k=1, size(lag))], 0, kept)
+      associate (blocks => self%shape%blocks)
+         blocks = max(1, size(self%left))
+         states = self%n/blocks
+         self%component = [(pack(component, kept) + states*(block - 1), block=1, blocks)]
+         self%lag = [(pack(lag, kept), block=1, blocks)]
+         self%exponentials = self%sizes%exponentials*blocks
+      end associate
+      self%shape%delays = count(kept)
+      if (self%is_chain()) then
+         call find_band(self%left, self%right, self%sizes%couplings, states, self%shape%delays, &
+                        self%shape%reach, self%lower, self%upper, self%rows)
+      end if
+   end subroutine place_in_blocks
 
    !> Number of a parameter by its name; 0 if there is none.
    pure integer function number_of(self, name) result(number)
@@ -151,9 +197,16 @@ contains
    pure logical function is_chain(self) result(value)
       class(model_type), intent(in) :: self
 
-      value = allocated(self%left)
+      value = allocated(self%left) .and. .not. self%is_network()
       if (value) value = size(self%left) > 0
    end function is_chain
+
+   !> Whether it has nodes and edges.
+   pure logical function is_network(self) result(value)
+      class(model_type), intent(in) :: self
+
+      value = allocated(self%sizes%needed)
+   end function is_network
 
    !> The past holds up to the initial time.
    pure subroutine initial(self, y)

@@ -3,6 +3,7 @@
 
 import ctypes
 import math
+import re
 import sys
 from collections.abc import Mapping
 from dataclasses import replace
@@ -18,6 +19,8 @@ HUGE = sys.float_info.max
 DOSES = "pairs (time, {state: change})"
 ENDS = ("free", "ring", "plate")
 """What is beyond the ends of a chain, in the order of the library."""
+NODE = re.compile(r"(\w+)\[(\d+)\]")
+"""A state of a node of a network."""
 
 
 def number_of(what: str, value) -> float:
@@ -102,11 +105,23 @@ class Arguments:
         state = self.model.auxiliary.get(name, name)
         return self.states.index(state), state != name
 
+    def node(self, name: str) -> tuple[str, int]:
+        """The state of an event and the number of its node, from 0, as in x[3] of a network."""
+        found = NODE.fullmatch(name)
+        if not found:
+            return name, 0
+        nodes = self.model.network.nodes if self.model.network else 0
+        if int(found[2]) >= nodes:
+            raise ModelError(f"state of an event: {name}; expected the number of one of {nodes} nodes")
+        return found[1], int(found[2])
+
     def events(self, events: list[Event]) -> dict[str, np.ndarray]:
         """Events as arrays of the library."""
         rows = []
         for one in events:
-            component, exponential = self.component("state of an event", one.state)
+            state, node = self.node(one.state)
+            component, exponential = self.component("state of an event", state)
+            component += node * len(self.states)
             level = number_of("level of an event", one.level)
             if exponential and not one.of_slope:
                 if level <= 0:

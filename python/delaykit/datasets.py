@@ -46,10 +46,11 @@ def by_state(model, values: np.ndarray, along: str, prefix: str = "") -> dict:
     shown = {state: values[:, i] for i, state in enumerate(model.states)}
     shown |= {name: np.exp(shown[state]) for name, state in model.auxiliary.items()}
     meanings = model.definition["states"] | {k: f"exp({v})" for k, v in model.auxiliary.items()}
-    chain = model.blocks > 1
+    chain = model.blocks > 1 or model.network
+    block = model.network.index if model.network else "block"
     return {
         prefix + name: (
-            ("block", along) if chain else (along,),
+            (block, along) if chain else (along,),
             array if chain else array[0],
             {"long_name": meanings[name]},
         )

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from delaykit.errors import ModelError
 
-WRITTEN = re.compile(r"\s*(\w+)\s*('?)\s*=\s*(\S+)\s*(rising|falling)?\s*(stop)?\s*\Z")
+WRITTEN = re.compile(r"\s*(\w+(?:\[\d+\])?)\s*('?)\s*=\s*(\S+)\s*(rising|falling)?\s*(stop)?\s*\Z")
 
 
 @dataclass(frozen=True)

@@ -60,7 +60,7 @@ def load() -> ctypes.CDLL:
     handle, text, number = ctypes.c_void_p, ctypes.c_char_p, ctypes.c_int
     to_handle = ctypes.POINTER(handle)
     types = {
-        "dk_open": (number, [text, to_handle, text, number]),
+        "dk_open": (number, [text, text, to_handle, text, number]),
         "dk_close": (None, [handle]),
         "dk_free": (None, [handle]),
         "dk_unit_of_time": (ctypes.c_double, [handle, ctypes.POINTER(Request)]),
@@ -82,10 +82,11 @@ def load() -> ctypes.CDLL:
 LIBRARY = load()
 
 
-def open_object(path: Path) -> ctypes.c_void_p:
-    """The handle of a compiled model."""
+def open_object(path: Path, network: str = "") -> ctypes.c_void_p:
+    """The handle of a compiled model. network: the path of the file of its nodes and edges."""
     handle, message = ctypes.c_void_p(), ctypes.create_string_buffer(MESSAGE)
-    if LIBRARY.dk_open(str(path).encode(), ctypes.byref(handle), message, MESSAGE):
+    paths = str(path).encode(), network.encode()
+    if LIBRARY.dk_open(*paths, ctypes.byref(handle), message, MESSAGE):
         raise RunError(message.value.decode(errors="replace"))
     return handle
 

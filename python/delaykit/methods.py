@@ -108,7 +108,7 @@ def model_group(own: Arguments, but=()) -> dict:
     group = {"name": model.definition["name"], "own_units": True}
     if known:
         group |= {"parameters": list(known), "values": list(known.values())}
-    if model.blocks > 1:
+    if model.blocks > 1 and not model.network:
         group |= {"blocks": model.blocks, "ends": model.ends}
     return group
 

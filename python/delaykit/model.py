@@ -13,13 +13,13 @@ from delaykit.arguments import ENDS, HUGE, number_of
 from delaykit.errors import ModelError, check_name
 from delaykit.generator.ranges import expected_of, is_inside
 from delaykit.library import LIBRARY, address, open_object
+from delaykit.networks import Network
 
 OPTIONS = {
     *("about", "kind", "source", "auxiliary", "definitions", "fast", "domain", "event", "section"),
     *("integral", "coordinates", "steady_state", "longest_delay", "events"),
 }
 """Keys of a definition that may be given by name (generator/README.md explains them)."""
-MOST_DELAYED = 1 << 14
 LONG = 1000
 """Letters of all equations from which an object has no more than a method needs: a compiler takes
 a second for the whole of them, and a tenth of it for the equations."""
@@ -28,8 +28,11 @@ a second for the whole of them, and a tenth of it for the equations."""
 class Handle(ctypes.c_void_p):
     """A model that the library has opened, until nobody has it."""
 
-    def __init__(self, path: Path):
-        super().__init__(open_object(path).value)
+    def __init__(self, path: Path, network: Network | None):
+        def opened(of_network: str) -> int:
+            return open_object(path, of_network).value
+
+        super().__init__(network.opened(opened) if network else opened(""))
 
     def __del__(self):
         if self.value:
@@ -46,6 +49,10 @@ class Model:
     steady_state: by state an expression of parameters, or {"near": {state: guess}}.
     blocks, ends: of a chain, whose equations have second_difference(STATE): the number of blocks,
         and free, ring or plate.
+    size: of a network, {index: number of nodes}: its equations are those of each node, as
+        {"x[i]": "k*sum(j, a[i, j]*x[j](t - tau[i, j])) - x[i]"}. Parameters with an index are
+        arrays, shape (nodes), with two matrices, shape (nodes, nodes), dense or sparse. A term that
+        is 0 where a matrix is 0 costs nothing there.
 
     The model is compiled when it is first needed, and kept in the user's cache.
     """
@@ -59,6 +66,7 @@ class Model:
         name="model",
         blocks=1,
         ends="free",
+        size=None,
         **options,
     ):
         for key in options:
@@ -71,10 +79,16 @@ class Model:
         self.blocks, self.ends = blocks, ends
         self.extent, self.handles = "whole", {}
         texts = {str(key): text_of(value) for key, value in equations.items()}
+        given = {str(key): value for key, value in (parameters or {}).items()}
+        self.network = Network.read(texts, given, size)
+        indexed = self.network.indices if self.network else {}
+        if self.network:
+            self.blocks = self.network.nodes
+        names = [key.partition("[")[0].strip() for key in texts]
         self.definition = {
             "name": str(name),
-            "parameters": {str(key): entry_of(key, v) for key, v in (parameters or {}).items()},
-            "states": {key: str((states or {}).get(key, key)) for key in texts},
+            "parameters": {key: entry_of(key, v) for key, v in given.items() if key not in indexed},
+            "states": {key: str((states or {}).get(key, key)) for key in names},
             "equations": texts,
             **{key: plain(value) for key, value in options.items() if value is not None},
         }
@@ -128,13 +142,15 @@ class Model:
     @property
     def path(self) -> Path:
         """The compiled object."""
-        return objects.compiled(self.definition, self.extent)
+        of_network = self.network.entries if self.network else {}
+        parameters = {**self.definition["parameters"], **of_network}
+        return objects.compiled({**self.definition, "parameters": parameters}, self.extent)
 
     @property
     def handle(self) -> "Handle":
         """The handle of the compiled model in the library."""
         if self.extent not in self.handles:
-            self.handles[self.extent] = Handle(self.path)
+            self.handles[self.extent] = Handle(self.path, self.network)
         return self.handles[self.extent]
 
     def __copy__(self):
@@ -151,15 +167,25 @@ class Model:
         return f"<delaykit.Model {self.definition['name']}: {'; '.join(lines)}; {numbers}>"
 
     def with_parameters(self, **values) -> "Model":
-        """The same model with other values of parameters."""
+        """The same model with other values of parameters, arrays of those of nodes and edges."""
         other = copy.copy(self)
+        arrays = {key: values.pop(key) for key in [*values] if key in self.arrays}
         other.parameters = {**self.parameters, **self.checked(values)}
+        if arrays:
+            other.network, other.handles = self.network.changed(arrays), {}
         return other
+
+    @property
+    def arrays(self) -> dict[str, np.ndarray]:
+        """Values of the parameters of the nodes and edges of a network."""
+        return dict.fromkeys(self.network.indices) | self.network.values if self.network else {}
 
     def checked(self, values: Mapping) -> dict[str, float]:
         """Values of parameters; raise ModelError for a name or a number that cannot be."""
         numbers = {}
         for key, value in values.items():
+            if key in self.arrays:
+                raise ModelError(f"parameter {key}: has indices; expected with_parameters({key}=...)")
             check_name("parameter", key, self.definition["parameters"])
             number = numbers[key] = number_of(f"parameter {key}", value)
             entry = self.definition["parameters"][key]
@@ -182,10 +208,10 @@ class Model:
 
     def delays_of(self, numbers: np.ndarray) -> np.ndarray:
         """The delays with these parameters, those that move last by their bound."""
-        lags = np.empty(MOST_DELAYED)
         count = ctypes.c_int()
+        LIBRARY.dk_delays(self.handle, address(numbers), None, ctypes.byref(count))
+        lags = np.empty(count.value)
         LIBRARY.dk_delays(self.handle, address(numbers), address(lags), ctypes.byref(count))
-        lags = lags[: count.value]
         return np.where(lags < HUGE, lags, np.inf)
 
     integrate = runs.integrate

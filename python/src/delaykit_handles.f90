@@ -14,9 +14,9 @@ module delaykit_handles
 contains
 
    !> Open a compiled model; 0 if it succeeded, else 1 with a message.
-   integer(c_int) function dk_open(path, handle, message, length) result(status) bind(c)
-      !> Path of the object
-      type(c_ptr), value :: path
+   integer(c_int) function dk_open(path, network, handle, message, length) result(status) bind(c)
+      !> Paths of the object, and of the file of a network (generator/fortran/model_network.f90)
+      type(c_ptr), value :: path, network
       !> The model
       type(c_ptr), intent(out) :: handle
       !> Room for a message and its size
@@ -26,7 +26,7 @@ contains
       type(model_type), pointer :: model
 
       allocate (model)
-      call open_object(string_of(path), model, error)
+      call open_object(string_of(path), model, error, string_of(network))
       handle = c_loc(model)
       status = message_of(error, message, length)
    end function dk_open

@@ -10,7 +10,7 @@ module delaykit_runs
    use dde_kinds, only: wp
    use delaykit_handles, only: message_of, model_of, string_of
    use delaykit_outcomes, only: put_events, put_outcome, put_past, put_samples, put_switched
-   use model_chain, only: blocks_in_order, chain_ends, find_neighbours
+   use model_chain, only: blocks_in_order, chain_ends
    use model_problem, only: model_type
    use model_settings, only: check_numbers
    use natural_units, only: in_own_units
@@ -110,17 +110,19 @@ contains
       status = message_of(error, message, length)
    end function dk_integrate
 
-   !> Delays of a model with these parameters, shape (delayed states), and their number.
+   !> Delays of a model with these parameters, shape (number), if there is room, and their number.
    subroutine dk_delays(handle, parameters, lag, number) bind(c)
       type(c_ptr), value :: handle
       real(c_double), intent(in) :: parameters(*)
-      real(c_double), intent(inout) :: lag(*)
+      real(c_double), intent(inout), optional :: lag(*)
       integer(c_int), intent(out) :: number
       type(model_type) :: model
 
       model = model_of(handle)
-      number = model%sizes%delayed
-      lag(:number) = model%delays(parameters(:model%sizes%parameters))
+      associate (found => model%delays(parameters(:model%sizes%parameters)))
+         number = size(found)
+         if (present(lag)) lag(:number) = found
+      end associate
    end subroutine dk_delays
 
    !> The unit of time of a model with the parameters and past of a request; 1 if they are wrong.
@@ -144,16 +146,15 @@ contains
       !> A parameter is out of its range, or a delay negative
       type(error_type), allocatable, intent(out) :: error
       real(wp), pointer :: numbers(:), past(:)
+      integer :: blocks
 
       numbers => reals_at(request%parameters, model%sizes%parameters)
       call check_numbers(model, "", numbers, error)
       if (allocated(error)) return
-      if (size(model%sizes%couplings) > 0) then
-         model%ends = chain_ends(request%ends)
-         call find_neighbours(request%blocks, trim(model%ends), model%left, model%right)
-      end if
-      past => reals_at(request%past, model%sizes%states*request%blocks)
-      call model%set(numbers, past(places_of(model, request%blocks)))
+      blocks = request%blocks
+      call model%set_blocks(blocks, trim(chain_ends(request%ends)))
+      past => reals_at(request%past, model%sizes%states*blocks)
+      call model%set(numbers, past(places_of(model, blocks)))
    end subroutine set_model
 
    !> Where each component of the state vector stands among those of the caller, which are in the

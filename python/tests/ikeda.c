@@ -28,7 +28,7 @@ int main(int count, char **arguments)
     dk_results *results;
     int32_t failed, number;
 
-    if (count != 2 || dk_open(arguments[1], &model, message, sizeof message)) {
+    if (count != 2 || dk_open(arguments[1], "", &model, message, sizeof message)) {
         fprintf(stderr, "%s\n", message);
         return 1;
     }

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> A model by its name, with its parameters by their names, as namelists give it.
 module model_settings
-   use model_chain, only: chain_ends, find_neighbours
+   use model_chain, only: chain_ends
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use model_description, only: unbounded, word_length
@@ -66,7 +66,7 @@ contains
       !> The model, if it is open already
       type(model_type), intent(in), optional :: opened
       real(wp), allocatable :: numbers(:), state(:)
-      integer :: block, i, number
+      integer :: block, blocks, i, number
 
       if (allocated(error)) return
       if (present(opened)) then
@@ -98,13 +98,11 @@ contains
       call check_blocks(self, model, place, error)
       if (allocated(error)) return
       model%own_units = self%own_units
-      model%ends = self%ends
-      if (size(model%sizes%couplings) > 0) then
-         call find_neighbours(self%blocks, trim(self%ends), model%left, model%right)
-      end if
+      blocks = self%blocks
+      call model%set_blocks(blocks, trim(self%ends))
       allocate (state(model%sizes%states), source=0.0_wp)
       if (associated(model%code%steady_state)) call model%code%steady_state(numbers, state)
-      call model%set(numbers, [(state, block=1, self%blocks)], keep_delays)
+      call model%set(numbers, [(state, block=1, blocks)], keep_delays)
    end subroutine open_settings
 
    !> Refuse a parameter out of its range, and a negative delay; keep an earlier error.
@@ -116,7 +114,7 @@ contains
       real(wp), intent(in) :: numbers(:)
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
-      real(wp) :: lag(model%sizes%delayed)
+      real(wp), allocatable :: lag(:)
       integer :: i
 
       do i = 1, size(numbers)

@@ -3,10 +3,10 @@
 !> arrays. No type with procedures and no allocatable array crosses, so that the two may come from
 !> different compilers. A digest of this file is the first thing that a program asks of a model.
 !>
-!> A model gives these under the names `model_NAME`, of which `switching`, `act`, `moving_lags` and
-!> all from `relaxation_rate` on may be missing. Behind the parameters is, for each value of
-!> `switching`, the side on which the equations are: 1 where it is > 0, else 0. Arrays are explained
-!> where `model_type` has them.
+!> A model gives these under the names `model_NAME`, of which `switching`, `act`, `moving_lags`,
+!> `network_lags` and all from `relaxation_rate` on may be missing. Behind the parameters is, for
+!> each value of `switching`, the side on which the equations are: 1 where it is > 0, else 0. Arrays
+!> are explained where `model_type` has them, those of networks in generator/network.py.
 module model_border
    use, intrinsic :: iso_c_binding, only: c_char, c_int
    use dde_kinds, only: wp
@@ -14,7 +14,8 @@ module model_border
    private
    public :: copy_line, lanes, line_length, reciprocal, shape_type
    public :: change_state, describe_line, expand, expand_tangents, find_delayed, find_exponents, &
-             find_forms, find_jacobian, find_lags, find_rate, find_rhs, find_state, list_terms
+             find_forms, find_jacobian, find_lags, find_network_lags, find_rate, find_rhs, &
+             find_state, list_terms
 
    !> Disturbances computed at a time.
    integer, parameter :: lanes = 4
@@ -64,6 +65,16 @@ module model_border
          real(wp), intent(in) :: parameters(*), t, y(self%n)
          real(wp), intent(out) :: lag(*)
       end subroutine find_lags
+
+      !> The delays of all nodes and edges of a network.
+      pure subroutine find_network_lags(self, parameters, left, right, lag) bind(c)
+         import :: c_int, shape_type, wp
+         implicit none (type, external)
+         type(shape_type), intent(in) :: self
+         real(wp), intent(in) :: parameters(*)
+         integer(c_int), intent(in) :: left(*), right(*)
+         real(wp), intent(out) :: lag(*)
+      end subroutine find_network_lags
 
       !> The state at rest, of one block of a chain; not a number if there is none.
       pure subroutine find_state(parameters, state) bind(c)
