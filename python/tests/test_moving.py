@@ -132,6 +132,20 @@ def test_hopf_points_of_a_rest_that_is_computed(cache):
     np.testing.assert_allclose(first.omega, (1 + np.log(power)) * power, rtol=1e-9)
 
 
+@pytest.mark.parametrize("near", [None, {"x": 0.5}])
+def test_delay_below_zero_at_rest(cache, near):
+    model = dk.Model(
+        {"x": "-b*(x(t - 1 + x) - a)"}, {"a": 2, "b": 1}, name="early", steady_state={"x": "a"}
+    )
+    with pytest.raises(dk.RunError, match=r"a = 2.0, b = 1.0; expected one with .* delays >= 0"):
+        model.roots(-1, near=near)
+    found = model.hopf(("a", "b"), ((-2, 2), (1, 4)), near=near, cells=8)
+    turns = 2 * math.pi * found.branch
+    np.testing.assert_allclose((1 - found.a) * found.b, math.pi / 2 + turns, rtol=1e-9)
+    np.testing.assert_array_equal(np.isnan(found.map_unstable_roots[0]), found.map_abscissa > 1)
+    assert "delays >= 0" in found.left_out
+
+
 def test_scan(pantograph):
     found = pantograph.scan("final", a=[0.5, 0.7], history={"y": 1.0}, t_end=1.0, progress=False)
     assert not any(found.reason.values)
