@@ -313,11 +313,10 @@ class _Reader:
         if near:
             model.near = found
             model.steady_state = {state: model.symbol(state) for state in model.states}
-        if near:
-            self.expect_constant("near", ", ".join(near))
         for one in model.moving:
             if model.at_steady_state(one.lag).has(TIME):
-                self.refuse("steady_state", ", ".join(texts), f"none where a delay is {one.lag}")
+                expected = f"none where a delay depends on t at rest: {one.lag}"
+                self.refuse("steady_state", ", ".join(texts), expected)
         for state, equation in model.equations.items():
             if equation.has(TIME):
                 text = model.texts[state]

@@ -36,7 +36,8 @@ def rest_procedure(model: Model) -> Procedure:
     guarded = names | {
         model.symbol(v): f"exp({names[model.symbol(w)]})" for v, w in model.auxiliary.items()
     }
-    lines = refusals(model, at_rest, guarded, "rates")
+    lags = {one.symbol.name: model.at_steady_state(one.lag) for one in model.moving}
+    lines = refusals(model, at_rest | lags, guarded, "rates")
     lines += [f"rates({row}) = {text_of(one, names)}" for row, one in enumerate(equations, 1)]
     for array, symbols in (
         ("by_state", list(names)),
@@ -95,26 +96,33 @@ def linear_part(model: Model) -> dict[tuple[int, int, int], sympy.Expr]:
     return {place: value for place, value in found.items() if value != 0}
 
 
-def numbered(linear: dict[tuple, sympy.Expr]) -> dict[tuple, sympy.Symbol]:
+def computed(model: Model) -> dict[tuple | sympy.Expr, sympy.Expr]:
+    """What is a function of a steady state that is computed: derivatives there, by their places,
+    and delays, by themselves."""
+    if not model.near:
+        return {}
+    return linear_part(model) | {one.lag: one.lag for one in model.moving}
+
+
+def numbered(entries: dict[tuple | sympy.Expr, sympy.Expr]) -> dict:
     """Elements of an array in their place."""
-    return {place: sympy.Symbol(f"entry({i})") for i, place in enumerate(linear, 1)}
+    return {place: sympy.Symbol(f"entry({i})") for i, place in enumerate(entries, 1)}
 
 
 def characteristic_terms(model: Model) -> list[tuple[sympy.Expr, int, sympy.Expr]]:
     """The terms c s^m exp(-s d) of det(s I - A_0 - sum of A_k exp(-s lag_k)): c, m and d.
 
     Of a chain they are those of a mode, in which a second difference is -mode times the state. Of
-    a steady state that is computed c is a polynomial of the elements of the matrices.
+    a steady state that is computed c is a polynomial of the elements of the matrices, and d may
+    be a sum of delays there.
     """
     s = sympy.Symbol("s_")
     decays = [sympy.Symbol(f"decay_{i}") for i, _ in enumerate(model.delayed, 1)]
     shorten = sympy.expand if model.near else shortest
-    linear = linear_part(model)
-    linear = (
-        numbered(linear)
-        if model.near
-        else {place: sympy.simplify(value) for place, value in linear.items()}
-    )
+    names = numbered(computed(model))
+    linear = {place: names.get(place, value) for place, value in linear_part(model).items()}
+    if not model.near:
+        linear = {place: sympy.simplify(value) for place, value in linear.items()}
     matrix = s * sympy.eye(len(model.states))
     for (row, column, number), value in linear.items():
         matrix[row, column] -= value * decays[number - 1] if number else value
@@ -122,7 +130,8 @@ def characteristic_terms(model: Model) -> list[tuple[sympy.Expr, int, sympy.Expr
     terms: dict[tuple, sympy.Expr] = {}
     for (power, *times), coefficient in polynomial.terms():
         # several delayed states may have one delay, and sums of delays may be alike
-        delay = sympy.Add(*(n * one.lag for n, one in zip(times, model.delayed, strict=True)))
+        lags = (names.get(one.lag, one.lag) for one in model.delayed)
+        delay = sympy.Add(*(n * lag for n, lag in zip(times, lags, strict=True)))
         terms[power, delay] = terms.get((power, delay), 0) + coefficient
     shortened = {place: shorten(coefficient) for place, coefficient in terms.items()}
     return [(value, *place) for place, value in shortened.items() if value != 0]
@@ -130,9 +139,8 @@ def characteristic_terms(model: Model) -> list[tuple[sympy.Expr, int, sympy.Expr
 
 def characteristic_procedure(model: Model) -> Procedure:
     """Coefficients, powers and delays of the terms, and their derivatives where these are not 0."""
-    terms = characteristic_terms(model)
-    linear = linear_part(model) if model.near else {}
-    lines = entry_lines(model, linear)
+    terms, entries, count = characteristic_terms(model), computed(model), len(model.parameters)
+    lines = entry_lines(model, entries)
     parts = [sympy.S.Zero]
     for i, (coefficient, power, delay) in enumerate(terms, 1):
         if delay not in parts:
@@ -143,31 +151,31 @@ def characteristic_procedure(model: Model) -> Procedure:
             f"delay({i}) = {text_of(delay)}",
             f"part({i}) = {parts.index(delay) + 1}",
         ]
-        for j, one in enumerate(model.parameters, 1):
-            for array, value in (("coefficient_by", coefficient), ("delay_by", delay)):
+        for array, value in (("coefficient_by", coefficient), ("delay_by", delay)):
+            for j, one in enumerate(model.parameters, 1):
                 slope = shortest(value.diff(model.symbol(one.name)))
                 if slope != 0:
                     lines.append(f"{array}({i}, {j}) = {text_of(slope)}")
-        moves = [
-            (slope, f"entry_by({j}, :)")
-            for j, entry in enumerate(numbered(linear).values(), 1)
-            if (slope := coefficient.diff(entry)) != 0
-        ]
-        if moves:
-            total = " + ".join(f"({text_of(slope)})*{text}" for slope, text in moves)
-            lines.append(f"coefficient_by({i}, :{len(model.parameters)}) = {total}")
-    count, size, entries = len(model.parameters), len(model.states), len(linear)
+            moves = [
+                f" + ({text_of(slope)})*entry_by({j}, :)"
+                for j, entry in enumerate(numbered(entries).values(), 1)
+                if (slope := value.diff(entry)) != 0
+            ]
+            if moves:
+                row = f"{array}({i}, :{count})"
+                lines.append(f"{row} = {row}{''.join(moves)}")
+    size = len(model.states)
     arrays = [f"rates({size})", f"by_state({size}, {size})", f"moves({size}, {count})"]
-    arrays += [f"entry({entries})", f"entry_by({entries}, {count})"]
-    return with_parameters(model, lines, *(arrays if linear else []))
+    arrays += [f"entry({len(entries)})", f"entry_by({len(entries)}, {count})"]
+    return with_parameters(model, lines, *(arrays if entries else []))
 
 
-def entry_lines(model: Model, linear: dict[tuple, sympy.Expr]) -> list[str]:
-    """Statements that set the elements of the matrices, and their derivatives by the parameters.
+def entry_lines(model: Model, entries: dict[tuple | sympy.Expr, sympy.Expr]) -> list[str]:
+    """Statements that set functions of the steady state, and their derivatives by the parameters.
 
     The steady state moves with the parameters: with f = 0 there df/dy dy/dp = -df/dp.
     """
-    if not linear:
+    if not entries:
         return []
     states, size = at(model), len(model.states)
     given = f"parameters(:{len(model.parameters)}), state(:{size})"
@@ -176,7 +184,7 @@ def entry_lines(model: Model, linear: dict[tuple, sympy.Expr]) -> list[str]:
         "call solve(by_state, moves)",
         "entry_by = 0.0_wp",
     ]
-    for i, value in enumerate(linear.values(), 1):
+    for i, value in enumerate(entries.values(), 1):
         lines.append(f"entry({i}) = {text_of(value, states)}")
         for j, one in enumerate(model.parameters, 1):
             if (slope := value.diff(model.symbol(one.name))) != 0:

@@ -5,6 +5,7 @@
 !>
 !> with polynomials P_d, from the terms that were made from the equations.
 module characteristic_function
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use dde_kinds, only: wp
    use model_problem, only: model_type
    implicit none (type, external)
@@ -37,6 +38,7 @@ contains
 
    !> The characteristic function of a model, of a chain that of the mode with the eigenvalue
    !> `shape%mode`. Terms of one delay in the definition are one part, also where that delay is 0.
+   !> Where a delay that moves has no value >= 0 at rest, coefficients are not numbers.
    pure function characteristic_of(model) result(function_of_model)
       !> The model
       class(model_type), intent(in) :: model
@@ -58,6 +60,11 @@ contains
             c%coefficient(power(i), part(i)) = coefficient(i)
             c%coefficient_by(power(i), part(i), :) = coefficient_by(i, :)
          end do
+         associate (known => pack(c%delay, .not. ieee_is_nan(c%delay)))
+            if (model%moving > 0 .and. (size(known) < parts .or. any(known < 0.0_wp))) then
+               c%coefficient = ieee_value(1.0_wp, ieee_quiet_nan)
+            end if
+         end associate
       end associate
    end function characteristic_of
 

@@ -96,8 +96,54 @@ def test_roots_and_hopf_points_are_those_of_the_frozen_delay(cache):
     assert np.isnan(found.l1).all()
     with pytest.raises(dk.RunError, match="cycles: delays depend on t or the states"):
         model.cycle({"x": 0.1}, along="a", window=(1.5, 2))
-    with pytest.raises(dk.ModelError, match="none where a delay is t/2"):
+    with pytest.raises(dk.ModelError, match="none where a delay depends on t at rest: t/2"):
         dk.Model({"x": "-x(t/2)"}, steady_state={"x": 0}, name="half").roots(-1)
+
+
+def test_rest_near_a_guess_is_that_of_expressions(cache):
+    """Rest x = a**2, y = log(a): the same roots, curves and counts; two states share a delay."""
+    texts = {
+        "x": "-k*(x(t - T/(1 + x)) - a**2) + (y(t - T/(1 + x)) - log(a))/5",
+        "y": "a - exp(y) + (x(t - 1 - y**2) - x)/3",
+    }
+    numbers = {"a": 1.2, "k": 1.5, "T": 3}
+    known = dk.Model(texts, numbers, steady_state={"x": "a**2", "y": "log(a)"}, name="known")
+    guess, model = {"x": 1.0, "y": 0.1}, dk.Model(texts, numbers, name="computed")
+    roots = known.roots(-2)
+    assert len(roots) > 5
+    assert model.roots(-2, near=guess) == pytest.approx(roots, abs=1e-9)
+    for along, window in ((("a", "k"), ((0.5, 2), (0.2, 3))), (("a", "T"), ((0.5, 2), (0.5, 9)))):
+        one = known.hopf(along, window, cells=10)
+        other = model.hopf(along, window, near=guess, cells=10)
+        assert one.point.size > 20
+        for name in (*along, "omega", "map_unstable_roots"):
+            np.testing.assert_allclose(other[name], one[name], rtol=1e-9, atol=1e-9)
+
+
+def test_hopf_points_of_a_rest_that_is_computed(cache):
+    """a = x exp(x) at rest: s = -k exp(-s T/(1 + x)) with k = (1 + x) exp(x); T exp(x) = pi/2."""
+    late = "x(t - T/(1 + x))"
+    model = dk.Model({"x": f"a - {late}*exp({late})"}, {"a": 1, "T": 1}, name="lambert")
+    found = model.hopf(("a", "T"), ((0.2, 3), (0.1, 1.3)), near={"x": 0.5}, cells=10)
+    first = found.sel(point=found.branch == 0)
+    power = math.pi / 2 / first["T"]
+    assert first.point.size > 20
+    np.testing.assert_allclose(first.a, power * np.log(power), rtol=1e-9)
+    np.testing.assert_allclose(first.omega, (1 + np.log(power)) * power, rtol=1e-9)
+
+
+@pytest.mark.parametrize("near", [None, {"x": 0.5}])
+def test_delay_below_zero_at_rest(cache, near):
+    model = dk.Model(
+        {"x": "-b*(x(t - 1 + x) - a)"}, {"a": 2, "b": 1}, name="early", steady_state={"x": "a"}
+    )
+    with pytest.raises(dk.RunError, match=r"a = 2.0, b = 1.0; expected one with .* delays >= 0"):
+        model.roots(-1, near=near)
+    found = model.hopf(("a", "b"), ((-2, 2), (1, 4)), near=near, cells=8)
+    turns = 2 * math.pi * found.branch
+    np.testing.assert_allclose((1 - found.a) * found.b, math.pi / 2 + turns, rtol=1e-9)
+    np.testing.assert_array_equal(np.isnan(found.map_unstable_roots[0]), found.map_abscissa > 1)
+    assert "delays >= 0" in found.left_out
 
 
 def test_scan(pantograph):
@@ -111,8 +157,8 @@ def test_scan(pantograph):
     [
         (lambda one: one.exponents(1.0), "expected constant ones"),
         (lambda one: one.attractor(1.0), "expected constant ones"),
-        (lambda one: one.hopf(("a", "b"), ((0, 1), (0, 1)), near={"y": 0}), "a delay depends on t"),
-        (lambda one: one.roots(-1, near={"y": 0}), "a delay depends on t or the states"),
+        (lambda one: one.hopf(("a", "b"), ((0, 1), (0, 1)), near={"y": 0}), "on t at rest: t/2"),
+        (lambda one: one.roots(-1, near={"y": 0}), "none where a delay depends on t at rest: t/2"),
         (lambda one: one.run(1.0, 1.0, method="taylor"), "gives no Taylor series"),
     ],
 )
@@ -135,9 +181,8 @@ def test_delays_that_are_none(cache, text, words):
 
 
 def test_options_that_need_constant_delays(cache):
-    for options in ({"steady_state": {"near": {"y": 0}}}, {"fast": "y"}):
-        with pytest.raises(dk.ModelError, match="none where a delay depends on t or the states"):
-            dk.Model({"y": "-y(t - 1 - y**2)"}, name="fixed", **options).run(1.0, 1.0)
+    with pytest.raises(dk.ModelError, match="none where a delay depends on t or the states"):
+        dk.Model({"y": "-y(t - 1 - y**2)"}, name="fixed", fast="y").run(1.0, 1.0)
     with pytest.raises(dk.ModelError, match="none where no delay depends on t or the states"):
         dk.Model({"y": "-y(t - 1)"}, name="constant", longest_delay=3).run(1.0, 1.0)
     with pytest.raises(dk.ModelError, match="an expression of parameters"):

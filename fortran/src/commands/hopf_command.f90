@@ -130,7 +130,7 @@ contains
       call data%attribute("ordinate", trim(settings%along(2)))
       if (any(roots < 0)) call data%attribute("left_out", text(count(roots < 0))//" of " &
          //text(size(roots))//" cells, NaN in map_unstable_roots: no state at rest with finite " &
-         //"derivatives is found there, or roots are too many to count")
+         //"derivatives and delays >= 0 is found there, or roots are too many to count")
       rows = data%dimension("point", size(points))
       call put_places(data, rows, plane%model, [(points(i)%numbers, i=1, size(points))])
       call data%column(rows, "omega", points%at%omega, "angular frequency of the pair")

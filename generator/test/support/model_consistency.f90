@@ -24,7 +24,7 @@ module model_consistency
 
 contains
 
-   !> Right-hand side, Jacobian and series at a state and delayed values.
+   !> Right-hand side, Jacobian and, with constant delays, series at a state and delayed values.
    subroutine check_model(error, model, y, z, name)
       type(error_type), allocatable, intent(inout) :: error
       class(model_type), intent(in) :: model
@@ -33,6 +33,7 @@ contains
 
       if (allocated(error)) return
       call check_jacobian(error, model, y, z, name)
+      if (model%moving > 0) return
       call check_series(error, model, y, z, name)
       call check_tangents(error, model, y, z, name, slow=.false.)
       if (model%relaxation_rate(now, y) > 0.0_wp) then
@@ -230,13 +231,18 @@ contains
       class(model_type), intent(in) :: model
       character(len=*), intent(in) :: name
       complex(wp), parameter :: s = (0.3_wp, 0.7_wp)
-      real(wp) :: by_y(model%n, model%n), by_z(model%n, size(model%lag)), dydt(model%n)
+      real(wp) :: by_y(model%n, model%n), by_z(model%n, size(model%lag)), dydt(model%n), &
+                  lag(size(model%lag))
       complex(wp) :: matrix(model%n, model%n)
       type(characteristic_type) :: c
       integer :: i, k
 
       if (allocated(error)) return
+      lag = model%lag
       associate (state => model%steady_state())
+         associate (moving => model%moving)
+            if (moving > 0) call model%moving_lags(now, state, lag(size(lag) - moving + 1:))
+         end associate
          call model%rhs(now, state, state(model%component), dydt)
          call compare(error, dydt, 0.0_wp*dydt, 1.0e-30_wp, name//", rates at rest")
          call find_slopes(model, state, state(model%component), by_y, by_z)
@@ -247,7 +253,7 @@ contains
       end do
       do k = 1, size(model%lag)
          associate (column => matrix(:, model%component(k)))
-            column = column - by_z(:, k)*exp(-s*model%lag(k))
+            column = column - by_z(:, k)*exp(-s*lag(k))
          end associate
       end do
       c = characteristic_of(model)

@@ -24,7 +24,8 @@ module model_roots
 
 contains
 
-   !> Refuse parameters at which a model has no state at rest, or no finite linear part there.
+   !> Refuse parameters at which a model has no state at rest, or no finite linear part or a
+   !> delay below 0 there.
    subroutine check_rest(model, error)
       !> The model, of a chain a block
       class(model_type), intent(in) :: model
@@ -41,7 +42,7 @@ contains
          words = words//", "//trim(model%names(i))//" = "//text(model%numbers(i))
       end do
       call raise(error, "no state at rest "//trim(about%rest)//words//"; expected one with " &
-                 //"finite derivatives: other parameters or a nearer guess")
+                 //"finite derivatives and delays >= 0: other parameters or a nearer guess")
    end subroutine check_rest
 
    !> Number of roots with real part above `bound`, of all modes of a chain, or `no_count`.
