@@ -225,7 +225,7 @@ contains
       integer :: most_rows
 
       associate (n => problem%n, delays => size(problem%lag))
-         self%banded = problem%lower >= 0 .and. 1 + problem%lower + problem%upper < n
+         self%banded = problem%lower >= 0
          self%lower = merge(problem%lower, n - 1, self%banded)
          self%upper = merge(problem%upper, n - 1, self%banded)
          allocate (self%by_y(merge(1 + self%lower + self%upper, n, self%banded), n), source=0.0_wp)

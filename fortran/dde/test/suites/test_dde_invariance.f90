@@ -2,6 +2,7 @@
 !> What changes nothing, by all methods: other names and units, cuts of a run, threads, copies and
 !> components beside.
 module test_dde_invariance
+   use banded_problems, only: in_a_band
    use dde, only: continuation_type, dde_problem_type, integrate, integration_options, &
                   integration_result, methods, table_sampler, too_many_steps
    use dde_errors, only: failure_type => error_type, text
@@ -342,16 +343,13 @@ contains
          class(dde_problem_type), intent(in) :: problem
          integer, intent(in) :: equations
          real(wp), intent(in) :: t_end
-         class(dde_problem_type), allocatable :: banded
+         type(in_a_band) :: banded
          type(integration_options) :: options
          type(integration_result) :: any, few
 
          if (allocated(error)) return
          call expect(error, problem%n == equations, "the number of equations")
-         allocate (banded, source=problem)
-         banded%lower = problem%n - 1
-         banded%upper = problem%n - 1
-         banded%rows = spread([1, problem%n], 2, size(problem%lag))
+         banded = in_a_band(problem)
          options = at_tolerance(10.0_wp**(-digits), methods(i))
          call run(error, problem, 0.0_wp, t_end, options, few)
          call run(error, banded, 0.0_wp, t_end, options, any)
