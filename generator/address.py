@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Where a block has its states and what is kept of it: alone, or at its turn in a chain.
 
-A model is a chain where an equation has the second difference of a state, or a network, whose nodes
-are its blocks. The states of blocks stand one after another, so that the Jacobian is banded: those
-of a block are behind `at`. Delayed values of a chain are in the same order. What blocks keep between
-orders has a slot for each block at work.
+A model is a chain where an equation has the second difference of a state, or a network, whose
+nodes are its blocks. The states of blocks stand one after another, so that the Jacobian is banded:
+those of a block are behind `at`. Delayed values of a chain are in the same order. What blocks keep
+between orders has a slot for each block at work.
 """
 
 from collections.abc import Callable

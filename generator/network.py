@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Procedures of a network: loops over its nodes and edges, whose number is that of a run.
 
-The nodes are the blocks of the model (address.py). Edges stand in compressed rows: those that end at
-node `block` have the numbers left(block) to left(block + 1) - 1, and edge number `edge` begins at
-node right(edge). Behind the parameters are those that each node has, one after another, then those
-that each edge has. `place` has the number of each delayed value, those of nodes before those of
-edges, or 0 where its delay is 0; and behind these the first equation that takes each value.
+The nodes are the blocks of the model (address.py). Edges stand in compressed rows: those that end
+at node `block` have the numbers left(block) to left(block + 1) - 1, and edge number `edge` begins
+at node right(edge). Behind the parameters are those that each node has, one after another, then
+those that each edge has. `place` has the number of each delayed value, those of nodes before those
+of edges, or 0 where its delay is 0; and behind these the first equation that takes each value.
 """
 
 from dataclasses import dataclass
@@ -43,7 +43,7 @@ class Network:
 
     def own(self) -> dict[sympy.Symbol, str | Delayed]:
         """What a node has: elements of arrays, and delayed values."""
-        return {symbol: value for symbol, value in self.of_node("block").items()}
+        return self.of_node("block")
 
     def others(self) -> dict[sympy.Symbol, str | Delayed]:
         """What the other node of an edge has."""
@@ -72,7 +72,9 @@ class Network:
     def value(self, one: Delayed, other: bool) -> str:
         """The number of a delayed value, an element of `place`."""
         if one.read == NODE:
-            return f"place({self.of_nodes.index(one)}*self%blocks + {'other' if other else 'block'})"
+            return (
+                f"place({self.of_nodes.index(one)}*self%blocks + {'other' if other else 'block'})"
+            )
         before = f"{len(self.of_nodes)}*self%blocks + {self.of_edges.index(one)}*{EDGES}"
         return f"place({before} + edge)"
 
@@ -81,7 +83,9 @@ class Network:
         state = self.model.symbol(one.state)
         return of_other(state) if one.read == FAR or other else state
 
-    def fetched(self, known: dict[sympy.Symbol, str | Delayed], taken: set, other=False) -> list[str]:
+    def fetched(
+        self, known: dict[sympy.Symbol, str | Delayed], taken: set, other=False
+    ) -> list[str]:
         """Statements that set what is taken of a node or an edge."""
         lines = []
         for symbol, value in known.items():
@@ -167,7 +171,13 @@ def rhs_procedure(model: Model) -> Procedure:
         *net.at.start(),
         *net.fetched(net.own(), net.taken([*equations.values(), *terms(model)])),
         *of_node,
-        *refusals(model, equations, guard_names(model), "dydt"),
+        *refusals(
+            model,
+            equations,
+            guard_names(model),
+            "dydt",
+            of=lambda state: net.at.state("dydt", state=state),
+        ),
         *(f"{net.at.state('dydt', state=s)} = {text_of(one)}" for s, one in equations.items()),
     ]
     return net.procedure(alone, inside)
@@ -231,7 +241,9 @@ def jacobian_procedure(model: Model) -> Procedure:
     return net.procedure([*(f"{one} = 0.0_wp" for one in results), *alone], inside)
 
 
-def shortened(net: Network, expressions: list[sympy.Expr], name: str) -> tuple[list[str], list[str]]:
+def shortened(
+    net: Network, expressions: list[sympy.Expr], name: str
+) -> tuple[list[str], list[str]]:
     """Texts of expressions, and statements that set what they share."""
     symbols = sympy.numbered_symbols(f"{name}_", real=True, start=1)
     shared, reduced = sympy.cse(expressions, symbols=symbols)

@@ -69,6 +69,10 @@ void dk_delays(const dk_model *model, const double *parameters, double *lag, int
 double dk_unit_of_time(const dk_model *model, const dk_request *request);
 int32_t dk_integrate(const dk_model *model, const dk_request *request, dk_results **results,
                      char *message, int32_t length);
+/* The equations at `past` (`rate`), and their derivatives that are not 0: `row`, `column`, `lag` (0:
+ * by the state itself) and `value` of each. */
+int32_t dk_linearise(const dk_model *model, const dk_request *request, dk_results **results,
+                     char *message, int32_t length);
 
 /* A command of the program with the text of a namelist (`spring_block COMMAND --help` lists its keys),
  * on a model. */

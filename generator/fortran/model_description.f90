@@ -247,12 +247,11 @@ contains
          name = kind//"("//text_of(number)//")"
       else
          name = trim(self%states(number - place*size(self%states)))
-         if (kind == "f") name = name//"'"
-         if (allocated(self%sizes%needed)) then
-            name = name//"["//text_of(blocks(1 + place) - 1)//"]"
-         else if (size(blocks) > 1) then
-            name = name//" of block "//text_of(blocks(1 + place))
-         end if
+         associate (is_network => allocated(self%sizes%needed), block => blocks(1 + place))
+            if (is_network) name = name//"["//text_of(block - 1)//"]"
+            if (kind == "f") name = name//"'"
+            if (size(blocks) > 1 .and. .not. is_network) name = name//" of block "//text_of(block)
+         end associate
       end if
    end function name_of
 

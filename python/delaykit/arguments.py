@@ -112,7 +112,9 @@ class Arguments:
             return name, 0
         nodes = self.model.network.nodes if self.model.network else 0
         if int(found[2]) >= nodes:
-            raise ModelError(f"state of an event: {name}; expected the number of one of {nodes} nodes")
+            raise ModelError(
+                f"state of an event: {name}; expected the number of one of {nodes} nodes"
+            )
         return found[1], int(found[2])
 
     def events(self, events: list[Event]) -> dict[str, np.ndarray]:

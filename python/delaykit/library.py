@@ -69,6 +69,7 @@ def load() -> ctypes.CDLL:
         "dk_describe": (number, [handle, text, number]),
         "dk_methods": (number, [text, number]),
         "dk_integrate": (number, [handle, ctypes.POINTER(Request), to_handle, text, number]),
+        "dk_linearise": (number, [handle, ctypes.POINTER(Request), to_handle, text, number]),
         "dk_command": (number, [handle, text, text, to_handle, text, number]),
         "dk_watch": (None, [number]),
         "dk_stop": (None, [number]),

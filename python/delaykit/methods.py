@@ -250,7 +250,15 @@ def attractor(
 
 
 def roots(model, bound=-1.0, *, parameters=None, near=None) -> np.ndarray:
-    """Characteristic roots at rest with a real part above the bound, the rightmost first."""
+    """Characteristic roots at rest with a real part above the bound, the rightmost first.
+
+    Of a network, `near` is needed, and roots that are alike are one: in a symmetric network many
+    are.
+    """
+    if model.network:
+        from delaykit.rests import roots_of_network
+
+        return roots_of_network(model, bound, near, parameters)
     own = Arguments(model.resting(near), parameters)
     groups = {"linear_stability": {"model": model_group(own), "root_bound": bound}}
     found = command(own, "linear_stability", groups)
@@ -266,7 +274,14 @@ def hopf(model, along, window, *, parameters=None, near=None, cells=40) -> xr.Da
 
     along: names of abscissa and ordinate; window: ((least, most), (least, most)).
     near: a guess of the state at rest, if the model has no `steady_state`.
+
+    Of a network: points along one parameter (along="k", window=(0, 2)).
     """
+    if model.network:
+        from delaykit.rests import hopf_of_network
+
+        check_name("parameter", along, model.definition["parameters"])
+        return hopf_of_network(model, along, window_of(window, along), near, parameters, cells)
     model = model.resting(near)
     for key in along:
         check_name("parameter", key, model.definition["parameters"])

@@ -185,7 +185,9 @@ class Model:
         numbers = {}
         for key, value in values.items():
             if key in self.arrays:
-                raise ModelError(f"parameter {key}: has indices; expected with_parameters({key}=...)")
+                raise ModelError(
+                    f"parameter {key}: has indices; expected with_parameters({key}=...)"
+                )
             check_name("parameter", key, self.definition["parameters"])
             number = numbers[key] = number_of(f"parameter {key}", value)
             entry = self.definition["parameters"][key]

@@ -17,7 +17,7 @@ INDEXED = re.compile(r"(\w+)\s*\[\s*(\w+)\s*(,\s*\w+\s*)?\]")
 
 @dataclass(frozen=True)
 class Network:
-    """Nodes, parameters of each, shape (nodes), and of each edge, shape (nodes, nodes) or sparse."""
+    """Nodes, parameters of each, shape (nodes), and of edges, shape (nodes, nodes) or sparse."""
 
     index: str
     nodes: int

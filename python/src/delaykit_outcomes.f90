@@ -1,14 +1,15 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What a run leaves in its results.
 module delaykit_outcomes
-   use dde, only: continuation_type, event_table, integration_result
+   use dde, only: continuation_type, event_table, find_jacobian, integration_result
    use dde_errors, only: text
    use dde_kinds, only: wp
    use model_problem, only: model_type
    use results, only: results_type
+   use tangent_problem, only: allocate_slopes
    implicit none (type, external)
    private
-   public :: put_events, put_outcome, put_past, put_samples, put_switched
+   public :: put_events, put_linear_part, put_outcome, put_past, put_samples, put_switched
 
 contains
 
@@ -37,6 +38,58 @@ contains
       call data%table([data%dimension("state", size(watcher%y, 1)), rows], "event_y", &
                       watcher%y(:, :watcher%received), "state at the event")
    end subroutine put_events
+
+   !> The equations at a constant past, and their derivatives that are not 0.
+   subroutine put_linear_part(data, model, t)
+      type(results_type), intent(inout) :: data
+      !> The model with its past
+      type(model_type), intent(in) :: model
+      !> Time
+      real(wp), intent(in) :: t
+      real(wp), allocatable :: by_y(:, :), by_z(:, :), entries(:, :)
+      real(wp) :: rate(model%n), z(size(model%lag))
+      integer :: i, j, number, rows, shift
+
+      z = model%past(model%component)
+      call model%rhs(t, model%past, z, rate)
+      call allocate_slopes(model, by_y, by_z)
+      call find_jacobian(model, t, model%past, z, by_y, by_z)
+      number = count(abs(by_y) > 0.0_wp) + count(abs(by_z) > 0.0_wp)
+      allocate (entries(number, 4))
+      number = 0
+      do j = 1, size(by_y, 2)
+         shift = merge(j - 1 - model%upper, 0, model%lower >= 0)
+         do i = 1, size(by_y, 1)
+            if (abs(by_y(i, j)) > 0.0_wp) call put(i + shift, j, 0.0_wp, by_y(i, j))
+         end do
+      end do
+      do j = 1, size(by_z, 2)
+         shift = 0
+         if (model%lower >= 0) shift = model%rows(1, j) - 1
+         do i = 1, size(by_z, 1)
+            if (abs(by_z(i, j)) > 0.0_wp) then
+               call put(i + shift, model%component(j), model%lag(j), by_z(i, j))
+            end if
+         end do
+      end do
+      call data%column(data%dimension("state", model%n), "rate", rate, "right-hand side")
+      rows = data%dimension("entry", number)
+      call data%column(rows, "row", entries(:, 1), "number of the equation, from 1")
+      call data%column(rows, "column", entries(:, 2), "number of the state, from 1")
+      call data%column(rows, "lag", entries(:, 3), "time for which the state is delayed")
+      call data%column(rows, "value", entries(:, 4), "derivative")
+
+   contains
+
+      !> Keep a derivative.
+      subroutine put(row, column, lag, value)
+         integer, intent(in) :: row, column
+         real(wp), intent(in) :: lag, value
+
+         number = number + 1
+         entries(number, :) = [real(row, wp), real(column, wp), lag, value]
+      end subroutine put
+   end subroutine put_linear_part
 
    !> What the solver did, and where it ended.
    subroutine put_outcome(data, outcome, now, switches)

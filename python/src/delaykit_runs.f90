@@ -9,7 +9,8 @@ module delaykit_runs
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use delaykit_handles, only: message_of, model_of, string_of
-   use delaykit_outcomes, only: put_events, put_outcome, put_past, put_samples, put_switched
+   use delaykit_outcomes, only: put_events, put_linear_part, put_outcome, put_past, put_samples, &
+                               put_switched
    use model_chain, only: blocks_in_order, chain_ends
    use model_problem, only: model_type
    use model_settings, only: check_numbers
@@ -138,6 +139,31 @@ contains
       if (.not. allocated(error)) options = in_own_units(model, options, known=abs(model%past))
       unit = options%unit_of_time
    end function dk_unit_of_time
+
+   !> The equations at the constant past of a request, and their derivatives by states (lag 0) and
+   !> delayed values that are not 0; 0 if it succeeded, else 1 with a message.
+   integer(c_int) function dk_linearise(handle, request, result, message, length) result(status) &
+      bind(c)
+      !> The model, as dk_open gave it
+      type(c_ptr), value :: handle
+      !> Parameters and past
+      type(request_type), intent(in) :: request
+      !> The results
+      type(c_ptr), intent(out) :: result
+      !> Room for a message and its size
+      character(kind=c_char), intent(inout) :: message(*)
+      integer(c_int), value :: length
+      type(results_type), pointer :: data
+      type(error_type), allocatable :: error
+      type(model_type) :: model
+
+      allocate (data)
+      result = c_loc(data)
+      model = model_of(handle)
+      call set_model(request, model, error)
+      if (.not. allocated(error)) call put_linear_part(data, model, request%t_start(1))
+      status = message_of(error, message, length)
+   end function dk_linearise
 
    !> Give a model its parameters, blocks and constant past.
    subroutine set_model(request, model, error)
