@@ -140,8 +140,8 @@ contains
    end function count_lags
 
    !> The delayed values: each time of a component once.
-   pure subroutine place_values(sizes, first_edge, begins, lags, keeps_zero, place, lag, component, rows, &
-                                lower, upper)
+   pure subroutine place_values(sizes, first_edge, begins, lags, keeps_zero, place, lag, &
+                                component, rows, lower, upper)
       type(sizes_type), intent(in) :: sizes
       !> Edges, as `read_network` gives them
       integer(c_int), intent(in) :: first_edge(:), begins(:)

@@ -62,7 +62,7 @@ contains
       description = description_of(self%code%description)
    end function describe
 
-   !> Delays of a block with these parameters, or of all nodes and edges of a network, some of them 0.
+   !> Delays of a block with these parameters, or of all nodes and edges of a network; some are 0.
    pure function delays(self, parameters) result(lag)
       class(model_type), intent(in) :: self
       !> Parameters, in the order of the definition
@@ -137,8 +137,8 @@ contains
          self%shape%blocks = size(self%left) - 1
          self%given = [self%given, self%of_network]
          call place_values(self%sizes, self%left, self%right, self%delays(parameters), &
-                           self%keeps_delays, self%place, self%lag, self%component, self%rows, self%lower, &
-                           self%upper)
+                           self%keeps_delays, self%place, self%lag, self%component, self%rows, &
+                           self%lower, self%upper)
       else
          call place_in_blocks(self)
       end if

@@ -12,9 +12,10 @@ MARKERS = "osD^v<>PX*"
 
 
 def plot(found: xr.Dataset, ax=None):
-    """Draw exponents, Hopf curves, cycles, a scan, a spectrum or a section; return its axes.
+    """Draw exponents, Hopf curves, cycles, a scan, a spectrum, a section, or a run of a network.
 
-    ax: axes of matplotlib; a new figure unless given. A run has plots of its own: `run.y.plot()`.
+    ax: axes of matplotlib; a new figure unless given. Returns the axes. A run of few states has
+    plots of its own: `run.y.plot()`.
     """
     known = {
         "running_average": exponents,
@@ -25,10 +26,12 @@ def plot(found: xr.Dataset, ax=None):
         "time_between": section,
     }
     draw = next((draw for name, draw in known.items() if name in found), None)
+    if draw is None and any(one.dims[1:] == ("t",) for one in found.values()):
+        draw = nodes
     if draw is None:
         raise ModelError(
-            "plot: expected results of exponents, hopf, cycle, scan, spectrum or section; a "
-            "variable of a run draws itself, as run.y.plot()"
+            "plot: expected results of exponents, hopf, cycle, scan, spectrum or section, or a run "
+            "of a network; a variable of another run draws itself, as run.y.plot()"
         )
     if ax is None:
         try:
@@ -127,6 +130,15 @@ def section(found: xr.Dataset, ax) -> None:
     ax.plot(between[:-1], between[1:], ".", markersize=3)
     ax.axline((between.mean(), between.mean()), slope=1, color="0.7", linewidth=0.8, zorder=0)
     ax.set(xlabel="time between passages", ylabel="the next time between passages")
+
+
+def nodes(found: xr.Dataset, ax) -> None:
+    """The first state of all nodes over time, in colours."""
+    name, values = next((name, one) for name, one in found.items() if one.dims[1:] == ("t",))
+    places = np.arange(len(values))
+    shown = ax.pcolormesh(found.t, places, values, shading="nearest", rasterized=True)
+    ax.figure.colorbar(shown, ax=ax, label=values.attrs.get("long_name", name))
+    ax.set(xlabel="time", ylabel=f"node {values.dims[0]}")
 
 
 def special(found: xr.Dataset, ax, x: str, y: str) -> None:
