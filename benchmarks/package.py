@@ -1,5 +1,5 @@
-"""delaykit and other packages for Python on the equation of Mackey and Glass (benchmarks/run
-package).
+"""delaykit and other packages for Python on the equation of Mackey and Glass, and on networks
+(benchmarks/run package).
 
 The time is that of the loosest tolerance whose error is small enough.
 """
@@ -43,6 +43,8 @@ class Row:
 
 RUN = ("run",), Task((TAU_CYCLE, *TIMES_OF_RUN))
 FIRST = ("run",), Task((TAU_CHAOS, 200.0))
+T_PHASES = 20.0
+BOTH = ("delaykit", "jitcdde")
 SPECTRUM = ("spectrum", 4, T_TRANSIENT), Task((TAU_CHAOS,), T_TRANSIENT + T_EXPONENTS)
 SCAN = ("scan", T_EARLY), Task(TAUS, T_SCAN)
 ROWS = {
@@ -51,10 +53,17 @@ ROWS = {
     "tight": Row("the same, error 1e-9", *RUN, 1e-9),
     "exponents": Row(
         *("4 exponents over 2e4 units", *SPECTRUM, CLOSE, ((TAU_CHAOS, LARGEST),)),
-        peers=("delaykit", "jitcdde"),
+        peers=BOTH,
     ),
     "scan": Row(f"scan of 400 values, {os.cpu_count()} cores", *SCAN),
 }
+for n in (10, 30, 100):
+    kuramoto = (("kuramoto",), Task((float(n),), T_PHASES))
+    words = f"{n} phases, {n * (n - 1)} delays"
+    ROWS[f"phases_{n}_first"] = Row(
+        f"{words}: to the first number", *kuramoto, fresh=True, peers=BOTH
+    )
+    ROWS[f"phases_{n}"] = Row(f"{words}: a run", *kuramoto, peers=BOTH)
 
 
 def rows_of(name: str, options: argparse.Namespace) -> list[dict]:

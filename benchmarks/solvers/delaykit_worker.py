@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """delaykit, the package of this project: chains of blocks, exponents and cycles of the block, the
-equation of Mackey and Glass. Each process compiles its model."""
+equation of Mackey and Glass, networks of phases. Each process compiles its model."""
 
 import os
 import tempfile
@@ -12,7 +12,7 @@ os.environ["DELAYKIT_CACHE"] = CACHE.name
 
 import delaykit  # noqa: E402  after its cache
 import numpy as np  # noqa: E402
-from serving import BETA, PAST, RATE, N, mackey_glass, serve  # noqa: E402
+from serving import BETA, PAST, RATE, N, mackey_glass, phases, serve  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 PARAMETERS = ("tau", "epsilon", "xi", "gamma")
@@ -115,6 +115,23 @@ def scan(words: list[str], delays: list[float], t_end: float, _):
     return run
 
 
+def kuramoto(_words: list[str], parameters: list[float], t_end: float, _):
+    """Phases at the end, all to all."""
+    n = int(parameters[0])
+    omega, tau, first = phases(n)
+    model = delaykit.Model(
+        {"x[i]": "omega[i] + 1/n*sum(j, a[i, j]*sin(x[j](t - tau[i, j]) - x[i]))"},
+        {"omega": omega, "tau": tau, "a": 1 - np.eye(n), "n": n},
+        size={"i": n},
+    )
+
+    def run(tolerance: float, _):
+        options = {"rtol": tolerance, "atol": tolerance, "t_eval": [t_end]}
+        return list(enumerate(model.integrate({"x": first}, t_end, **options).y[:, 0]))
+
+    return run
+
+
 if __name__ == "__main__":
-    tasks = {task.__name__: task for task in (chain, exponents, cycles, spectrum)}
+    tasks = {task.__name__: task for task in (chain, exponents, cycles, spectrum, kuramoto)}
     serve(delaykit.__version__, tasks | mackey_glass(samples, equation) | {"scan": scan})

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""JiTCDDE: a block or a chain, and the equation of Mackey and Glass (workers.py, package.py)."""
+"""JiTCDDE: a block or a chain, the equation of Mackey and Glass, and networks of phases
+(workers.py, package.py)."""
 
 import sys
 from functools import cache
 
 import jitcdde
 import numpy as np
-from serving import PAST, mackey_glass, serve, slope
-from symengine import Symbol, exp
+from serving import PAST, mackey_glass, phases, serve, slope
+from symengine import Symbol, exp, sin
 
 TAU = Symbol("tau")
 
@@ -119,6 +120,33 @@ def spectrum(words: list[str], parameters: list[float], t_end: float, _):
     return run
 
 
+def kuramoto(_words: list[str], parameters: list[float], t_end: float, _):
+    """Phases at the end, all to all."""
+    n = int(parameters[0])
+    omega, tau, first = phases(n)
+
+    def slopes():
+        for i in range(n):
+            pulls = (
+                sin(jitcdde.y(j, jitcdde.t - tau[i, j]) - jitcdde.y(i)) for j in range(n) if j != i
+            )
+            yield omega[i] + sum(pulls) / n
+
+    solver = jitcdde.jitcdde(slopes, n=n, max_delay=tau.max(), verbose=False)
+    solver.compile_C(simplify=False, do_cse=False, chunk_size=150)
+
+    def run(tolerance: float, _):
+        begin(solver, first, tolerance)
+        return list(enumerate(sampled(solver, np.array([t_end]))[0]))
+
+    return run
+
+
 if __name__ == "__main__":
-    tasks = {"chain": chain, "spectrum": spectrum, **mackey_glass(samples, scaled_solver)}
+    tasks = {
+        "chain": chain,
+        "spectrum": spectrum,
+        "kuramoto": kuramoto,
+        **mackey_glass(samples, scaled_solver),
+    }
     serve(jitcdde.__version__, tasks)

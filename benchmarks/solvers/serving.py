@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the workers in Python share: requests and answers (workers.py), and the equation of Mackey
-and Glass (1977), on which packages are compared (package.py)."""
+"""What the workers in Python share: requests and answers (workers.py), the equation of Mackey
+and Glass (1977), and phases with delays, on which packages are compared (package.py)."""
 
 import contextlib
 import multiprocessing
@@ -45,6 +45,12 @@ def mackey_glass(samples: Callable, prepare: Callable = lambda: None) -> dict[st
         return scanned
 
     return {"run": run, "scan": scan}
+
+
+def phases(n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Frequencies, delays and first phases of n phases, each pulled by all others (Kuramoto)."""
+    random = np.random.default_rng(1)
+    return random.normal(1, 0.1, n), random.uniform(0.5, 1.5, (n, n)), random.uniform(0, 6, n)
 
 
 def cpu_seconds() -> float:
