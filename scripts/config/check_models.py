@@ -190,8 +190,8 @@ def check_users_models(config: dict) -> None:
             if names & taken:
                 raise ConfigError(f"{place}: another model has this name; expected another name")
             taken |= names
-            check_definition(place, [read(BLOCK), whole] if section == "laws" else [whole])
             check_network(own, place)
+            check_definition(place, [read(BLOCK), whole] if section == "laws" else [whole])
 
 
 def _as_list(value) -> list:
