@@ -243,6 +243,15 @@ def test_delays_that_move_are_of_scenes_alone(config):
     assert model_of(checked(config), {"law": "panto"}).moving_delay == "t/2"
 
 
+def test_networks_are_for_python(config):
+    """They are refused before anything is compiled."""
+    net = {"states": {"P": ""}, "equations": {"P[i]": "-P[i]"}}
+    config["models"] = {"net": {"parameters": {"Ω": {}}, **net}}
+    config["scenes"]["mine"] = {"model": "net", "Ω": 1.0, "history": {"P": 1.0}, "t_end": 50.0}
+    with pytest.raises(ConfigError, match="config models net: an index i; expected none"):
+        checked(config)
+
+
 def test_scene_of_a_driven_model_has_no_roots(config):
     config["models"] = {"driven": copy.deepcopy(DRIVEN)}
     config["scenes"]["mine"] = {**AT, "Ω": 0.3, "history": {"P": 1.0}, "t_end": 50.0}

@@ -33,6 +33,8 @@ def check_definition(place: str, parts: list[dict]) -> tuple[bool, str, str]:
 
     try:
         model = read_model(reduce(overlaid, parts))
+        if model.index:
+            raise ModelError(f"an index {model.index}; expected none: networks are for Python")
         write_module(model)
     except (ModelError, TypeError) as problem:
         reason = str(problem).removeprefix(f"model {parts[-1]['name']}: ")
