@@ -151,6 +151,7 @@ def summed(expression, node: ast.Call, args: list[ast.AST]) -> sympy.Symbol:
             expression.refuse(node, "sum(INDEX, TERM) with a new index, and no sum within it")
     value = expression.value(term)
     reader.bound = ""
+    reader.expect_real(expression.place, expression.segment(node), value)
     for one in model.sums:
         if one.term == value:
             return one.symbol

@@ -130,6 +130,7 @@ def description_lines(model: Model, exponents: list[str], whole: bool) -> list[s
     counted = (model.parameters, equations, model.states, own, terms, exponents)
     delayed = sum(any(one.symbol.name in text for one in model.delayed) for text in exponents)
     taken = [*model.equations.values(), *(one.value for one in model.switches)]
+    taken += [one.term for one in model.sums]
     sizes = [*map(len, counted), delayed, len(model.switches)]
     lines = [
         ("sizes", *map(str, sizes)),

@@ -14,6 +14,9 @@ module model_network
    private
    public :: count_lags, place_values, read_network
 
+   !> Most nodes of which all pairs are edges: their number is one of 32 bits.
+   integer, parameter :: most_nodes = 46340
+
    !> Delayed values, each time of a component once.
    type :: values_type
       integer :: number = 0
@@ -66,6 +69,11 @@ contains
       end if
       if (status /= 0) then
          call raise(error, path//": cannot be read: "//trim(reason))
+         return
+      end if
+      if (sizes%needed(ubound(sizes%needed, 1)) .and. counts(1) > most_nodes) then
+         call raise(error, text(int(counts(1)))//" nodes, all to all; expected at most " &
+                    //text(most_nodes)//", or terms that are 0 where a matrix is")
          return
       end if
       call keep_edges(sizes%needed, int(counts(1)), first, from, real(of_edges, wp), first_edge, &

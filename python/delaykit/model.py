@@ -83,6 +83,8 @@ class Model:
         self.network = Network.read(texts, given, size)
         indexed = self.network.indices if self.network else {}
         if self.network:
+            if (blocks, ends) != (1, "free"):
+                raise ModelError(f"blocks: {blocks!r}, ends: {ends!r}; expected none in a network")
             self.blocks = self.network.nodes
         names = [key.partition("[")[0].strip() for key in texts]
         self.definition = {

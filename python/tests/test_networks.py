@@ -194,6 +194,17 @@ def test_what_does_not_grow_with_nodes(ring):
     assert found[0][-1] == found[0][9]
 
 
+def test_networks_without_edges_and_of_one_node(cache):
+    """And one that is driven, within a sum, too: it has no exponent 0."""
+    alone = dk.Model(RING, {"c": 2.0, "a": 0.0, "T": 2.0}, size={"i": 3}, name="ring")
+    assert alone.run({"x": 1.0}, 1.0).x.values[:, -1] == pytest.approx([math.exp(-1)] * 3)
+    one = dk.Model({"x[i]": "sum(j, cos(t) - x[j])"}, size={"i": 1}, name="one")
+    run = one.integrate({"x": 0.5}, 2.0)
+    assert run.y[0, -1] == pytest.approx((math.cos(2) + math.sin(2)) / 2, abs=1e-8)
+    found = one.exponents({"x": 0.5}, 1, t_transient=10.0, t_end=50.0)
+    assert found.value.values == pytest.approx([-1.0], abs=1e-6)
+
+
 def test_results_have_the_index(ring):
     """States over node and time, events of a node by its number from 0, names in messages."""
     past = {"x": np.arange(12) / 12}
@@ -229,6 +240,8 @@ def test_results_have_the_index(ring):
         ({"x[i]": "1"}, {}, None, "number of nodes"),
         ({"x[i]": "1"}, {}, 0, "whole number >= 1"),
         ({"x": "1"}, {}, 2, "expected none without an index"),
+        ({"x[i]": "sum(j, sqrt(x[j]**2))"}, {}, 2, r"abs\(a\) for sqrt"),
+        ({"x[i]": "sum(j, sin(x[j] - x[i]))"}, {}, 46341, "46341 nodes, all to all"),
     ],
 )
 def test_refusals(cache, equations, parameters, size, words):
@@ -250,5 +263,7 @@ def test_methods_that_networks_have_not(ring):
         ring.integrate({"x": 0}, 1.0, events="x[12] = 1")
     with pytest.raises(dk.ModelError, match=r"expected with_parameters\(a=...\)"):
         ring.integrate({"x": 0}, 1.0, parameters={"a": 1.0})
+    with pytest.raises(dk.ModelError, match="expected none in a network"):
+        dk.Model({"x[i]": "1"}, size={"i": 2}, blocks=3)
     with pytest.raises(dk.RunError, match="no state at rest"):
         dk.Model({"x[i]": "1 + x[i]**2"}, size={"i": 2}).roots(near={"x": 0})
