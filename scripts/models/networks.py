@@ -4,7 +4,6 @@ The path of a file begins in the folder of the user's file that names it, or of 
 project's folder.
 """
 
-import contextlib
 import csv
 import math
 from pathlib import Path
@@ -101,7 +100,7 @@ def numbers_of(value, where: str, shape: tuple[int, ...]) -> np.ndarray:
     if array.shape not in ((), shape):
         met = " x ".join(map(str, array.shape))
         raise ConfigError(f"{where}: {met} numbers; expected {in_words(shape)}, or one for all")
-    return np.full(shape, array)
+    return np.broadcast_to(array, shape)
 
 
 def numbers_in(path: str, where: str, shape: tuple[int, ...]) -> np.ndarray:
@@ -115,7 +114,7 @@ def numbers_in(path: str, where: str, shape: tuple[int, ...]) -> np.ndarray:
                 if not row:
                     continue
                 place = f"{where}: {path}, row {line}"
-                rows.append([number_of(one, place, i) for i, one in enumerate(row, start=1)])
+                rows.append(np.array([number_of(one, place, i) for i, one in enumerate(row, 1)]))
                 if len(row) != len(rows[0]) or len(row) > nodes or len(rows) > nodes:
                     raise ConfigError(f"{place}: {len(row)} numbers; expected {expected}")
     except (OSError, UnicodeDecodeError, csv.Error) as problem:
@@ -128,10 +127,13 @@ def numbers_in(path: str, where: str, shape: tuple[int, ...]) -> np.ndarray:
 
 def number_of(text: str, place: str, column: int) -> float:
     """A finite number."""
-    with contextlib.suppress(ValueError):
-        if math.isfinite(number := float(text)) and "_" not in text:
-            return number
-    raise ConfigError(f"{place}, column {column}: {text!r}; expected a finite number")
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not math.isfinite(number):
+        raise ConfigError(f"{place}, column {column}: {text!r}; expected a finite number")
+    return number
 
 
 def in_words(shape: tuple[int, ...]) -> str:

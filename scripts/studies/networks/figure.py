@@ -15,8 +15,8 @@ SHOWN = 2000
 
 
 def states_of(run: xr.Dataset) -> list[xr.DataArray]:
-    """The end of the run: each state, shape (node, t)."""
-    late = run.isel(t=slice(-SHOWN, None))
+    """The end of the run, without its transient: each state, shape (node, t)."""
+    late = run.sel(t=slice(run.attrs["t_transient"], None)).isel(t=slice(-SHOWN, None))
     return [one.transpose("node", "t") for one in late.values() if one.dims[0] == "t"]
 
 
