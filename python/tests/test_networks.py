@@ -100,7 +100,7 @@ def test_exponents_and_roots_of_equations_written_out(every):
     found = network.exponents(past, **options)
     expected = plain.exponents(of_plain, **options)
     assert found.value.values == pytest.approx(expected.value.values, abs=1e-3)
-    assert found.history_x.dims == ("block",)
+    assert found.history_x.dims == ("node",)
     roots = network.roots(-0.7, near={"x": 0.5, "y": 0.5})
     assert found.value.values == pytest.approx(roots[:3].real, abs=1e-3)
 
