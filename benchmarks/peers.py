@@ -64,6 +64,9 @@ CASES = {
     "infection": published("infection", 40.0, "f", "series"),
     "wille_baker": published("wille_baker", 5.0, "f", "series"),
     "enzyme": published("enzyme", 160.0, "f", kind="stiff"),
+    "waltman": published("waltman", 300.0, "f", "jacobian", kind="moving"),
+    "paul": published("paul", 10.0, "f", "jacobian", kind="moving"),
+    "pantograph": published("pantograph", 100.0, "f", "jacobian", kind="moving"),
 }
 """The six scenes of the paper, stiffer blocks, and published problems."""
 
