@@ -33,8 +33,8 @@ contains
       t = 0.0_wp
       t_last = t_end
       call problem%initial(y)
-      ! of the stiff block the fast time; 1e-3 else
-      step = 1e-3_wp
+      ! of the stiff block the fast time; where delays move as in its example; 1e-3 else
+      step = merge(1e-6_wp, 1e-3_wp, moves)
       if (gamma > 0.0_wp) step = min(step, 1.0_wp/gamma**2)
       relative = tolerance
       absolute = tolerance*finest
