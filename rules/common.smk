@@ -5,7 +5,7 @@ from pathlib import Path
 
 from scripts.files.digests import digest_of_files
 from scripts.files.tsv import read_table
-from scripts.models import compiled
+from scripts.models import compiled, networks
 from scripts.models.models import PAPER as PAPERS_LAW
 from scripts.models.models import models, of_user
 from scripts.requests.write_namelist import end_at_horizons, text_of

@@ -59,6 +59,23 @@ rule model:
         ' 2>&1 | tee {log:q}) || {{ echo "$said" >&2; exit 1; }}'
 
 
+rule network:
+    """Nodes and edges of a user's network, beside its compiled model."""
+    input:
+        lambda wildcards: networks.files_of(models(config)[wildcards.model].network),
+    output:
+        "{built}/models{quad}/{model}.network",
+    log:
+        "<results>/logs/{built}/models{quad}/{model}_network.log",
+    priority: BUILD
+    localrule: True
+    params:
+        network=lambda wildcards: models(config)[wildcards.model].network,
+        code=code_of("models/networks.py"),
+    script:
+        "../scripts/models/networks.py"
+
+
 for run in RUNS:
 
     rule:

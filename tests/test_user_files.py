@@ -6,6 +6,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
@@ -25,7 +26,22 @@ models:
     states: { y: concentration }
     equations: { y: "beta*y(t - tau)/(1 + y(t - tau)**n) - rate*y" }
     steady_state: { near: { y: 1 } }
+  phases: &phases
+    size: { i: 3 }
+    parameters:
+      omega: { default: [1.0, 1.1, 1.3] }
+      a: { default: [[0, 1, 1], [2, 0, 1], [1, 1, 0]] }
+      tau: { at_least: 0, default: 0.5 }
+      k: {}
+    states: { x: phase }
+    equations: { "x[i]": "omega[i] + k*sum(j, a[i, j]*sin(x[j](t - tau[i, j]) - x[i]))" }
+  phases_of_files:
+    <<: *phases
+    parameters: { omega: { csv: omega.csv }, a: { csv: a.csv }, tau: { csv: tau.csv }, k: {} }
 scenes:
+  phases: &three
+    { model: phases, k: 0.4, history: { x: [0, 1, 2] }, t_end: 50.0, exponents: {} }
+  phases_of_files: { <<: *three, model: phases_of_files, exponents: { count: 2, t_end: 80.0 } }
   glass:
     { model: glass, beta: 0.2, n: 10.0, rate: 0.1, tau: 7.0, history: { y: 1.2 },
       t_end: 300.0, t_transient: 100.0, exponents: {} }
@@ -79,9 +95,12 @@ attractors:
   observation: *quick
 """
 """Settings over the file that `./reproduce new` writes: small, and with what it does not have."""
+TABLES = {"omega": "1.0,1.1,1.3\n", "a": "0,1,1\n2,0,1\n1,1,0\n", "tau": "0.5,0.5,0.5\n" * 3}
+"""Files of a network with the numbers that the other one has in lists."""
 FIGURES = [
     *("scenes/my_scene", "exponents/my_scene", "planes/my_plane", "routes/my_route"),
     *("routes/my_start", "cycles/my_cycles", "atlas/my_atlas", "scenes/my_fault"),
+    *(f"{kind}/phases{end}" for kind in ("scenes", "exponents") for end in ("", "_of_files")),
     *(f"{kind}/glass" for kind in ("scenes", "exponents", "planes", "routes", "cycles", "atlas")),
 ]
 
@@ -109,6 +128,8 @@ def made(smoke, tmp_path_factory) -> Project:
     assert write_new_file(project.folder / "mine.yaml").returncode == 0
     path = project.folder / "mine.yaml"
     path.write_text(json.dumps(merge(read(path), parse(SMALL))))
+    for name, text in TABLES.items():
+        (project.folder / f"{name}.csv").write_text(text)
     before = state_of(project.folder / "results")
     run = project.snakemake("--config", "user_file=mine.yaml")
     assert run.returncode == 0, run.stdout
@@ -126,7 +147,7 @@ def test_everything_that_the_file_adds_is_made(made):
     tables = {
         "attractors": ("scene", "my_scene", "my_fault", "glass"),
         "linear-stability": ("scene", "my_scene", "my_fault", "glass"),
-        "exponents": ("scene", "my_scene", "glass"),
+        "exponents": ("scene", "my_scene", "glass", "phases", "phases_of_files"),
         "routes/my_route": ("route", "my_route"),
         "routes/my_start": ("route", "my_start"),
         "si": ("scene", "my_fault"),
@@ -174,6 +195,26 @@ def test_model_of_a_user_has_its_own_names(made):
         caption = (results / "figures" / kind / "glass.rst").read_text()
         assert words in " ".join(caption.split())
         assert r"\xi" not in caption
+
+
+def test_network_of_lists_is_that_of_files(made):
+    """At the end the phases turn by their equations. Other numbers make one run anew."""
+    runs = made.folder / "results" / "mine" / "trajectories"
+    one, other = (xr.load_dataset(runs / f"phases{end}.nc") for end in ("", "_of_files"))
+    assert (one.x.values == other.x.values).all()
+    assert one.x.dims == ("t", "node")
+    assert one.attrs["nodes"] == 3
+    assert one.history_x.values.tolist() == [0, 1, 2]
+    omega, a = np.array([1.0, 1.1, 1.3]), np.array([[0, 1, 1], [2, 0, 1], [1, 1, 0]])
+    at = one.x.values[one.t == 50.0][0]
+    slope = (at - one.x.values[-2]) / 0.05
+    before = one.x.sel(t=49.5).values
+    force = (a * np.sin(before[None, :] - at[:, None])).sum(1)
+    assert slope == pytest.approx(omega + 0.4 * force, abs=1e-6)
+    (made.folder / "a.csv").write_text("0,1,1\n2,0,1\n1,3,0\n")
+    targets = [f"results/mine/trajectories/phases{end}.nc" for end in ("", "_of_files")]
+    run = made.snakemake("--dry-run", *targets, "--config", "user_file=mine.yaml")
+    assert sorted(job.rule for job in jobs_in(run.stdout)) == ["network", "trajectory"]
 
 
 def test_one_key_of_a_scene_can_be_changed(tmp_path):

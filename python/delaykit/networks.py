@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Networks: models with an index, and the parameters of their nodes and edges as arrays."""
 
-import re
 import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -10,9 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from delaykit.errors import ModelError
+from delaykit.generator.network_file import indices_of, write_network
 from delaykit.generator.ranges import expected_of, is_inside
-
-INDEXED = re.compile(r"(\w+)\s*\[\s*(\w+)\s*(,\s*\w+\s*)?\]")
 
 
 @dataclass(frozen=True)
@@ -31,8 +29,8 @@ class Network:
     @classmethod
     def read(cls, equations: Mapping, parameters: Mapping, size) -> "Network | None":
         """The network of equations, or None of equations without indices."""
-        index = next((m[2] for m in map(INDEXED.fullmatch, equations) if m), None)
-        if index is None:
+        index, indices = indices_of(equations, parameters)
+        if not index:
             if size is not None:
                 raise ModelError(f"size: {size!r}; expected none without an index, as in x[i]")
             return None
@@ -41,8 +39,6 @@ class Network:
         nodes = size[index]
         if isinstance(nodes, bool) or not isinstance(nodes, int | np.integer) or nodes < 1:
             raise ModelError(f"size of {index}: {nodes!r}; expected a whole number >= 1")
-        found = [one for text in equations.values() for one in INDEXED.findall(text)]
-        indices = {name: 1 + bool(two) for name, _, two in found if name in parameters}
         entries = {name: {} for name in indices}
         values = {}
         for name in indices:
@@ -79,7 +75,7 @@ class Network:
         return replace(self, values=found)
 
     def write(self, path: Path) -> None:
-        """Write the file that generator/fortran/model_network.f90 explains."""
+        """Write the file that a program opens."""
         missing = [name for name in self.indices if name not in self.values]
         if missing:
             raise ModelError(f"parameter {missing[0]}: no value; expected an array")
@@ -87,26 +83,7 @@ class Network:
             [self.values[name] for name in self.entries if self.indices[name] == count]
             for count in (1, 2)
         )
-        parts = []
-        for matrix in matrices:
-            if hasattr(matrix, "row"):
-                rows, columns, numbers = matrix.row, matrix.col, matrix.data
-            else:
-                rows, columns = np.nonzero(matrix)
-                numbers = matrix[rows, columns]
-            parts.append((rows.astype(np.int64) * self.nodes + columns, numbers))
-        places = np.unique(np.concatenate([np.empty(0, np.int64), *(place for place, _ in parts)]))
-        table = np.zeros((len(matrices), len(places)))
-        for row, (place, numbers) in zip(table, parts, strict=True):
-            np.add.at(row, np.searchsorted(places, place), numbers)
-        rows, columns = np.divmod(places, self.nodes)
-        first = 1 + np.searchsorted(rows, np.arange(self.nodes + 1))
-        counts = [self.nodes, len(vectors), len(matrices), len(places)]
-        with path.open("wb") as file:
-            for numbers in (counts, first, 1 + columns):
-                np.asarray(numbers, np.int32).tofile(file)
-            for numbers in (*vectors, table):
-                np.asarray(numbers, np.float64).tofile(file)
+        write_network(path, self.nodes, vectors, matrices)
 
     def opened(self, open_path):
         """What a procedure makes of the path of the written file."""

@@ -12,6 +12,7 @@ from scripts.config.checks import check_blocks, check_samples, check_smooth, pla
 from scripts.files.read_config import ConfigError
 from scripts.models.models import model_of
 from scripts.plans import studies
+from scripts.plans.scenes import is_block, is_chain
 
 EQUATIONS = 3
 """Equations of a block: exponents that it has without delay."""
@@ -120,6 +121,8 @@ def _fill_in_exponents(config: dict) -> None:
             blocks, alone = scene["blocks"], scene["blocks"] == 1
             of_chain = min(blocks + MORE_EXPONENTS, MOST_EXPONENTS)
             count = config["exponents"]["count"] if alone else of_chain
+            if model_of(config, scene).network:
+                count = min(blocks, config["exponents"]["count"])
             defaults = {"count": count, "t_end": scene["t_end"], "checks": alone}
             scene["exponents"] = defaults | scene["exponents"]
 
@@ -131,7 +134,8 @@ def _contradictions(config: dict) -> Iterator[str]:
         yield from _contradictions_of_scene(config, f"scene '{name}'", scene)
     for figure, settings in config["figures"].items():
         for row, shown in settings["rows"].items():
-            known = [name for name in scenes if (scenes[name]["blocks"] > 1) == (figure == CHAINS)]
+            kind = is_chain if figure == CHAINS else is_block
+            known = [name for name in scenes if kind(config, name)]
             if shown["scene"] not in known:
                 place = f"config figures {figure} rows {row}"
                 yield wrong(place, shown, "scene", f"one of: {', '.join(known)}")

@@ -17,6 +17,7 @@ from scripts.models.models import (
     models,
     models_of_entries,
 )
+from scripts.models.networks import check_network, nodes_of
 
 KEYWORDS = {"above": "exclusiveMinimum", "at_least": "minimum"}
 """Of the schema, for bounds in definitions."""
@@ -118,7 +119,11 @@ def contradictions(config: dict) -> Iterator[str]:
         yield str(problem)
         return
     known = models_of_entries(config)
-    every = {name for model in models(config).values() for name in model.parameters}
+    every = {
+        name
+        for model in models(config).values()
+        for name in [*model.parameters, *model.network.get("parameters", {})]
+    }
     for path, entry in _parts(config):
         if "law" not in entry:
             continue
@@ -126,10 +131,26 @@ def contradictions(config: dict) -> Iterator[str]:
         if entry["law"] not in known:
             yield f"{place}: law = {entry['law']!r}; expected one of: {', '.join(known)}"
             continue
+        if known[entry["law"]].network:
+            yield from _scene_of_network(known[entry["law"]], path, entry)
         yield from _parameters(known[entry["law"]], place, entry, every)
         if "history" in entry:
             rules = known[entry["law"]].history
             yield from check_values(f"{place} history", entry["history"], rules)
+
+
+def _scene_of_network(model: Model, path: tuple[str, ...], entry: dict) -> Iterator[str]:
+    """What networks cannot have; a scene has as many blocks as nodes."""
+    place, nodes = place_of(path), nodes_of(model.network)
+    if path[0] != "scenes" or "attractors" in entry:
+        part = " attractors" * (path[0] == "scenes")
+        expected = "a model without an index: networks have trajectories and exponents alone"
+        yield f"{place}{part}: model = {entry['law']!r}; expected {expected}"
+    elif entry["blocks"] not in (1, nodes) or entry["ends"] != "free":
+        expected = f"neither, since the model {entry['law']} has nodes"
+        yield f"{place}: blocks = {entry['blocks']}, ends = {entry['ends']}; expected {expected}"
+    else:
+        entry["blocks"] = nodes
 
 
 def _parameters(model: Model, place: str, entry: dict, every: set[str]) -> Iterator[str]:
@@ -169,6 +190,7 @@ def check_users_models(config: dict) -> None:
             if names & taken:
                 raise ConfigError(f"{place}: another model has this name; expected another name")
             taken |= names
+            check_network(own, place)
             check_definition(place, [read(BLOCK), whole] if section == "laws" else [whole])
 
 

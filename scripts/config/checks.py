@@ -1,10 +1,11 @@
 """Checks that the studies share, of keys that may contradict each other."""
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 from generator.ranges import expected_of, is_inside, range_of
 from scripts.models.models import ALONE, HISTORY, model_of
+from scripts.plans.scenes import is_block
 
 LEAST_LN_V, LARGEST_LN_V = -700.0, 700.0
 """Between these exp(ln v) is a positive finite number."""
@@ -176,20 +177,21 @@ def check_blocks(config: dict, place: str, scene: dict) -> Iterator[str]:
     """Keys of a scene that do not fit its model or its number of blocks."""
     yield from check_ends(place, scene)
     blocks, disturbance, model = scene["blocks"], scene["disturbance"], model_of(config, scene)
+    kind = "node" if model.network else "block"
     known = [name for key in model.history for name in (key, f"ln_{key}")]
     if unknown := sorted(set(disturbance) - {*known, "seed", "block"}):
         allowed = ", ".join(["seed", "block", *known])
         yield f"{place} disturbance: unknown key {unknown}; allowed: {allowed}"
     for key, value in scene["history"].items():
         if isinstance(value, list) and (blocks == 1 or len(value) != blocks):
-            expected = "one number" + f", or {blocks}, one for each block" * (blocks > 1)
+            expected = "one number" + f", or {blocks}, one for each {kind}" * (blocks > 1)
             yield f"{place} history: {key} has {len(value)} numbers; expected {expected}"
     if disturbance["block"] > blocks:
         expected = f"a whole number >= 0 and <= blocks = {blocks}"
         yield wrong(f"{place} disturbance", disturbance, "block", expected)
     if blocks == 1 and model.is_block and scene["kappa"] != 0:
         yield wrong(place, scene, "kappa", "0 with blocks = 1")
-    if blocks > 1:
+    if blocks > 1 and not model.network:
         yield from check_coupled(config, place, scene)
 
 
@@ -206,10 +208,10 @@ def check_ends(place: str, chain: dict) -> Iterator[str]:
 
 
 def check_scenes(
-    place: str, names: Iterable[str], scenes: dict, *, chains: bool = False
+    config: dict, place: str, names: Iterable[str], *, kind: Callable[[dict, str], bool] = is_block
 ) -> Iterator[str]:
-    """Names of no scene of one block, or of no chain where these are expected."""
-    known = [name for name, scene in scenes.items() if (scene["blocks"] > 1) == chains]
+    """Names of no scene of a kind, by default of one block."""
+    known = [name for name in config["scenes"] if kind(config, name)]
     for name in names:
         if name not in known:
             yield f"{place}: {name!r}; expected one of: {', '.join(known)}"

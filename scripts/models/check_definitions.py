@@ -33,13 +33,12 @@ def check_definition(place: str, parts: list[dict]) -> tuple[bool, str, str]:
 
     try:
         model = read_model(reduce(overlaid, parts))
-        if model.index:
-            raise ModelError(f"an index {model.index}; expected none: networks are for Python")
         write_module(model)
     except (ModelError, TypeError) as problem:
         reason = str(problem).removeprefix(f"model {parts[-1]['name']}: ")
         raise ConfigError(f"{place}: {reason}") from None
-    has_time = any(one.has(TIME) for one in model.equations.values())
+    terms = [*model.equations.values(), *(one.term for one in model.sums)]
+    has_time = any(one.has(TIME) for one in terms)
     switches = [in_words(one.text, model.written) for one in model.switches]
     moving = [in_words(str(one.lag), model.written) for one in model.moving]
     facts = has_time, next(iter(switches), ""), next(iter(moving), "")

@@ -37,7 +37,9 @@ def folders_of(config: dict, folder: str, quad: bool) -> list[str]:
 
 
 def objects_of(names: set[str], config: dict, folder: str, quad: bool) -> list[str]:
-    """Paths of the compiled models."""
+    """Paths of the compiled models, and of the nodes and edges of networks."""
     kind, users, known = "models_quad" if quad else "models", of_user(config), models(config)
     places = {name: folder if known[name].name in users else OWN for name in sorted(names)}
-    return [str(Path(place, kind, f"{name}.so")) for name, place in places.items()]
+    objects = [str(Path(place, kind, f"{name}.so")) for name, place in places.items()]
+    networks = [name for name in places if known[name].network]
+    return objects + [str(Path(places[one], kind, f"{one}.network")) for one in networks]

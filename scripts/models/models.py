@@ -5,12 +5,13 @@ An entry of the configuration names its model under `law`, also a model of its u
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
 
 from scripts.files.read_config import read
 from scripts.models.check_definitions import check_definition
+from scripts.models.networks import network_of, without_numbers
 
 MODEL = Path(__file__).parents[2] / "fortran" / "src" / "model"
 BLOCK = MODEL / "spring_block.yaml"
@@ -57,6 +58,8 @@ class Model:
     """Of its law of friction, or of the model of a user."""
     definition: dict
     """Of its law or model, as the generator reads it."""
+    network: dict = field(default_factory=dict)
+    """Index, nodes and their parameters (networks.py); empty of a model without an index."""
 
     @property
     def compiled(self) -> str:
@@ -105,7 +108,9 @@ class Model:
         """Meanings and ranges of all its parameters by name."""
         if self.is_block:
             return block_parameters() | self.own_parameters
-        return {key: one or {} for key, one in self.definition["parameters"].items()}
+        of_nodes = self.network.get("parameters", {})
+        known = self.definition["parameters"].items()
+        return {key: one or {} for key, one in known if key not in of_nodes}
 
     @property
     def history(self) -> dict[str, dict]:
@@ -113,7 +118,10 @@ class Model:
         if self.is_block:
             return HISTORY
         states = self.definition["states"]
-        return {name: {"meaning": f"{meaning}{BEFORE}"} for name, meaning in states.items()}
+        return {
+            name.partition("[")[0].strip(): {"meaning": f"{meaning}{BEFORE}"}
+            for name, meaning in states.items()
+        }
 
 
 @cache
@@ -126,7 +134,7 @@ def built_in() -> dict[str, dict]:
 def definition(name: str, law: dict) -> dict:
     """The definition of a user's law or model, as the generator reads it."""
     if "equations" in law:
-        return {"name": name, **law}
+        return {"name": name, **without_numbers(law)}
     parts = {key: law[key] for key in ("evolution", "friction") if key in law}
     return {
         "name": name,
@@ -151,7 +159,12 @@ def forms_of(name: str, given: dict) -> list[Model]:
 def models(config: dict) -> dict[str, Model]:
     """All models by the names of their objects."""
     given = {**built_in(), **of_user(config)}
-    found = [form for name, one in given.items() for form in forms_of(name, one)]
+    networks = {name: network_of(one) for name, one in config.get("models", {}).items()}
+    found = [
+        replace(form, network=networks.get(name, {}))
+        for name, one in given.items()
+        for form in forms_of(name, one)
+    ]
     return {one.compiled: one for one in sorted(found, key=lambda one: [*ADDED].index(one.kind))}
 
 

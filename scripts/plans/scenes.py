@@ -29,12 +29,17 @@ def plane_of(config: dict, settings: dict, axes: tuple[str, str] = ()) -> dict:
 
 def is_chain(config: dict, scene: str) -> bool:
     """Whether a scene has more than one block."""
-    return config["scenes"][scene]["blocks"] > 1
+    return config["scenes"][scene]["blocks"] > 1 and not is_network(config, scene)
+
+
+def is_network(config: dict, scene: str) -> bool:
+    """Whether a scene has nodes."""
+    return bool(model_of(config, config["scenes"][scene]).network)
 
 
 def is_block(config: dict, scene: str) -> bool:
     """Whether a scene has one block."""
-    return not is_chain(config, scene)
+    return config["scenes"][scene]["blocks"] == 1
 
 
 def blocks_of(config: dict) -> list[str]:

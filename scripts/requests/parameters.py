@@ -18,7 +18,8 @@ def with_model(config: dict, values: dict) -> dict:
     # no number of a user's model is known to be of order 1
     group = {} if model.is_block else {"own_units": True}
     # one block without springs to neighbours is no chain
-    if values.get("blocks", 1) > 1 or any(values.get(key, 0) > 0 for key in of_chain):
+    is_chain = values.get("blocks", 1) > 1 and not model.network
+    if is_chain or any(values.get(key, 0) > 0 for key in of_chain):
         model = replace(model, kind=OF_CHAIN)
         group |= {"blocks": values["blocks"], "ends": values["ends"]}
     there = {key: values[key] for key in model.parameters if key in values}

@@ -13,6 +13,7 @@ from scripts.claims.ledger import check_user_claims, names_in, paper_claims
 from scripts.config.check_config import checked
 from scripts.files.read_config import ConfigError, check_size, merge, read
 from scripts.models.models import HISTORY, model_of
+from scripts.models.networks import find_files
 from scripts.plans import studies
 from scripts.plans.declare import Figure
 from scripts.plans.studies import inside
@@ -123,6 +124,7 @@ def read_plan(overlay: dict) -> Plan:
     said = read(user_file)
     if "pathvars" in said:
         raise ConfigError(f"{user_file}: pathvars: expected none; the file names its folder")
+    find_files(said, Path(user_file).parent)
     return plan_of_user(merge(whole, said), added(said, whole), f"{RESULTS}/{name_of(user_file)}")
 
 

@@ -8,9 +8,17 @@ module model_attributes
    use results, only: joined, results_type
    implicit none (type, external)
    private
-   public :: put_history, put_model, put_places
+   public :: name_of_blocks, put_history, put_model, put_places
 
 contains
+
+   !> What the dimension of the blocks or nodes is called.
+   pure function name_of_blocks(model) result(name)
+      class(model_type), intent(in) :: model
+      character(len=:), allocatable :: name
+
+      name = trim(merge("node ", "block", model%is_network()))
+   end function name_of_blocks
 
    !> Write name, kind, source, equations and parameters of a model as attributes.
    subroutine put_model(data, model, but)
@@ -40,11 +48,11 @@ contains
          call data%attribute(trim(model%names(i)), model%numbers(i))
       end do
       if (model%shape%blocks == 1) return
-      call data%attribute("blocks", int(model%shape%blocks, int64))
-      call data%attribute("ends", trim(model%ends))
+      call data%attribute(name_of_blocks(model)//"s", int(model%shape%blocks, int64))
+      if (model%is_chain()) call data%attribute("ends", trim(model%ends))
    end subroutine put_model
 
-   !> Write a history as attributes, that of a chain as variables over its blocks.
+   !> Write a history as attributes, that of a chain or a network as variables over its blocks.
    subroutine put_history(data, model, history)
       class(results_type), intent(inout) :: data
       class(model_type), intent(in) :: model
@@ -54,7 +62,7 @@ contains
       integer :: blocks, i
 
       if (.not. allocated(history%values)) return
-      if (model%shape%blocks > 1) blocks = data%dimension("block", model%shape%blocks)
+      if (model%shape%blocks > 1) blocks = data%dimension(name_of_blocks(model), model%shape%blocks)
       do i = 1, size(history%names)
          name = "history_"//trim(history%names(i))
          associate (values => history%values(i, :, 1))

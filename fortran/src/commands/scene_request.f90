@@ -65,9 +65,10 @@ contains
       write (given%copy, nml=settings, delim="quote")
       call given%check(error)
       call opened%open(given, scene, error)
+      if (allocated(error)) return
       call check_number(error, given%place//"scene '"//trim(scene%name)//"': ", &
                         "sample_interval", scene%sample_interval, &
-                        at_least=scene%t_end/most_samples*scene%model%blocks)
+                        at_least=scene%t_end/most_samples*opened%problem%shape%blocks)
    end subroutine read_scene
 
    !> Open the model of a scene and read its history; keep an earlier error.

@@ -3,11 +3,12 @@
 !> in pieces while the integration runs, only the variables that the scene lists. Where the fast
 !> state of a block alone relaxes within the sample interval, they also follow the steps of the
 !> solver, so that events shorter than the interval are resolved. Those of a chain are over time and
-!> block.
+!> block, of a network over time and node.
 module trajectory_command
    use dde, only: integrate, integration_result, sampler_type, stop_requested
    use dde_errors, only: error_type, text
    use dde_kinds, only: int64, wp
+   use model_attributes, only: name_of_blocks
    use model_chain, only: blocks_in_order
    use model_description, only: description_type
    use model_history, only: display_names, shown_name
@@ -89,7 +90,7 @@ contains
       type(description_type) :: about
       character(len=:), allocatable :: meaning
       integer, allocatable :: components(:), places(:)
-      integer :: block, dimension, i, length, variables
+      integer :: block, dimension, i, length, over(2), variables
       logical :: refined
 
       self%t_end = scene%t_end
@@ -100,7 +101,7 @@ contains
       variables = size(names)
       call find_components(place, about, names, components, self%exponential, error)
       if (allocated(error)) return
-      associate (blocks => scene%model%blocks, model => scene%problem)
+      associate (blocks => scene%problem%shape%blocks, model => scene%problem)
          ! the quotient may be one rounding below a whole number
          self%times = floor(scene%t_end/scene%sample_interval*(1.0_wp + epsilon(1.0_wp))) + 1
          refined = blocks == 1 .and. model%sizes%observed%integral > 0
@@ -118,9 +119,8 @@ contains
             meaning = trim(about%meanings(components(i)))
             if (self%exponential(i)) meaning = "exp("//trim(about%states(components(i)))//")"
             if (blocks > 1) then
-               call self%data%table([self%data%dimension("block", blocks), dimension], &
-                                      trim(names(i)), self%values(:, i, :0), &
-                                      meaning)
+               over = [self%data%dimension(name_of_blocks(model), blocks), dimension]
+               call self%data%table(over, trim(names(i)), self%values(:, i, :0), meaning)
             else
                call self%data%column(dimension, trim(names(i)), &
                                        self%values(1, i, :0), meaning)

@@ -25,6 +25,6 @@ def contradictions(config: dict) -> Iterator[str]:
     for law in study["laws"]:
         if law not in bare:
             yield f"{place} laws: {law!r}; expected some of: {', '.join(bare)}"
-    yield from check_scenes(f"{place} scenes", study["scenes"], config["scenes"])
+    yield from check_scenes(config, f"{place} scenes", study["scenes"])
     for name in set(study["planes"]) & set(config["scenes"]):
         yield f"{place} planes: {name!r}; expected a name that no scene has"

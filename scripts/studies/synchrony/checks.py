@@ -11,7 +11,7 @@ def contradictions(config: dict) -> Iterator[str]:
     synchrony = config["synchrony"]
     place = "config synchrony"
     yield from window(place, "s_window", synchrony["s_window"], least=1.0)
-    yield from check_scenes(f"{place} scenes", synchrony["scenes"], config["scenes"])
+    yield from check_scenes(config, f"{place} scenes", synchrony["scenes"])
     for name in config["scenes"].keys() & set(synchrony["scenes"]):
         scene = config["scenes"][name]
         if model_of(config, scene).kind != ALONE:

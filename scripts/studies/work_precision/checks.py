@@ -14,7 +14,7 @@ def contradictions(config: dict) -> Iterator[str]:
     """Names that mean nothing or two things, and samples too far apart or too many."""
     place, study, scenes = "config work_precision", config["work_precision"], config["scenes"]
     yield from check_reference(f"{place} reference", study["reference"])
-    yield from check_scenes(f"{place} scenes", study["scenes"], scenes)
+    yield from check_scenes(config, f"{place} scenes", study["scenes"])
     for name in study["cases"]:
         if name in scenes:
             yield (
