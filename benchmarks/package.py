@@ -61,9 +61,9 @@ for n in (10, 30, 100):
     kuramoto = (("kuramoto",), Task((float(n),), T_PHASES))
     words = f"{n} phases, {n * (n - 1)} delays"
     ROWS[f"phases_{n}_first"] = Row(
-        f"{words}: to the first number", *kuramoto, fresh=True, peers=BOTH
+        f"{words}: to the first number", *kuramoto, 1e-5, fresh=True, peers=BOTH
     )
-    ROWS[f"phases_{n}"] = Row(f"{words}: a run", *kuramoto, peers=BOTH)
+    ROWS[f"phases_{n}"] = Row(f"{words}: a run", *kuramoto, 1e-5, peers=BOTH)
 
 
 def rows_of(name: str, options: argparse.Namespace) -> list[dict]:

@@ -1,7 +1,8 @@
 """Other solvers beside this one at equal error (benchmarks/run peers).
 
 A cell is a problem and what it gives besides f: nothing, its derivatives (jacobian), or its Taylor
-series. RADAR5 is given derivatives where this solver is; RETARD, JiTCDDE and deSolve use f alone.
+series. RADAR5 is given derivatives where this solver is, and those by delayed values where delays
+move: without them it looks for no breaking points. RETARD, JiTCDDE and deSolve use f alone.
 """
 
 import argparse
@@ -64,8 +65,11 @@ CASES = {
     "infection": published("infection", 40.0, "f", "series"),
     "wille_baker": published("wille_baker", 5.0, "f", "series"),
     "enzyme": published("enzyme", 160.0, "f", kind="stiff"),
+    "waltman": published("waltman", 300.0, "f", "jacobian", kind="moving"),
+    "paul": published("paul", 10.0, "f", "jacobian", kind="moving"),
+    "pantograph": published("pantograph", 100.0, "f", "jacobian", kind="moving"),
 }
-"""The six scenes of the paper, stiffer blocks, and published problems."""
+"""The six scenes of the paper, stiffer blocks, and published problems; delays of the last move."""
 
 
 def others_of(case: Case, names: list[str]) -> list[str]:
@@ -118,7 +122,7 @@ def compare(
     meanings = [
         "given: what the problem gives this solver and RADAR5 besides f",
         "seconds: CPU time of the solver alone, median of repeats in one process",
-        "error: largest over all samples, relative where above 1",
+        "error: largest over all samples, relative where above 1; of waltman over its largest",
     ]
     write_table(options.output / f"{name}-runs.tsv", runs, meanings)
     meanings += [

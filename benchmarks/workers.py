@@ -43,7 +43,7 @@ OURS = "ours"
 VENV, HAIRER, R = "packages of requirements.lock", "--hairer FOLDER", "R with deSolve"
 SOLVERS = {
     OURS: Solver(f"{BUILD}/dde_{{problem}} {{method}} {{given}}"),
-    "radar5": Solver(f"{BUILD}/radar5_{{problem}} {{given}}", HAIRER, ("stiff",)),
+    "radar5": Solver(f"{BUILD}/radar5_{{problem}} {{given}}", HAIRER, ("stiff", "moving")),
     "retard": Solver(f"{BUILD}/retard_{{problem}}", HAIRER, ("mild",)),
     "dense_output": Solver(f"{BUILD}/dense_worker", kinds=()),
     "jitcdde": Solver(f"{PYTHON} -Es {HERE}/solvers/jitcdde_worker.py", VENV, ("mild",)),

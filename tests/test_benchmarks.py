@@ -151,11 +151,12 @@ def test_solvers_are_those_for_the_problem():
         "torus": ["retard", "jitcdde", "desolve"],
         "gamma 1e6": ["radar5", "desolve"],
         "enzyme": ["radar5"],
+        "waltman": ["radar5"],
         "infection": ["retard"],
     }
     assert {one: peers.others_of(peers.CASES[one], names) for one in wanted} == wanted
     build = (workers.HERE / "CMakeLists.txt").read_text()
-    problems = re.search(r"foreach\(problem ([\w ]+)\)", build)[1].split()
+    problems = re.search(r"foreach\(problem ([\w\s]+)\)", build)[1].split()
     assert {case.problem for case in peers.CASES.values()} | {"cells"} == set(problems)
     files = {path.name for path in (workers.HERE / "solvers").glob("*_worker.*")}
     called = set(re.findall(r"solvers/(\w+\.\w+)", " ".join(map(str, workers.SOLVERS.values()))))

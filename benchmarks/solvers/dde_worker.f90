@@ -6,7 +6,7 @@ program dde_worker
    use dde, only: integrate, integration_options, integration_result, table_sampler
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
-   use peer_problems, only: prepare, problem
+   use peer_problems, only: breaks, finest, moves, prepare, problem, units
    use worker_protocol, only: answer_requests, interval, samples, t_end
    implicit none (type, external)
    character(len=16) :: arguments(2)
@@ -31,13 +31,17 @@ contains
       type(table_sampler) :: table
 
       options = integration_options(method=arguments(1), relative=tolerance, absolute=tolerance)
+      if (moves) then
+         options%break_at = breaks
+         options%each_absolute = tolerance*finest
+      end if
       if (arguments(1) == "f") then
          call evaluate([(1.0_wp, i=1, problem%n)], [(1.0_wp, i=1, size(problem%lag))], &
                        outcome%evaluations)
       else if (allocated(samples) .and. interval > 0.0_wp) then
          table = table_sampler([(i, i=1, problem%n)], samples(0, :))
          call integrate(problem, 0.0_wp, t_end, options, outcome, error, table)
-         samples(1:, :) = table%values
+         samples(1:, :) = table%values/spread(units, 2, size(samples, 2))
       else
          call integrate(problem, 0.0_wp, t_end, options, outcome, error)
       end if

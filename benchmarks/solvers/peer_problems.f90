@@ -4,6 +4,8 @@
 module peer_problems
    use block_problem, only: block_with_jacobian, spring_block
    use dde_kinds, only: wp
+   use moving_peers, only: largest, least_absolute, moving_slopes, new_peer, pantograph, &
+                           switch_on, waltman
    use published_problems, only: enzyme, infection, mackey_glass
    use sizes_problem, only: cells_with_jacobian
    use test_problems, only: constant_past, wille_baker
@@ -13,12 +15,18 @@ module peer_problems
    public :: history, prepare, slopes
 
    !> Numbers of equations, of delayed values, and components that these are, of each problem: the
-   !> block, enzyme, infection, mackey_glass, wille_baker; cells are for this solver alone. Without
-   !> delay z of the block is w.
-   integer, parameter :: sizes(0:5) = [3, 4, 3, 1, 3, 0], values(0:5) = [1, 1, 2, 1, 2, 0], &
-                         components(2, 0:5) = reshape([3, 0, 4, 0, 2, 2, 1, 0, 1, 2, 0, 0], [2, 6])
-   integer, parameter, public :: n = sizes(PROBLEM), delayed = values(PROBLEM), &
-                                 component(delayed) = components(:delayed, PROBLEM)
+   !> block, enzyme, infection, mackey_glass, wille_baker, those of moving_peers; cells are for this
+   !> solver alone. Without delay z of the block is w.
+   integer, parameter :: sizes(0:8) = [3, 4, 3, 1, 3, 6, 1, 1, 0], &
+                         values(0:8) = [1, 1, 2, 1, 2, 6, 1, 1, 0], &
+                         components(16) = [3, 4, 2, 2, 1, 1, 2, 1, 2, 3, 1, 2, 3, 1, 1, 0], &
+                         before = sum(values(:PROBLEM)) - values(PROBLEM)
+   integer, parameter, public :: n = sizes(PROBLEM), delayed = values(PROBLEM)
+   integer :: k
+   integer, parameter, public :: component(delayed) = components(before + 1:before + delayed)
+   !> Whether delays move, and number of the delay of each value: Waltman's has two of three values
+   logical, parameter, public :: moves = PROBLEM >= waltman .and. PROBLEM <= pantograph
+   integer, parameter, public :: delay_of(delayed) = [(merge((k + 2)/3, k, moves), k=1, delayed)]
    !> Generations of breaking points that matter up to order 5; at k delays the derivative of theta
    !> of order 2k jumps
    integer, parameter :: generations = merge(2, 5, PROBLEM == 0)
@@ -28,6 +36,8 @@ module peer_problems
    real(wp), public, protected :: epsilon = 0.0_wp, xi = 0.0_wp, gamma = 0.0_wp, lags(delayed)
    integer, public, protected :: delays
    real(wp), allocatable, public, protected :: breaks(:)
+   !> Units of errors, and absolute tolerances at the tolerance 1: Waltman's states differ in size
+   real(wp), public, protected :: units(n), finest(n)
    real(wp) :: past(n)
 
 contains
@@ -57,6 +67,8 @@ contains
          problem = mackey_glass()
       case (4)
          problem = wille_baker()
+      case (waltman:pantograph)
+         problem = new_peer(n, component, given /= "f")
       case default
          ! numbers of equations and delays, the longest delay less the shortest
          call row%set_up(nint(parameters(1)), nint(parameters(2)), parameters(3))
@@ -64,16 +76,25 @@ contains
          if (given == "jacobian") problem = row
       end select
       problem%analytic = given == "series"
+      units = 1.0_wp
+      finest = 1.0_wp
+      if (PROBLEM == waltman) then
+         units = largest(:n)
+         finest = least_absolute(:n)
+      end if
       delays = size(problem%lag)
       if (delays > delayed) return
       lags(:delays) = problem%lag
       past = problem%past
       breaks = breaking_points(problem%lag, t_end)
+      if (.not. moves) return
+      delays = delay_of(delayed)
+      breaks = pack(switch_on, PROBLEM == waltman)
    end subroutine prepare
 
-   !> f(y, z) for other solvers: a call of the problem's own would cost a quarter of their time.
-   pure subroutine slopes(y, z, f)
-      real(wp), intent(in) :: y(*), z(*)
+   !> f(t, y, z) for other solvers: a call of the problem's own would cost a quarter of their time.
+   pure subroutine slopes(t, y, z, f)
+      real(wp), intent(in) :: t, y(*), z(*)
       real(wp), intent(out) :: f(*)
       real(wp) :: flow, v
 
@@ -95,6 +116,8 @@ contains
          f(3) = y(2) - z(2)
       case (3)
          f(1) = 0.2_wp*z(1)/(1.0_wp + z(1)**10) - 0.1_wp*y(1)
+      case (waltman:pantograph)
+         call moving_slopes(t, y, z, f)
       case default
          f(1) = z(1)
          f(2) = z(1) + z(2)

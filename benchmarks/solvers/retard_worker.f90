@@ -71,7 +71,7 @@ contains
             z(k) = ylag(component(k), t - lags(k), history, rpar, ipar)
          end do
       end if
-      call slopes(y, z, f)
+      call slopes(t, y, z, f)
    end subroutine right_side
 
    !> Samples in a step, from its dense output.

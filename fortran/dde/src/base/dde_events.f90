@@ -12,7 +12,7 @@ module dde_events
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: event_table, event_watcher_type
+   public :: event_table, event_watcher_type, one_of_values
 
    !> Rows of a new table; it doubles.
    integer, parameter :: first_rows = 64
@@ -166,7 +166,10 @@ contains
       integer, allocatable :: components(:)
       integer :: i
 
-      components = [(i, i=1, n)]
+      allocate (components(n))
+      do i = 1, n
+         components(i) = i
+      end do
    end function all_components
 
    !> One function may depend on all components that are read.

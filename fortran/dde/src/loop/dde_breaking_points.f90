@@ -25,6 +25,7 @@ module dde_breaking_points
    !> Steps that pay for one that ends where a delay that moves meets a kink.
    integer, parameter :: price_of_kink = 3
    !> No points of later generations are added beyond this number: they lie too close to land on.
+   !> Each equation has its share of it before its kinks are too many.
    integer, parameter :: most_ahead = 1000
    !> The error estimate of steps over kinks of one equation, which it hardly sees, times this: 2000
    !> random delays then take 0.13 to 0.33 times the steps at 1e-6, with errors as large. With 200
@@ -93,7 +94,7 @@ contains
       call sort(returns, instant(0.0_wp))
       self%lag = returns%at%hi
       self%crowded = size(lag) > equations .and. size(self%lag) &
-                     > max(real(most_ahead, wp), stricter_steps/sqrt(sqrt(tolerance)))
+                     > max(real(most_ahead, wp)/equations, stricter_steps/sqrt(sqrt(tolerance)))
       self%due_generation = merge(1, 0, size(lag) > equations .and. .not. self%crowded)
       self%ahead = [kink_type(finish, no_kink, no_kink)]
       all_kinks = kinks

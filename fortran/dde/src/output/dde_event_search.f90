@@ -186,12 +186,31 @@ contains
             found = found + 1
             root(found) = place
             which(found) = i
-            call self%locate(watcher, i, before, g_before, g, root(found))
+            if (.not. known_passage()) then
+               call self%locate(watcher, i, before, g_before, g, root(found))
+            end if
          end if
          self%side(i) = side
          before = place
          g_before = g
       end subroutine look
+
+      !> Whether the passage is that of another function, as where both are of one delay.
+      logical function known_passage() result(value)
+         real(wp) :: g
+         integer :: j
+
+         value = .false.
+         do j = 1, found - 1
+            if (root(j) <= before .or. root(j) > root(found)) cycle
+            call self%go_to(watcher, i, root(j), g)
+            if (sign_of(g, self%side(i)) == self%side(i)) cycle
+            call self%go_to(watcher, i, root(j) - accuracy, g)
+            value = sign_of(g, self%side(i)) == self%side(i)
+            if (value) root(found) = root(j)
+            if (value) return
+         end do
+      end function known_passage
    end subroutine find_passages
 
    !> Place of the vertex of a parabola through three values at -1, 0 and 1, if it goes from zero

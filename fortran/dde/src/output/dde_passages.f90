@@ -4,7 +4,7 @@
 module dde_passages
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use dde_cursor, only: cursor_type
-   use dde_events, only: event_watcher_type
+   use dde_events, only: event_watcher_type, one_of_values
    use dde_step, only: step_type
    use dde_step_context, only: step_context
    use dde_time, only: elapsed, instant
@@ -35,7 +35,7 @@ module dde_passages
       !> What is added to each: how far beyond zero it was where the state changed last
       real(wp), allocatable :: shift(:)
    contains
-      procedure :: values, take
+      procedure :: values, value, take
    end type passages_type
 
 contains
@@ -79,28 +79,36 @@ contains
       real(wp), intent(in) :: y(:), z(:)
       real(wp), intent(out) :: g(:)
       real(wp) :: lag(context%problem%moving)
-      integer :: i, j
+      integer :: i
 
-      associate (own => size(g) - 2*size(lag), pieces => context%past%pieces)
+      associate (own => size(g) - 2*size(lag))
          if (own > 0) call context%problem%switching(t, y, z, g(:own))
          if (size(lag) == 0) return
          call context%problem%moving_lags(t, y, lag)
-         ! a piece without an end there is never left
-         g(own + 1::2) = 1.0_wp
-         g(own + 2::2) = -1.0_wp
-         do j = 1, size(lag)
-            i = own + 2*j - 1
-            associate (begin => pieces%begin(j), time => place - lag(j))
-               if (begin > 0) then
-                  g(i) = elapsed(pieces%kinks(begin)%at, context%cursor%start) + time
-               end if
-               if (begin < size(pieces%kinks)) then
-                  g(i + 1) = elapsed(pieces%kinks(begin + 1)%at, context%cursor%start) + time
-               end if
-            end associate
+         do i = 1, 2*size(lag)
+            g(own + i) = from_kink(context, i, place - lag((i + 1)/2))
          end do
       end associate
    end subroutine find_functions
+
+   !> A time less that of the kink at the start of the piece of the past that a delay reads (odd
+   !> numbers), or at its end (even ones). A piece without an end there is never left.
+   pure real(wp) function from_kink(context, number, time) result(g)
+      type(step_context), intent(in) :: context
+      integer, intent(in) :: number
+      !> Time since the start of the step
+      real(wp), intent(in) :: time
+
+      associate (pieces => context%past%pieces, at_end => 1 - mod(number, 2))
+         associate (i => pieces%begin((number + 1)/2) + at_end)
+            if (i > 0 .and. i <= size(pieces%kinks)) then
+               g = elapsed(pieces%kinks(i)%at, context%cursor%start) + time
+            else
+               g = 1.0_wp - 2.0_wp*at_end
+            end if
+         end associate
+      end associate
+   end function from_kink
 
    !> The functions at a place of the step. One that is 0, or no farther beyond than where the step
    !> starts, has not passed yet.
@@ -126,6 +134,30 @@ contains
       end where
    end subroutine values
 
+   !> One of the functions. Those of delays have their slack added: without a jump there, fewer
+   !> evaluations locate a passage.
+   pure real(wp) function value(self, which, t, y, slope) result(g)
+      class(passages_type), intent(in) :: self
+      integer, intent(in) :: which
+      real(wp), intent(in) :: t, y(:), slope(:)
+      real(wp) :: lag(self%context%problem%moving), side
+
+      associate (context => self%context, at => self%context%cursor, &
+                 number => which - size(self%above) + 2*size(lag))
+         if (number < 1) then
+            g = one_of_values(self, which, t, y, slope)
+            return
+         end if
+         call context%problem%moving_lags(at%inside(t), y, lag)
+         g = from_kink(context, number, min(self%step%h, t - at%t) - lag((number + 1)/2))
+      end associate
+      if (ieee_is_nan(g)) g = 0.0_wp
+      side = merge(1.0_wp, -1.0_wp, self%above(which))
+      g = side*(g + self%shift(which)) + self%slack(which)
+      if (.not. abs(g) > 0.0_wp) g = tiny(g)
+      g = side*g
+   end function value
+
    !> A function passes zero.
    subroutine take(self, which, t, y, slope)
       class(passages_type), intent(inout) :: self
@@ -142,21 +174,23 @@ contains
       real(wp), intent(in) :: g(:, 0:), between(:, :)
       !> What rounding may make of each, shape (switches)
       real(wp), intent(in) :: noise(:)
-      real(wp) :: bend(size(g, 1)), largest(size(g, 1))
-      integer :: i, last
+      real(wp) :: bend, largest
+      integer :: i, k, last
 
       last = ubound(g, 2)
-      largest = max(noise, most_bend*maxval(abs(g), dim=2))
       value = .true.
-      do i = 1, last - 1, 2
-         bend = g(:, i) - 0.5_wp*(g(:, i - 1) + g(:, i + 1))
-         value = value .and. .not. any(abs(bend) > largest)
-      end do
-      do i = 1, size(odd)
-         associate (left => int(last*odd(i)), share => last*odd(i) - int(last*odd(i)))
-            bend = between(:, i) - (1.0_wp - share)*g(:, left) - share*g(:, left + 1)
-         end associate
-         value = value .and. .not. any(abs(bend) > largest)
+      do k = 1, size(g, 1)
+         largest = max(noise(k), most_bend*maxval(abs(g(k, :))))
+         do i = 1, last - 1, 2
+            bend = g(k, i) - 0.5_wp*(g(k, i - 1) + g(k, i + 1))
+            value = value .and. .not. abs(bend) > largest
+         end do
+         do i = 1, size(odd)
+            associate (left => int(last*odd(i)), share => last*odd(i) - int(last*odd(i)))
+               bend = between(k, i) - (1.0_wp - share)*g(k, left) - share*g(k, left + 1)
+            end associate
+            value = value .and. .not. abs(bend) > largest
+         end do
       end do
    end function straight
 

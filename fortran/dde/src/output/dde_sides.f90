@@ -141,10 +141,13 @@ contains
       if (self%quiet) return
       passages = new_passages(self%above, self%beyond, self%own, context, step)
       noise = merge(0.0_wp, passages%slack, [(i, i=1, size(noise))] <= self%own)
-      between = reshape([(functions_at(odd(i)), i=1, size(odd))], shape(between))
+      do i = 1, size(odd)
+         call look(odd(i), between(:, i))
+      end do
       stride = most_places/least_places
-      g(:, ::stride) = reshape([(functions_at(real(i, wp)/least_places), i=0, least_places)], &
-                               [size(g, 1), least_places + 1])
+      do i = 0, most_places, stride
+         call look(real(i, wp)/most_places, g(:, i))
+      end do
       do while (.not. straight(g(:, ::stride), between, noise))
          if (stride == 1) then
             error = huge(1.0_wp)
@@ -152,7 +155,7 @@ contains
          end if
          stride = stride/2
          do i = stride, most_places, 2*stride
-            g(:, i) = functions_at(real(i, wp)/most_places)
+            call look(real(i, wp)/most_places, g(:, i))
          end do
       end do
       self%places = most_places/stride
@@ -160,13 +163,13 @@ contains
    contains
 
       !> The functions at a place of the step.
-      function functions_at(place) result(values)
+      subroutine look(place, values)
          real(wp), intent(in) :: place
-         real(wp) :: values(size(self%above))
+         real(wp), intent(out) :: values(:)
 
          call step%state_at(place, y)
          call passages%values(step%t + place*step%h, y, y, values)
-      end function functions_at
+      end subroutine look
    end subroutine judge
 
    !> Where an accepted step ends: where the first function passes zero, if one does. If that is the
