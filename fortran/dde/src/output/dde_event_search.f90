@@ -195,21 +195,20 @@ contains
          g_before = g
       end subroutine look
 
-      !> Whether the passage is that of another function, as where both are of one delay.
+      !> Whether the passage is the last one found, of another function: both may be of one delay.
       logical function known_passage() result(value)
          real(wp) :: g
-         integer :: j
 
          value = .false.
-         do j = 1, found - 1
-            if (root(j) <= before .or. root(j) > root(found)) cycle
-            call self%go_to(watcher, i, root(j), g)
-            if (sign_of(g, self%side(i)) == self%side(i)) cycle
-            call self%go_to(watcher, i, root(j) - accuracy, g)
+         if (found == 1) return
+         associate (last => root(found - 1))
+            if (last <= before .or. last > root(found)) return
+            call self%go_to(watcher, i, last, g)
+            if (sign_of(g, self%side(i)) == self%side(i)) return
+            call self%go_to(watcher, i, last - accuracy, g)
             value = sign_of(g, self%side(i)) == self%side(i)
-            if (value) root(found) = root(j)
-            if (value) return
-         end do
+            if (value) root(found) = last
+         end associate
       end function known_passage
    end subroutine find_passages
 
