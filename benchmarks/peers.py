@@ -65,11 +65,11 @@ CASES = {
     "infection": published("infection", 40.0, "f", "series"),
     "wille_baker": published("wille_baker", 5.0, "f", "series"),
     "enzyme": published("enzyme", 160.0, "f", kind="stiff"),
-    "waltman": published("waltman", 300.0, "f", "jacobian", kind="moving"),
+    "waltman": published("waltman", 300.0, "f", "jacobian", kind="stiff"),
     "paul": published("paul", 10.0, "f", "jacobian", kind="moving"),
     "pantograph": published("pantograph", 100.0, "f", "jacobian", kind="moving"),
 }
-"""The six scenes of the paper, stiffer blocks, and published problems; delays of the last move."""
+"""Scenes of the paper, stiffer blocks, and published problems; delays of the last three move."""
 
 
 def others_of(case: Case, names: list[str]) -> list[str]:

@@ -44,9 +44,12 @@ VENV, HAIRER, R = "packages of requirements.lock", "--hairer FOLDER", "R with de
 SOLVERS = {
     OURS: Solver(f"{BUILD}/dde_{{problem}} {{method}} {{given}}"),
     "radar5": Solver(f"{BUILD}/radar5_{{problem}} {{given}}", HAIRER, ("stiff", "moving")),
-    "retard": Solver(f"{BUILD}/retard_{{problem}}", HAIRER, ("mild",)),
+    "retard": Solver(f"{BUILD}/retard_{{problem}}", HAIRER, ("mild", "moving")),
     "dense_output": Solver(f"{BUILD}/dense_worker", kinds=()),
     "jitcdde": Solver(f"{PYTHON} -Es {HERE}/solvers/jitcdde_worker.py", VENV, ("mild",)),
+    "jitcdde_moving": Solver(
+        f"{PYTHON} -Es {HERE}/solvers/jitcdde_worker.py {{problem}}", VENV, ("moving",)
+    ),
     "delaykit": Solver(f"{PYTHON} -Es {HERE}/solvers/delaykit_worker.py", VENV, ()),
     "scipy": Solver(f"{PYTHON} -Es {HERE}/solvers/scipy_worker.py", VENV, ()),
     "scipy_dense": Solver(f"{PYTHON} -Es {HERE}/solvers/scipy_worker.py dense", VENV, ()),

@@ -146,12 +146,13 @@ def test_solver_that_is_missing_says_what_it_needs(monkeypatch):
 
 def test_solvers_are_those_for_the_problem():
     """Some know the block alone; each problem has a program, numbered as the compiler is told."""
-    names = ["radar5", "retard", "jitcdde", "desolve"]
+    names = ["radar5", "retard", "jitcdde", "jitcdde_moving", "desolve"]
     wanted = {
         "torus": ["retard", "jitcdde", "desolve"],
         "gamma 1e6": ["radar5", "desolve"],
         "enzyme": ["radar5"],
         "waltman": ["radar5"],
+        "paul": ["radar5", "retard", "jitcdde_moving"],
         "infection": ["retard"],
     }
     assert {one: peers.others_of(peers.CASES[one], names) for one in wanted} == wanted

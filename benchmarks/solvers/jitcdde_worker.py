@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""JiTCDDE: a block or a chain, the equation of Mackey and Glass, and networks of phases
+"""JiTCDDE: a block or a chain, the equation of Mackey and Glass, networks of phases, and delays
+that depend on t or y
 (workers.py, package.py)."""
 
 import sys
-from functools import cache
+from functools import cache, partial
 
 import jitcdde
 import numpy as np
 from serving import PAST, mackey_glass, phases, serve, slope
-from symengine import Symbol, exp, sin
+from symengine import Symbol, exp, log, sin
 
 TAU = Symbol("tau")
 
@@ -142,6 +143,30 @@ def kuramoto(_words: list[str], parameters: list[float], t_end: float, _):
     return run
 
 
+Y, T = jitcdde.y(0), jitcdde.t
+MOVING = {
+    "paul": Y * jitcdde.y(0, log(Y) - 1) / (T + 1),
+    "pantograph": 0.7 * jitcdde.y(0, T / 2) - Y,
+}
+"""Equations of moving_peers.f90; it keeps no tolerance for each state, which Waltman's need."""
+
+
+def moving(name: str, _words, _parameters, t_end: float, interval: float):
+    """One of them, whose past is 1; steps on discontinuities are for constant delays."""
+    solver = jitcdde.jitcdde([MOVING[name]], max_delay=t_end + 1, verbose=False)
+    solver.compile_C()
+    times = interval * np.arange(1, round(t_end / interval) + 1)
+
+    def run(tolerance: float, wanted: bool):
+        begin(solver, [1.0], tolerance)
+        solver.adjust_diff()
+        if not wanted:
+            return solver.integrate(t_end)
+        return [(0.0, 1.0), *((t, *solver.integrate(t)) for t in times)]
+
+    return run
+
+
 if __name__ == "__main__":
     tasks = {
         "chain": chain,
@@ -149,4 +174,5 @@ if __name__ == "__main__":
         "kuramoto": kuramoto,
         **mackey_glass(samples, scaled_solver),
     }
+    tasks |= {name: partial(moving, name) for name in MOVING}
     serve(jitcdde.__version__, tasks)

@@ -3,7 +3,9 @@
 !> f alone, whatever the argument says.
 module retard_task
    use dde_kinds, only: wp
-   use peer_problems, only: breaks, component, delayed, delays, history, lags, n, problem, slopes
+   use moving_peers, only: delayed_time
+   use peer_problems, only: breaks, component, delay_of, delayed, delays, history, lags, moves, n, &
+                            problem, slopes
    use worker_protocol, only: next_sample, sample_is_due, samples, t_end
    implicit none (type, external)
    private
@@ -62,13 +64,15 @@ contains
       integer, intent(in) :: m, ipar(*)
       real(wp), intent(in) :: t, y(m), rpar(*)
       real(wp), intent(out) :: f(m)
-      real(wp) :: z(n)
+      real(wp) :: time, z(delayed)
       integer :: k
 
       z(1) = y(component(1))
       if (delays > 0) then
          do k = 1, delayed
-            z(k) = ylag(component(k), t - lags(k), history, rpar, ipar)
+            time = t - lags(k)
+            if (moves) time = delayed_time(delay_of(k), t, y)
+            z(k) = ylag(component(k), time, history, rpar, ipar)
          end do
       end if
       call slopes(t, y, z, f)
