@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """JiTCDDE: a block or a chain, the equation of Mackey and Glass, networks of phases, and delays
-that depend on t or y
-(workers.py, package.py)."""
+that depend on t or y (workers.py, package.py)."""
 
 import sys
 from functools import cache, partial
