@@ -10,27 +10,28 @@ import re
 
 import sympy
 
-from .model import FAR, NEAR, NODE, TIME, Delayed, ModelError, Sum, of_other
+from .model import FAR, NEAR, NODE, TIME, Delayed, Sum, of_other
+from .network_file import INDEXED
 
-INDEXED = re.compile(r"\s*(\w+)\s*\[\s*(\w+)\s*\]\s*")
 MOST_MATRICES = 8
-UNITS = ("auxiliary", "fast", "domain", "steady_state", "longest_delay", "events", "section")
+"""The description of a module has 2**MOST_MATRICES letters for them."""
+REFUSED = ("auxiliary", "fast", "domain", "steady_state", "longest_delay", "events", "section")
 """Keys of a definition that a network cannot have."""
 
 
 def without_indices(reader, values: dict) -> tuple[dict, str]:
     """A definition whose states have no index, and the index; "" of a model without."""
-    found = [INDEXED.fullmatch(str(key)) for key in values["equations"]]
+    found = [INDEXED.fullmatch(str(key).strip()) for key in values["equations"]]
     if not any(found):
         return values, ""
     names = {match[2] for match in found if match}
-    if not all(found) or len(names) > 1:
+    if not all(match and not match[3] for match in found) or len(names) > 1:
         reader.refuse("equations", ", ".join(values["equations"]), "one index of all states")
     index = names.pop()
     known = [match[1] for match in found]
     if index in {*known, *(values.get("parameters") or {}), "t"}:
         reader.refuse("index", index, "a name that is no state, parameter or t")
-    for key in UNITS:
+    for key in REFUSED:
         if values.get(key):
             reader.refuse(key, values[key], "none of a network")
     own = dict(zip(known, values["equations"].values(), strict=True))
@@ -156,7 +157,7 @@ def summed(expression, node: ast.Call, args: list[ast.AST]) -> sympy.Symbol:
         if one.term == value:
             return one.symbol
     symbol = sympy.Symbol(f"sum_{len(model.sums) + 1}", real=True)
-    model.sums.append(Sum(symbol, value, expression.segment(node)))
+    model.sums.append(Sum(symbol, value))
     return symbol
 
 
@@ -172,9 +173,5 @@ def needed_edges(model, sums: list[Sum]) -> str:
             for place, one in enumerate(model.matrices)
             if which >> place & 1
         }
-        try:
-            needed = any(one.term.subs(zeros) != 0 for one in sums)
-        except (TypeError, ValueError) as problem:
-            raise ModelError(f"model {model.name}: {problem}") from None
-        found += str(int(needed))
+        found += str(int(any(one.term.subs(zeros) != 0 for one in sums)))
     return found

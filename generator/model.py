@@ -53,7 +53,6 @@ class Sum:
     symbol: sympy.Symbol
     term: sympy.Expr
     """Of what belongs to the node, to the other one, and to the edge between them."""
-    text: str
 
 
 @dataclass(frozen=True)

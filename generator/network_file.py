@@ -5,16 +5,14 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
-import numpy as np
-
 INDEXED = re.compile(r"(\w+)\s*\[\s*(\w+)\s*(,\s*\w+\s*)?\]")
 
 
-def indices_of(equations: Mapping[str, str], parameters: Iterable[str]) -> tuple[str, dict]:
-    """The index of the states of equations, "" without one, and of how many indices each of these
-    parameters has that have any, in their order."""
-    index = next((m[2] for m in map(INDEXED.fullmatch, equations) if m), "")
-    found = {m[1]: 1 + bool(m[3]) for text in equations.values() for m in INDEXED.finditer(text)}
+def count_indices(texts: Mapping[str, str], parameters: Iterable[str]) -> tuple[str, dict]:
+    """The index of the states of equations, "" without one, and of these parameters that have
+    indices their number, in their order. texts: equations and definitions."""
+    index = next((m[2] for m in map(INDEXED.fullmatch, texts) if m), "")
+    found = {m[1]: 1 + bool(m[3]) for text in texts.values() for m in INDEXED.finditer(text)}
     return index, {name: found[name] for name in parameters if index and name in found}
 
 
@@ -24,6 +22,9 @@ def write_network(path: Path, nodes: int, vectors: Sequence, matrices: Sequence)
     Parameters of nodes have shape (nodes), those of edges (nodes, nodes), dense or of
     scipy.sparse by coordinates; both in the order of the definition.
     """
+    # plans of runs read `indices_of` and need no NumPy
+    import numpy as np
+
     parts = []
     for matrix in matrices:
         if hasattr(matrix, "row"):

@@ -71,9 +71,9 @@ rule network:
     localrule: True
     params:
         network=lambda wildcards: models(config)[wildcards.model].network,
-        code=code_of("models/networks.py"),
+        code=code_of("models/network_numbers.py"),
     script:
-        "../scripts/models/networks.py"
+        "../scripts/models/network_numbers.py"
 
 
 for run in RUNS:

@@ -47,7 +47,7 @@ def by_state(model, values: np.ndarray, along: str, prefix: str = "") -> dict:
     shown |= {name: np.exp(shown[state]) for name, state in model.auxiliary.items()}
     meanings = model.definition["states"] | {k: f"exp({v})" for k, v in model.auxiliary.items()}
     chain = model.blocks > 1 or model.network
-    block = model.network.index if model.network else "block"
+    block = "node" if model.network else "block"
     return {
         prefix + name: (
             (block, along) if chain else (along,),

@@ -80,7 +80,8 @@ class Model:
         self.extent, self.handles = "whole", {}
         texts = {str(key): text_of(value) for key, value in equations.items()}
         given = {str(key): value for key, value in (parameters or {}).items()}
-        self.network = Network.read(texts, given, size)
+        parts = {key: text_of(one) for key, one in (options.get("definitions") or {}).items()}
+        self.network = Network.read({**parts, **texts}, given, size)
         indexed = self.network.indices if self.network else {}
         if self.network:
             if (blocks, ends) != (1, "free"):

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from delaykit.errors import ModelError
-from delaykit.generator.network_file import indices_of, write_network
+from delaykit.generator.network_file import count_indices, write_network
 from delaykit.generator.ranges import expected_of, is_inside
 
 
@@ -27,9 +27,9 @@ class Network:
     """Arrays by name"""
 
     @classmethod
-    def read(cls, equations: Mapping, parameters: Mapping, size) -> "Network | None":
-        """The network of equations, or None of equations without indices."""
-        index, indices = indices_of(equations, parameters)
+    def read(cls, texts: Mapping, parameters: Mapping, size) -> "Network | None":
+        """The network of equations and definitions, or None of equations without indices."""
+        index, indices = count_indices(texts, parameters)
         if not index:
             if size is not None:
                 raise ModelError(f"size: {size!r}; expected none without an index, as in x[i]")

@@ -138,7 +138,7 @@ def nodes(found: xr.Dataset, ax) -> None:
     places = np.arange(len(values))
     shown = ax.pcolormesh(found.t, places, values, shading="nearest", rasterized=True)
     ax.figure.colorbar(shown, ax=ax, label=values.attrs.get("long_name", name))
-    ax.set(xlabel="time", ylabel=f"node {values.dims[0]}")
+    ax.set(xlabel="time", ylabel=str(values.dims[0]))
 
 
 def special(found: xr.Dataset, ax, x: str, y: str) -> None:

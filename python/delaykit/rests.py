@@ -21,16 +21,22 @@ from delaykit.history import Pieces
 from delaykit.library import LIBRARY, call
 
 MOST_STEPS, MOST_HALVINGS = 100, 30
-"""Of Newton's method to the state at rest"""
+"""Of Newton's method to the state at rest, the first also to a root"""
+AT_REST = 1e-9
+"""A state is at rest if its rates are below this share of the largest derivative and state"""
 KRYLOV = 60
 """Steps in the Krylov space of a shift"""
 MOST_SHIFTS = 400
+"""Then there are too many roots: a shift of 100 equations takes 0.2 s"""
 CONVERGED = 1e-6
 """Relative residual of an approximate root from which Newton's method starts"""
+SURE = 0.9
+"""Share of the radius within which the roots of a shift are taken to be all"""
 SAME = 1e-8
 """Roots nearer than this, relative to 1 + |s|, are one"""
-LAST = 1e-13
-"""Newton's method ends with a correction this small, relative to 1 + |s|"""
+LAST, FARTHEST = 1e-13, 0.1
+"""Newton's method ends with a correction this small, and fails this far from its start, both
+relative to 1 + |s|"""
 
 
 class Linear:
@@ -90,14 +96,16 @@ class Linear:
                 hessenberg[: k + 1, k] += shares
             hessenberg[k + 1, k] = size = np.linalg.norm(new)
             if size < 1e-14:
+                # nothing is left but rounding: the space is whole
                 steps = k + 1
                 break
             basis[k + 1] = new / size
         values, vectors = np.linalg.eig(hessenberg[:steps, :steps])
+        # roots too far to be told from infinite ones
         keep = np.abs(values) > 1e-12 * np.abs(values).max()
         values, vectors = values[keep], vectors[:, keep]
-        residual = np.abs(hessenberg[steps, steps - 1] * vectors[-1]) if steps == KRYLOV else 0.0
-        good = residual < CONVERGED * np.abs(values) * np.ones(len(values))
+        residual = np.abs(hessenberg[steps, steps - 1] * vectors[-1])
+        good = residual < CONVERGED * np.abs(values)
         away = 1 / (unit * np.abs(values))
         radius = min(away[~good], default=np.inf)
         inside = away < radius
@@ -112,7 +120,7 @@ class Linear:
             vector = np.random.default_rng(1).normal(size=self.n) + 0j
             s += 1e-7 * (1 + abs(s))
             vector = splu(self.delta(s)).solve(vector)
-        for _ in range(30):
+        for _ in range(MOST_STEPS):
             try:
                 solved = splu(self.delta(s)).solve(self.slope(s) @ vector)
             except RuntimeError:
@@ -120,7 +128,7 @@ class Linear:
                 return s
             step = -np.vdot(vector, vector) / np.vdot(vector, solved)
             s, vector = s + step, solved / np.linalg.norm(solved)
-            if not np.isfinite(s) or abs(s - start) > 0.1 * (1 + abs(start)):
+            if not np.isfinite(s) or abs(s - start) > FARTHEST * (1 + abs(start)):
                 return None
             if abs(step) <= LAST * (1 + abs(s)):
                 return s
@@ -145,7 +153,7 @@ def rest_of(own: Arguments, near) -> np.ndarray:
         else:
             break
         state, here = state + step, there
-    size = 1e-9 * max([1.0, *(abs(matrix).max() for matrix in here.matrices)])
+    size = AT_REST * max([1.0, *(abs(matrix).max() for matrix in here.matrices)])
     if not np.abs(here.rate).max() < size * max(1.0, np.abs(state).max()):
         raise RunError(
             f"no state at rest near {near!r}: the largest rate is {np.abs(here.rate).max():g}; "
@@ -183,7 +191,7 @@ def roots_of(linear: Linear, bound: float) -> np.ndarray:
             near, vectors, radius = linear.near(centre * (1 + 1e-6) + 1e-6)
             radius -= 2e-6 * (1 + abs(centre))
         for start, vector in zip(near, vectors, strict=True):
-            if start.real < bound - 0.1 * (1 + abs(start)):
+            if start.real < bound - FARTHEST * (1 + abs(start)):
                 continue
             s = linear.refined(start, vector)
             if s is None or s.real <= bound:
@@ -191,7 +199,7 @@ def roots_of(linear: Linear, bound: float) -> np.ndarray:
             s = complex(s.real, abs(s.imag) if abs(s.imag) > SAME * (1 + abs(s)) else 0.0)
             if all(abs(s - one) > SAME * (1 + abs(s)) for one in found):
                 found.append(s)
-        if np.hypot(right - left, high - low) / 2 > 0.9 * radius:
+        if np.hypot(right - left, high - low) / 2 > SURE * radius:
             middle, half = centre.real, centre.imag
             for ends in ((left, middle), (middle, right)):
                 boxes += [(*ends, low, half), (*ends, half, high)]
@@ -199,13 +207,13 @@ def roots_of(linear: Linear, bound: float) -> np.ndarray:
     return np.array(sorted(pairs, key=lambda s: (-s.real, -s.imag)), complex)
 
 
-def roots_of_network(model, bound: float, near, parameters=None) -> np.ndarray:
+def roots_of_network(model, bound: float, near, parameters) -> np.ndarray:
     """The roots of a network at rest near a guess."""
     own = Arguments(model, parameters)
     return roots_of(Linear(own, rest_of(own, near)), bound)
 
 
-def hopf_of_network(model, along, window, near, parameters=None, cells=20) -> xr.Dataset:
+def hopf_of_network(model, along, window, near, parameters, cells) -> xr.Dataset:
     """Values of a parameter at which a pair of roots of a network crosses the imaginary axis.
 
     Roots with a real part above 0 are sought at the ends of all cells, and followed through them.

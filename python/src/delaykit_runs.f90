@@ -103,10 +103,7 @@ contains
       type(error_type), allocatable :: error
       type(model_type) :: model
 
-      allocate (data)
-      result = c_loc(data)
-      model = model_of(handle)
-      call set_model(request, model, error)
+      call prepare(handle, request, result, data, model, error)
       if (.not. allocated(error)) call run(request, model, data, error)
       status = message_of(error, message, length)
    end function dk_integrate
@@ -157,13 +154,26 @@ contains
       type(error_type), allocatable :: error
       type(model_type) :: model
 
+      call prepare(handle, request, result, data, model, error)
+      if (.not. allocated(error)) call put_linear_part(data, model, request%t_start(1))
+      status = message_of(error, message, length)
+   end function dk_linearise
+
+   !> Results without anything in them, and the model of a handle as a request wants it.
+   subroutine prepare(handle, request, result, data, model, error)
+      type(c_ptr), intent(in) :: handle
+      type(request_type), intent(in) :: request
+      type(c_ptr), intent(out) :: result
+      type(results_type), pointer, intent(out) :: data
+      type(model_type), intent(out) :: model
+      !> A parameter is out of its range, or a delay negative
+      type(error_type), allocatable, intent(out) :: error
+
       allocate (data)
       result = c_loc(data)
       model = model_of(handle)
       call set_model(request, model, error)
-      if (.not. allocated(error)) call put_linear_part(data, model, request%t_start(1))
-      status = message_of(error, message, length)
-   end function dk_linearise
+   end subroutine prepare
 
    !> Give a model its parameters, blocks and constant past.
    subroutine set_model(request, model, error)

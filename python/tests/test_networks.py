@@ -210,7 +210,7 @@ def test_results_have_the_index(ring):
     past = {"x": np.arange(12) / 12}
     run = ring.integrate(past, 1.0, events=["x[3] = 0.4", "x = 0.1"])
     data = run.to_dataset()
-    assert data.x.dims == ("i", "t")
+    assert data.x.dims == ("node", "t")
     assert data.x.values[3, 0] == 0.25
     assert run.y_events[0][0, 3] == pytest.approx(0.4)
     assert run.y_events[1][0, 0] == pytest.approx(0.1)

@@ -11,6 +11,7 @@ from scripts.config import check_models, si
 from scripts.config.checks import check_blocks, check_samples, check_smooth, place_of, wrong
 from scripts.files.read_config import ConfigError
 from scripts.models.models import model_of
+from scripts.models.networks import nodes_of
 from scripts.plans import studies
 from scripts.plans.scenes import is_block, is_chain
 
@@ -34,6 +35,7 @@ def checked(config: dict) -> dict:
     problems = problems or [in_words(e) for e in validator_for(schema).iter_errors(config)]
     problems = problems or list(check_models.contradictions(config))
     if not problems:
+        _fill_in_nodes(config)
         _fill_in_exponents(config)
         problems = list(_contradictions(config))
     if problems:
@@ -111,6 +113,13 @@ def range_in_words(rules: dict) -> str:
     kind = {"number": "a finite number", "integer": "a whole number"}.get(rules.get("type"), "")
     bounds = [f"{sign} {rules[key]}" for key, sign in SIGNS.items() if key in rules]
     return f"{kind} {' and '.join(bounds)}".strip()
+
+
+def _fill_in_nodes(config: dict) -> None:
+    """A scene of a network has as many blocks as nodes."""
+    for scene in config["scenes"].values() if config.get("models") else ():
+        if network := model_of(config, scene).network:
+            scene["blocks"] = nodes_of(network)
 
 
 def _fill_in_exponents(config: dict) -> None:

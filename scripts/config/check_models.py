@@ -140,7 +140,7 @@ def contradictions(config: dict) -> Iterator[str]:
 
 
 def _scene_of_network(model: Model, path: tuple[str, ...], entry: dict) -> Iterator[str]:
-    """What networks cannot have; a scene has as many blocks as nodes."""
+    """What networks cannot have."""
     place, nodes = place_of(path), nodes_of(model.network)
     if path[0] != "scenes" or "attractors" in entry:
         part = " attractors" * (path[0] == "scenes")
@@ -149,8 +149,6 @@ def _scene_of_network(model: Model, path: tuple[str, ...], entry: dict) -> Itera
     elif entry["blocks"] not in (1, nodes) or entry["ends"] != "free":
         expected = f"neither, since the model {entry['law']} has nodes"
         yield f"{place}: blocks = {entry['blocks']}, ends = {entry['ends']}; expected {expected}"
-    else:
-        entry["blocks"] = nodes
 
 
 def _parameters(model: Model, place: str, entry: dict, every: set[str]) -> Iterator[str]:

@@ -5,7 +5,7 @@ An entry of the configuration names its model under `law`, also a model of its u
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
@@ -150,10 +150,10 @@ def of_user(config: dict) -> dict[str, dict]:
     return {name: definition(name, one) for name, one in both.items()}
 
 
-def forms_of(name: str, given: dict) -> list[Model]:
+def forms_of(name: str, given: dict, network: dict | None = None) -> list[Model]:
     """What a definition makes: a model of a user, or of a law each kind of block."""
     kinds = [OF_USER] if "equations" in given else [ALONE, DAMPED, OF_CHAIN]
-    return [Model(kind, name, given) for kind in kinds]
+    return [Model(kind, name, given, network or {}) for kind in kinds]
 
 
 def models(config: dict) -> dict[str, Model]:
@@ -161,9 +161,7 @@ def models(config: dict) -> dict[str, Model]:
     given = {**built_in(), **of_user(config)}
     networks = {name: network_of(one) for name, one in config.get("models", {}).items()}
     found = [
-        replace(form, network=networks.get(name, {}))
-        for name, one in given.items()
-        for form in forms_of(name, one)
+        form for name, one in given.items() for form in forms_of(name, one, networks.get(name))
     ]
     return {one.compiled: one for one in sorted(found, key=lambda one: [*ADDED].index(one.kind))}
 

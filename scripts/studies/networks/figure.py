@@ -44,7 +44,7 @@ def draw(runs: list[xr.Dataset]) -> Figure:
 
 def draw_map(axes: Axes, values: xr.DataArray, label: str, **colours) -> None:
     """Values over time and node."""
-    numbers = 1 + np.arange(values.sizes["node"])
+    numbers = np.arange(values.sizes["node"])
     shades = axes.pcolormesh(
         values.t.values, numbers, values.values, shading="nearest", rasterized=True, **colours
     )
