@@ -205,7 +205,17 @@ def test_networks_without_edges_and_of_one_node(cache):
     assert found.value.values == pytest.approx([-1.0], abs=1e-6)
 
 
-def test_results_have_the_index(ring):
+def test_definitions_have_indices(ring):
+    """A named part of a sum is read with its index."""
+    parts = {"read": "a[i, j]*x[j](t - T)", "fed": "tanh(sum(j, read))"}
+    values = {**ring.parameters, **ring.arrays}
+    same = dk.Model({"x[i]": "-x[i] + c*fed"}, values, size={"i": 12}, definitions=parts)
+    past = {"x": np.arange(12) / 12}
+    found = [one.integrate(past, 3.0, t_eval=[3.0]).y for one in (ring, same)]
+    assert (found[0] == found[1]).all()
+
+
+def test_results_are_over_nodes(ring):
     """States over node and time, events of a node by its number from 0, names in messages."""
     past = {"x": np.arange(12) / 12}
     run = ring.integrate(past, 1.0, events=["x[3] = 0.4", "x = 0.1"])
